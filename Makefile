@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+# The workspace's commands; each makes what it needs. `make help` lists them.
+
+# A Python for which the ROS 2 wheels exist, if there is one.
+PYTHON ?= $(shell for p in python3 python3.12 python3.13 python3.11 python3.10; do \
+    "$$p" -c 'import sys; sys.exit(not (3, 10) <= sys.version_info[:2] <= (3, 13))' 2>/dev/null \
+    && echo "$$p" && exit; done; echo python3)
+# An environment elsewhere: make setup VENV=/other/place
+VENV ?=
+# Any ros2 command: make run ARGS='topic list'
+ARGS ?=
+COLCON_ARGS ?=
+export VENV
+
+SETUP := $(PYTHON) tools/setup
+RUN := tools/foreground tools/in_environment
+
+.DEFAULT_GOAL := help
+.PHONY: help setup build bringup run test check fix bench lock clean distclean
+
+help: ## Show this list
+	@echo 'The humanoid workspace. Each command makes what it needs.'
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1	\2/p' Makefile | expand -t 20
+
+setup: ## Make the environment in .venv (VENV=/other/place keeps it elsewhere)
+	@$(SETUP) setup
+
+build: ## Build src/ with colcon (COLCON_ARGS='--packages-select NAME')
+	@$(SETUP) build $(COLCON_ARGS)
+
+bringup: build ## Start the humanoid (ARGS='use_controller:=false'); Ctrl-C ends it
+	@$(RUN) ros2 launch humanoid_bringup bringup.launch.py $(ARGS)
+
+run: build ## Run a ros2 command: make run ARGS='topic list'
+	@$(RUN) ros2 $(ARGS)
+
+test: build ## Run every test: all packages, then the tools
+	@tools/test/all.sh
+
+check: setup ## Check format, lint and types
+	@tools/in_environment --underlay ruff format --check .
+	@tools/in_environment --underlay ruff check .
+	@tools/in_environment --underlay mypy
+
+fix: setup ## Format the code and mend what ruff can
+	@tools/in_environment --underlay ruff format .
+	@tools/in_environment --underlay ruff check --fix .
+
+bench: build ## Measure the commands' start-up times
+	@$(RUN) python3 tools/benchmarks/command_times.py $(ARGS)
+
+lock: ## Pin the versions of tools/setup/requirements.in anew (needs uv)
+	@tools/setup/lock.sh $(ARGS)
+
+clean: ## Delete what was built from src/
+	@$(SETUP) clean
+
+distclean: ## Delete the environment too
+	@$(SETUP) distclean

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Set the workspace up, or build it: `python3 tools/setup [setup|build|clean|distclean]`.
+
+This file and prerequisites.py parse under any Python 3, so that a wrong version gets a sentence
+instead of a syntax error.
+"""
+
+import sys
+
+import prerequisites
+
+
+def main(argv):
+    """Check the machine, then hand over to the command; return the exit status."""
+    problem = prerequisites.python_problem()
+    if problem:
+        sys.stderr.write(problem + '\n')
+        return 1
+    import commands
+
+    return commands.main(argv)
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds with colcon: the underlay into the environment, and the workspace into install/."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+from console import SetupError, Steps
+from locations import Locations
+from processes import environment_variables, last_words, run_logged
+from stamp import files_below
+
+FIRST = 'ros_environment'
+
+
+def underlay_sources(locations: Locations) -> Iterator[str]:
+    """List the files that the underlay is built from."""
+    return files_below(locations.underlay)
+
+
+def build_underlay(locations: Locations, steps: Steps) -> None:
+    """Build tools/underlay into the environment, which thereby gets its setup.bash.
+
+    ros_environment goes first: once the environment has set-up files, it can be named as the
+    prefix in which the other packages find what they depend on.
+    """
+    variables = environment_variables(locations.environment)
+    _build_underlay(locations, steps, variables, '--packages-select', FIRST)
+    variables['AMENT_PREFIX_PATH'] = str(locations.environment)
+    _build_underlay(locations, steps, variables, '--packages-skip', FIRST)
+
+
+def _build_underlay(
+    locations: Locations, steps: Steps, variables: dict[str, str], *selection: str
+) -> None:
+    log = locations.environment / 'log' / 'underlay.log'
+
+    def show(line: str) -> None:
+        if line.startswith(('Starting >>> ', 'Finished <<< ')):
+            steps.progress(line)
+
+    build = locations.environment / 'build'
+    status = run_logged(
+        [
+            *(locations.environment / 'bin' / 'colcon', '--log-base', build / 'log', 'build'),
+            *('--base-paths', locations.underlay, '--build-base', build),
+            *('--merge-install', '--install-base', locations.environment, *selection),
+        ],
+        cwd=locations.root,
+        variables=variables,
+        log=log,
+        each_line=show,
+    )
+    if status != 0:
+        raise SetupError(
+            f'The underlay could not be built (all that colcon printed is in {log}):\n'
+            f'{last_words(log, "rror", 5)}\nMend that and run the same command again'
+        )
+
+
+def workspace_sources(locations: Locations) -> Iterator[str]:
+    """List the files that install/ is built from."""
+    yield from files_below(locations.root / 'src')
+    yield str(locations.root / 'colcon.meta')
+
+
+def build_workspace(locations: Locations, arguments: list[str]) -> int:
+    """Run `colcon build` as a user would in the sourced environment; return its exit status."""
+    command = [locations.root / 'tools' / 'in_environment', '--underlay', 'colcon', 'build', *arguments]
+    return subprocess.call([os.fspath(part) for part in command], cwd=locations.root)
+
+
+def is_built(root: Path) -> bool:
+    """Tell whether there is anything to source."""
+    return (root / 'install' / 'setup.bash').is_file()

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The commands of the set-up: setup, build, clean, distclean."""
+
+from __future__ import annotations
+
+import argparse
+import fcntl
+import os
+import shutil
+import sys
+import sysconfig
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import colcon
+import prerequisites
+import wheels
+from console import SetupError, Steps
+from locations import Locations, cache_folder, find_locations, link_environment
+from stamp import Stamp, digest
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILT = ('build', 'install', 'log')
+
+
+def main(argv: list[str]) -> int:
+    """Run a command; return the exit status."""
+    options, rest = parse(argv)
+    try:
+        locations = find_locations(ROOT, options.venv)
+        with only_one_at_a_time(ROOT):
+            return run(options.command, locations, rest)
+    except SetupError as error:
+        print(f'\n{error}', file=sys.stderr)
+    except OSError as error:
+        print(f'\n{explain_os_error(error)}', file=sys.stderr)
+    except KeyboardInterrupt:
+        print('\nInterrupted: the same command continues from here.', file=sys.stderr)
+        return 130
+    return 1
+
+
+def parse(argv: list[str]) -> tuple[argparse.Namespace, list[str]]:
+    """Read the command line; what `build` does not know goes to colcon."""
+    parser = argparse.ArgumentParser(prog='tools/setup', description=__doc__)
+    commands = ['setup', 'build', 'clean', 'distclean']
+    parser.add_argument('command', nargs='?', default='setup', choices=commands)
+    parser.add_argument('--venv', default=os.environ.get('VENV'), help='the environment to use')
+    options, rest = parser.parse_known_args(argv)
+    if rest and options.command != 'build':
+        parser.error(f'unrecognized arguments: {" ".join(rest)}')
+    return options, rest
+
+
+def run(command: str, locations: Locations, arguments: list[str]) -> int:
+    """Do what a command says; return the exit status."""
+    if command == 'setup':
+        return set_up(locations)
+    if command == 'build':
+        return set_up(locations, quiet=True) or build(locations, arguments)
+    remove(ROOT / name for name in BUILT)
+    if command == 'distclean':
+        forget_environment(locations)
+    return 0
+
+
+@contextmanager
+def only_one_at_a_time(root: Path) -> Iterator[None]:
+    """Wait until no other set-up or build of this workspace runs."""
+    descriptor = os.open(root / 'tools' / 'setup', os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            print('Another set-up or build of this workspace is running: waiting for it.')
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(descriptor)
+
+
+def set_up(locations: Locations, *, quiet: bool = False) -> int:
+    """Make the environment what this workspace needs; quick where it is that already."""
+    requirements = digest([ROOT / 'requirements.txt', ROOT / 'tools' / 'setup' / 'mend.py'])
+    underlay = digest(colcon.underlay_sources(locations), requirements)
+    kept = locations.environment / 'stamp'
+    wheels_stamp, underlay_stamp = Stamp(kept / 'wheels'), Stamp(kept / 'underlay')
+    where = f'{locations.environment} {python_version()}'
+    home = Stamp(kept / 'home')
+    require_same_home(locations, home, where)
+    if locations.link.exists() and underlay_stamp.matches(underlay):
+        link_environment(locations)
+        if not quiet:
+            print(f'The environment in {locations.link} is complete.')
+        return 0
+    require_machine(locations, has_wheels=wheels_stamp.matches(requirements))
+    steps = Steps(3)
+    steps.begin(f'Python {python_version()} environment in {locations.environment}')
+    locations.environment.mkdir(parents=True, exist_ok=True)
+    home.write(where)
+    link_environment(locations)
+    if not wheels.has_pip(locations):
+        wheels.make_environment(locations, sys.executable)
+    steps.begin('Wheels from PyPI, as requirements.txt pins them')
+    if not wheels_stamp.matches(requirements):
+        wheels_stamp.clear()
+        wheels.install_wheels(locations, steps, sysconfig.get_path('include'))
+        wheels_stamp.write(requirements)
+    steps.begin('Underlay: launch, ros2 and what else PyPI lacks (half a minute)')
+    underlay_stamp.clear()
+    colcon.build_underlay(locations, steps)
+    underlay_stamp.write(underlay)
+    steps.end()
+    print('The environment is complete.' + ('' if quiet else ' Next: make bringup'))
+    return 0
+
+
+def python_version() -> str:
+    """Return the running Python's minor version, as in 3.12."""
+    return f'{sys.version_info[0]}.{sys.version_info[1]}'
+
+
+def require_same_home(locations: Locations, home: Stamp, where: str) -> None:
+    """Refuse an environment that was moved or that another Python made."""
+    if (locations.environment / 'stamp' / 'home').exists() and not home.matches(where):
+        raise SetupError(
+            f'The environment in {locations.environment} was made in another place or by another '
+            f'Python than {python_version()}, and its programs name those: run '
+            '`make distclean setup` to make it anew'
+        )
+
+
+def require_machine(locations: Locations, *, has_wheels: bool) -> None:
+    """Refuse a machine that lacks something, before anything is downloaded."""
+    root, environment = os.fspath(locations.root), os.fspath(locations.environment)
+    missing = prerequisites.problems(root, environment, has_wheels=has_wheels)
+    if missing:
+        raise SetupError('\n'.join(missing))
+
+
+def build(locations: Locations, arguments: list[str]) -> int:
+    """Build src/ into install/ where it differs from what was built; return the exit status."""
+    current = digest(colcon.workspace_sources(locations), *arguments)
+    stamp = Stamp(ROOT / 'install' / '.built')
+    if stamp.matches(current) and colcon.is_built(ROOT):
+        return 0
+    stamp.clear()
+    status = colcon.build_workspace(locations, arguments)
+    if status == 0:
+        stamp.write(current)
+    return status
+
+
+def remove(paths: Iterator[Path]) -> None:
+    """Delete folders that exist."""
+    for path in paths:
+        if path.is_dir():
+            shutil.rmtree(path)
+
+
+def forget_environment(locations: Locations) -> None:
+    """Delete the environment that the set-up placed; of one that the user named, only the link."""
+    if not locations.is_elsewhere or locations.environment.parent == cache_folder():
+        remove(iter([locations.environment]))
+    else:
+        print(f'The environment in {locations.environment} was named by you and stays.')
+    if locations.link.is_symlink():
+        locations.link.unlink()
+
+
+def explain_os_error(error: OSError) -> str:
+    """Say what the machine refused."""
+    name = f' ({error.filename})' if error.filename else ''
+    return (
+        f'The machine refused: {error.strerror}{name}. Mend that and run the same command again: '
+        'it continues from here'
+    )

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the workspace's parts lie: the environment is always reached as .venv, wherever it is."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+from console import SetupError
+
+LONGEST_SHEBANG = 127
+OWN_MARK = 'humanoid-workspace'
+
+
+@dataclass(frozen=True)
+class Locations:
+    """The folders of a workspace.
+
+    root: the workspace; link: its .venv; environment: the real folder behind .venv, whose path
+    has no space, because the first line of a script and colcon's set-up files cannot hold one.
+    """
+
+    root: Path
+    link: Path
+    environment: Path
+
+    @property
+    def python(self) -> Path:
+        """The environment's interpreter."""
+        return self.environment / 'bin' / 'python3'
+
+    @property
+    def underlay(self) -> Path:
+        """The sources of the underlay."""
+        return self.root / 'tools' / 'underlay'
+
+    @property
+    def is_elsewhere(self) -> bool:
+        """Tell whether .venv is a link to the environment."""
+        return self.environment != self.link
+
+
+def find_locations(root: Path, wanted: str | None) -> Locations:
+    """Decide where the environment lies: as wanted, as it is now, in .venv, or in the cache."""
+    link = root / '.venv'
+    if wanted:
+        environment = Path(os.path.realpath(Path(wanted).expanduser()))
+        if link.is_dir() and not link.is_symlink() and environment != link:
+            raise SetupError(
+                f'{link} already holds an environment, so VENV={wanted} cannot take its place: '
+                'run `make distclean` first'
+            )
+    elif link.is_symlink():
+        environment = Path(os.readlink(link))
+    elif fits_in_shebang(link):
+        environment = link
+    else:
+        environment = cache_folder() / hashlib.sha256(os.fsencode(root)).hexdigest()[:12]
+    if not fits_in_shebang(environment):
+        raise SetupError(
+            f'The environment cannot lie in {environment}: the path has a space or is too long for '
+            'the first line of a script. Keep it elsewhere, as in: make setup VENV=/opt/venv'
+        )
+    return Locations(root, link, environment)
+
+
+def fits_in_shebang(environment: Path) -> bool:
+    """Tell whether scripts can name the environment's interpreter in their first line."""
+    line = f'#!{environment}/bin/python3'
+    return len(os.fsencode(line)) <= LONGEST_SHEBANG and not any(c.isspace() for c in line)
+
+
+def cache_folder() -> Path:
+    """Return the folder for environments that cannot lie in their workspace."""
+    base = os.environ.get('XDG_CACHE_HOME') or Path.home() / '.cache'
+    return Path(base) / OWN_MARK
+
+
+def link_environment(locations: Locations) -> None:
+    """Make .venv lead to an environment that lies elsewhere."""
+    if not locations.is_elsewhere:
+        return
+    if locations.link.is_symlink():
+        locations.link.unlink()
+    locations.link.symlink_to(locations.environment)

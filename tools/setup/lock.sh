@@ -1,0 +1,18 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# Pins every version, for Python 3.10 to 3.13 on x86_64 Linux. Needs uv (pip install uv).
+set -eu
+cd "$(dirname "$0")/../.."
+platform="sys_platform == 'linux' and platform_machine == 'x86_64' and implementation_name == 'cpython'"
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+printf '[tool.uv]\nenvironments = ["%s and python_version < '"'3.14'"'"]\n' "$platform" > "$folder/pyproject.toml"
+cp tools/setup/requirements.in "$folder"
+(cd "$folder" && uv pip compile --quiet --universal --no-annotate --no-header --python-version 3.10 \
+  requirements.in -o requirements.txt "$@")
+{
+  echo '# Made by `make lock` from tools/setup/requirements.in, which says what each is for.'
+  sed -e "s/ and implementation_name == 'cpython'//; s/ and platform_machine == 'x86_64'//" \
+    -e "s/ and sys_platform == 'linux'//; s/ and platform_python_implementation != 'PyPy'//" \
+    -e "s/ and python_full_version < '3.14'//; s/ ; python_full_version < '3.14'\$//" "$folder/requirements.txt"
+} > requirements.txt

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a machine must have before anything is downloaded, each with the command that mends it.
+
+Every check returns a sentence, or None where all is well.
+"""
+
+import os
+import platform
+import shutil
+import sys
+import sysconfig
+
+OLDEST_PYTHON = (3, 10)
+NEWEST_PYTHON = (3, 13)
+OLDEST_GLIBC = (2, 28)
+NEEDED_FOR_WHEELS = 1500 * 1000 * 1000
+NEEDED_FOR_BUILD = 100 * 1000 * 1000
+COMPILERS = ('c++', 'g++', 'clang++')
+UNUSABLE_CHARACTERS = ':;"\'`$\\\n'
+
+
+def python_problem(version=None, implementation=None):
+    """Name a Python for which the wheels do not exist."""
+    version = tuple(version or sys.version_info[:2])
+    implementation = implementation or platform.python_implementation()
+    if implementation == 'CPython' and OLDEST_PYTHON <= version <= NEWEST_PYTHON:
+        return None
+    return (
+        'This is {} {}.{}, but the ROS 2 wheels exist for CPython 3.10 to 3.13 only: install one of'
+        ' these (Debian, Ubuntu: sudo apt install python3 python3-venv python3-dev) and name it, '
+        'as in: make setup PYTHON=python3.12'
+    ).format(implementation, *version)
+
+
+def platform_problem(system=None, machine=None, libc=None):
+    """Name a machine for which the wheels do not exist."""
+    system, machine = system or sys.platform, machine or platform.machine()
+    if system != 'linux' or machine != 'x86_64':
+        return (
+            'This machine is {} on {}, but the ROS 2 wheels exist for Linux on x86_64 only: use such '
+            'a machine, or a virtual machine or container of that kind'
+        ).format(system, machine)
+    name, version = libc or platform.libc_ver()
+    if name == 'glibc' and tuple(int(part) for part in version.split('.')[:2]) >= OLDEST_GLIBC:
+        return None
+    return (
+        'The C library here is {} {}, but the ROS 2 wheels need glibc 2.28 or newer: use Debian 10, '
+        'Ubuntu 20.04, Fedora 29 or a newer release of these'
+    ).format(name or 'not glibc', version).replace('  ', ' ')
+
+
+def venv_problem():
+    """Name a Python that cannot make virtual environments."""
+    try:
+        import ensurepip  # noqa: F401
+        import venv  # noqa: F401
+    except ImportError:
+        package = 'python{}.{}-venv'.format(*sys.version_info[:2])
+        return 'Python has no venv module here: sudo apt install ' + package
+    return None
+
+
+def compiler_problem(path=None):
+    """Name a missing C++ compiler."""
+    if any(shutil.which(name, path=path) for name in COMPILERS):
+        return None
+    return 'There is no C++ compiler here: sudo apt install g++'
+
+
+def headers_problem(include=None):
+    """Name missing C headers of Python, which message packages compile against."""
+    include = include or sysconfig.get_path('include')
+    if os.path.isfile(os.path.join(include, 'Python.h')):
+        return None
+    package = 'python{}.{}-dev'.format(*sys.version_info[:2])
+    return 'The C headers of Python are missing ({}/Python.h): sudo apt install {}'.format(
+        include, package
+    )
+
+
+def path_problem(path):
+    """Name a character in a path that the search-path variables and the build tools cannot hold."""
+    found = sorted(set(path) & set(UNUSABLE_CHARACTERS))
+    if not found:
+        return None
+    return (
+        'The path {!r} has the character {!r}, which search paths and build tools cannot hold: move '
+        'or rename the folder'
+    ).format(path, found[0])
+
+
+def space_problem(folder, needed):
+    """Name a disk without room for the environment."""
+    while not os.path.isdir(folder):
+        folder = os.path.dirname(folder)
+    free = shutil.disk_usage(folder).free
+    if free >= needed:
+        return None
+    return (
+        'There are {} MB free in {}, but the environment and the build need {} MB: free some, or '
+        'keep the environment on another disk, as in: make setup VENV=/other/disk/venv'
+    ).format(free // 10**6, folder, needed // 10**6)
+
+
+def problems(root, environment, has_wheels):
+    """Return the sentences of all that is missing for this workspace and its environment."""
+    checks = [
+        platform_problem(),
+        venv_problem(),
+        compiler_problem(),
+        headers_problem(),
+        path_problem(root),
+        path_problem(environment),
+        space_problem(environment, NEEDED_FOR_BUILD if has_wheels else NEEDED_FOR_WHEELS),
+    ]
+    return [problem for problem in checks if problem]

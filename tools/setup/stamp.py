@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether a result is still that of its sources: a digest of them, kept beside the result."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+IGNORED = {'__pycache__', '.pytest_cache', '.mypy_cache', '.ruff_cache', 'test'}
+
+
+def files_below(folder: Path) -> Iterator[str]:
+    """List the files below a folder, sorted, without caches and tests."""
+    for base, folders, files in os.walk(folder):
+        folders[:] = sorted(name for name in folders if name not in IGNORED)
+        yield from (os.path.join(base, name) for name in sorted(files))
+
+
+def digest(paths: Iterable[str | Path], *more: str) -> str:
+    """Return a digest of the contents and names of files, and of some texts."""
+    total = hashlib.sha256('\0'.join(more).encode())
+    for path in paths:
+        total.update(os.fsencode(path) + b'\0')
+        total.update(hashlib.sha256(Path(path).read_bytes()).digest())
+    return total.hexdigest()
+
+
+class Stamp:
+    """The digest of the sources that a result was made from; absent while it is being made."""
+
+    def __init__(self, path: Path) -> None:
+        """Keep the digest in this file."""
+        self._path = path
+
+    def matches(self, current: str) -> bool:
+        """Tell whether the result was made, to its end, from these sources."""
+        try:
+            return self._path.read_text() == current
+        except OSError:
+            return False
+
+    def clear(self) -> None:
+        """Say that the result is being made: an interruption leaves no stamp."""
+        self._path.unlink(missing_ok=True)
+
+    def write(self, current: str) -> None:
+        """Say that the result is complete."""
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        self._path.write_text(current)

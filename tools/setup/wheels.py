@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The wheels of requirements.txt in the environment: installed, complete, and mended."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from console import SetupError, Steps
+from locations import Locations
+from mend import mend_wheels
+from processes import environment_variables, last_words, run_logged, run_or_fail
+
+MENDED = ('.cmake', '.pth')
+PIP = ('-m', 'pip', '--disable-pip-version-check', '--no-input')
+
+
+def make_environment(locations: Locations, interpreter: str) -> None:
+    """Make the virtual environment, or complete one whose making was interrupted."""
+    run_or_fail(
+        [interpreter, '-m', 'venv', locations.environment],
+        cwd=locations.root,
+        failure=f'The virtual environment {locations.environment} cannot be made',
+    )
+
+
+def has_pip(locations: Locations) -> bool:
+    """Tell whether the environment exists to its end."""
+    folders = locations.environment.glob('lib/python3.*/site-packages/pip-*.dist-info/RECORD')
+    return locations.python.exists() and any(folders)
+
+
+def site_packages(locations: Locations) -> Path:
+    """Return the environment's folder of Python packages."""
+    return next(iter(sorted(locations.environment.glob('lib/python3.*/site-packages'))))
+
+
+def pinned_names(requirements: str) -> list[str]:
+    """Return the names of the pinned distributions of a requirements file."""
+    return re.findall(r'^([A-Za-z0-9._-]+)==', requirements, flags=re.MULTILINE)
+
+
+def install_wheels(locations: Locations, steps: Steps, include: str) -> None:
+    """Install what requirements.txt pins, repair what an interruption left half, and mend it."""
+    requirements = locations.root / 'requirements.txt'
+    count = len(pinned_names(requirements.read_text(encoding='utf-8')))
+    _pip(locations, steps, count, '--no-deps', '--requirement', str(requirements))
+    packages = site_packages(locations)
+    broken = sorted(incomplete_distributions(packages))
+    if broken:
+        steps.note(f'repairing {len(broken)} wheels that an interruption left incomplete')
+        arguments = ['--no-deps', '--ignore-installed', *broken]
+        _pip(locations, steps, len(broken), *arguments)
+    mend_wheels(locations.environment, include, packages)
+
+
+def _pip(locations: Locations, steps: Steps, count: int, *arguments: str) -> None:
+    log = locations.environment / 'log' / 'pip.log'
+    seen = 0
+
+    def show(line: str) -> None:
+        nonlocal seen
+        if line.startswith(('Collecting ', 'Requirement already satisfied: ')):
+            seen += 1
+            name = re.split(r'[=<>~!\[; (]', line.split(': ')[-1].replace('Collecting ', ''))[0]
+            steps.progress(f'{min(seen, count)} of {count}: {name}')
+        elif line.startswith('Installing collected packages'):
+            steps.progress(f'{count} of {count} fetched; unpacking them')
+
+    status = run_logged(
+        [locations.python, *PIP, 'install', '--progress-bar', 'off', *arguments],
+        cwd=locations.root,
+        variables=environment_variables(locations.environment),
+        log=log,
+        each_line=show,
+    )
+    if status != 0:
+        raise SetupError(
+            f'pip could not install the wheels (its whole output is in {log}):\n'
+            f'{last_words(log, "ERROR")}\n'
+            'Mend that (network, proxy, disk) and run the same command again: it continues there, '
+            'and what was fetched stays in the cache of pip'
+        )
+
+
+def incomplete_distributions(packages: Path) -> Iterator[str]:
+    """Yield `name==version` of each distribution that lacks files of its own list."""
+    for info in packages.glob('*.dist-info'):
+        name, _, version = info.name[: -len('.dist-info')].rpartition('-')
+        if name != 'pip' and not _is_complete(packages, info):
+            yield f'{name}=={version}'
+
+
+def _is_complete(packages: Path, info: Path) -> bool:
+    record = info / 'RECORD'
+    if not record.is_file():
+        return False
+    with record.open(newline='', encoding='utf-8') as lines:
+        return all(_is_whole(packages / row[0], row[2]) for row in csv.reader(lines) if row)
+
+
+def _is_whole(path: Path, recorded_size: str) -> bool:
+    if path.suffix == '.pyc':  # Python writes these anew
+        return True
+    try:
+        size = path.stat().st_size
+    except OSError:
+        return False
+    return not recorded_size or path.name.endswith(MENDED) or size == int(recorded_size)

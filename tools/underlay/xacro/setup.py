@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Install the marker of the package and its executable; the module comes from PyPI."""
+
+from setuptools import setup
+
+package_name = 'xacro'
+
+setup(
+    # Not the name of the wheel, whose metadata lie in the same folder.
+    name='xacro-ros-package',
+    version='2.1.1',
+    packages=[],
+    scripts=['scripts/xacro'],
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
+        ('share/' + package_name, ['package.xml']),
+    ],
+    install_requires=['setuptools', 'xacro'],
+    zip_safe=True,
+    maintainer='Humanoid workspace maintainers',
+    maintainer_email='maintainers@humanoid-workspace.dev',
+    description='Makes the xacro package of PyPI a ROS package',
+    license='Apache-2.0',
+    extras_require={'test': ['pytest']},
+)
