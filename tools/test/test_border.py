@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of the border: src/ is an ordinary ROS 2 Jazzy workspace, and tools/ its underlay."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+import re
+from xml.etree import ElementTree
+
+import pytest
+
+FOREIGN = re.compile(r'\.venv|\btools/|\bunderlay\b|\bwheels?\b|\bPyPI\b|\bpip install\b')
+TEXTS = {'.py', '.xml', '.cfg', '.md', '.yaml', '.xacro', '.urdf', '.rviz', '.txt'}
+# Packages of ROS 2 Jazzy that launch files and nodes of src/ may import.
+JAZZY = {
+    'ament_flake8', 'ament_index_python', 'ament_pep257', 'builtin_interfaces', 'domain_coordinator',
+    'geometry_msgs', 'launch', 'launch_ros', 'nav_msgs', 'rcl_interfaces', 'rclpy', 'sensor_msgs',
+    'std_msgs', 'std_srvs', 'tf2_msgs', 'xacro',
+}  # fmt: skip
+LIBRARIES = {'numpy', 'pytest', 'setuptools', 'yaml'}
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def sources() -> Iterator[Path]:
+    """Yield the text files of src/."""
+    for path in sorted((ROOT / 'src').rglob('*')):
+        if path.suffix in TEXTS and '__pycache__' not in path.parts:
+            yield path
+
+
+def packages() -> list[Path]:
+    """Return the packages of src/."""
+    return sorted(path.parent for path in (ROOT / 'src').glob('*/package.xml'))
+
+
+def test_src_does_not_know_how_ros_was_installed() -> None:
+    """No file of src/ names the other layer."""
+    found = [
+        f'{path.relative_to(ROOT)}: {match.group()}'
+        for path in sources()
+        if (match := FOREIGN.search(path.read_text()))
+    ]
+    assert found == []
+
+
+def test_src_imports_only_what_jazzy_has() -> None:
+    """Every import is the standard library, Jazzy, a known library or a package of src/."""
+    import sys
+
+    allowed = JAZZY | LIBRARIES | {path.name for path in packages()} | sys.stdlib_module_names
+    found = [
+        f'{path.relative_to(ROOT)}: {name}'
+        for path in sources()
+        if path.suffix == '.py'
+        for name in imported(path)
+        if name not in allowed
+    ]
+    assert found == []
+
+
+def imported(path: Path) -> Iterator[str]:
+    """Yield the top-level names that a module imports, by absolute name."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name.split('.')[0] for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            yield node.module.split('.')[0]
+
+
+def test_tools_do_not_import_src() -> None:
+    """The underlay knows nothing of the robot."""
+    names = {path.name for path in packages()}
+    found = [
+        f'{path.relative_to(ROOT)}: {name}'
+        for path in sorted((ROOT / 'tools').rglob('*.py'))
+        for name in imported(path)
+        if name in names
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize('package', packages(), ids=lambda path: path.name)
+def test_each_package_keeps_the_rules(package: Path) -> None:
+    """Manifest of format 3, licence, marker and README are there, and imports are declared."""
+    manifest = ElementTree.parse(package / 'package.xml').getroot()
+    assert manifest.get('format') == '3'
+    assert manifest.findtext('name') == package.name
+    assert manifest.findtext('license') == 'Apache-2.0'
+    assert (package / 'resource' / package.name).is_file()
+    assert (package / 'README.md').is_file()
+    declared = {element.text for element in manifest if element.tag.endswith('depend')}
+    used = {name for path in package.rglob('*.py') for name in imported(path)}
+    own = {path.name for path in packages()} | JAZZY
+    assert (used & own) - {package.name} - declared == set()

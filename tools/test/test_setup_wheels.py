@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of the wheels' completeness and of what is mended in them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mend import link_libraries, mend_wheels
+import pytest
+from wheels import incomplete_distributions, pinned_names
+
+
+@pytest.fixture
+def packages(tmp_path: Path) -> Path:
+    """Return a folder of packages with one distribution."""
+    folder = tmp_path / 'lib' / 'python3.12' / 'site-packages'
+    info = folder / 'demo-1.2.dist-info'
+    info.mkdir(parents=True)
+    (folder / 'demo.py').write_text('12345')
+    (info / 'RECORD').write_text('demo.py,sha256=x,5\ndemo-1.2.dist-info/RECORD,,\n')
+    return folder
+
+
+def test_a_whole_distribution_is_left_alone(packages: Path) -> None:
+    """All files of the list are there."""
+    assert list(incomplete_distributions(packages)) == []
+
+
+def test_what_an_interruption_leaves_is_found(packages: Path) -> None:
+    """A missing file, a cut one and a missing list each make a distribution incomplete."""
+    (packages / 'demo.py').write_text('123')
+    assert list(incomplete_distributions(packages)) == ['demo==1.2']
+    (packages / 'demo.py').unlink()
+    assert list(incomplete_distributions(packages)) == ['demo==1.2']
+    (packages / 'demo.py').write_text('12345')
+    (packages / 'demo-1.2.dist-info' / 'RECORD').unlink()
+    assert list(incomplete_distributions(packages)) == ['demo==1.2']
+
+
+def test_every_requirement_is_pinned(root: Path) -> None:
+    """No line of requirements.txt leaves a version open."""
+    text = (root / 'requirements.txt').read_text()
+    lines = [line for line in text.splitlines() if line and not line.startswith('#')]
+    assert len(pinned_names(text)) == len(lines) > 100
+
+
+def test_cmake_files_name_the_python_at_hand(tmp_path: Path, packages: Path) -> None:
+    """The build machine's Python is replaced, and a second mending changes nothing."""
+    exported = tmp_path / 'share' / 'std_msgs' / 'cmake' / 'export.cmake'
+    adapter = tmp_path / 'share/rosidl_adapter/cmake/rosidl_adapt_interfaces.cmake'
+    for path, text in (
+        (exported, '"/opt/python/cp312-cp312/include/python3.12;/opt/python/x/numpy/_core/include"'),
+        (adapter, 'file(STRINGS "${idl_output}" idl_tuples)'),
+    ):
+        path.parent.mkdir(parents=True)
+        path.write_text(text)
+    hook = packages / 'ros_wheels_bootstrapper.pth'
+    hook.write_text('import ros_wheels_bootstrapper')
+    for _ in range(2):
+        mend_wheels(tmp_path, '/usr/include/python3.12', packages)
+        assert exported.read_text() == (
+            f'"/usr/include/python3.12;{packages}/numpy/_core/include"'
+        )
+        assert 'ENCODING UTF-8' in adapter.read_text()
+        assert '_ROS_WHEELS_BOOTSTRAP_COMPLETE' in hook.read_text()
+
+
+def test_bundled_libraries_are_linked(tmp_path: Path, packages: Path) -> None:
+    """One folder holds all libraries; a link that leads nowhere is replaced."""
+    bundled = packages / 'ros_demo.libs' / 'libdemo.so.1'
+    bundled.parent.mkdir()
+    bundled.write_text('library')
+    (tmp_path / 'lib' / 'libdemo.so.1').symlink_to('nowhere')
+    link_libraries(tmp_path / 'lib', packages)
+    assert (tmp_path / 'lib' / 'libdemo.so.1').read_text() == 'library'
