@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measure what the commands cost: CPU and wall time of the whole process, median of several runs.
 
-`make bench ARGS='--runs 10'`. The first row is a Python that does nothing, on this machine and now:
-compare the others with it, for machines differ and are busy.
+`make bench ARGS='--runs 10'`. The first row is a Python that does nothing, on this machine and
+now: compare the others with it, for machines differ and are busy.
 """
 
 from __future__ import annotations

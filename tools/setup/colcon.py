@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
 from collections.abc import Iterator
+import os
 from pathlib import Path
+import subprocess
 
 from console import SetupError, Steps
 from locations import Locations
@@ -69,7 +69,13 @@ def workspace_sources(locations: Locations) -> Iterator[str]:
 
 def build_workspace(locations: Locations, arguments: list[str]) -> int:
     """Run `colcon build` as a user would in the sourced environment; return its exit status."""
-    command = [locations.root / 'tools' / 'in_environment', '--underlay', 'colcon', 'build', *arguments]
+    command = [
+        locations.root / 'tools' / 'in_environment',
+        '--underlay',
+        'colcon',
+        'build',
+        *arguments,
+    ]
     return subprocess.call([os.fspath(part) for part in command], cwd=locations.root)
 
 

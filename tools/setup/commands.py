@@ -4,21 +4,21 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
 import fcntl
 import os
+from pathlib import Path
 import shutil
 import sys
 import sysconfig
-from collections.abc import Iterator
-from contextlib import contextmanager
-from pathlib import Path
 
 import colcon
-import prerequisites
-import wheels
 from console import SetupError, Steps
-from locations import Locations, cache_folder, find_locations, link_environment
-from stamp import Stamp, digest
+from locations import cache_folder, find_locations, link_environment, Locations
+import prerequisites
+from stamp import digest, Stamp
+import wheels
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILT = ('build', 'install', 'log')
@@ -86,7 +86,7 @@ def set_up(locations: Locations, *, quiet: bool = False) -> int:
     underlay = digest(colcon.underlay_sources(locations), requirements)
     kept = locations.environment / 'stamp'
     wheels_stamp, underlay_stamp = Stamp(kept / 'wheels'), Stamp(kept / 'underlay')
-    where = f'{locations.environment} {python_version()}'
+    where = f'{locations.root}\n{locations.environment}\n{python_version()}'
     home = Stamp(kept / 'home')
     require_same_home(locations, home, where)
     if locations.link.exists() and underlay_stamp.matches(underlay):
@@ -125,8 +125,8 @@ def require_same_home(locations: Locations, home: Stamp, where: str) -> None:
     """Refuse an environment that was moved or that another Python made."""
     if (locations.environment / 'stamp' / 'home').exists() and not home.matches(where):
         raise SetupError(
-            f'The environment in {locations.environment} was made in another place or by another '
-            f'Python than {python_version()}, and its programs name those: run '
+            f'The environment in {locations.environment} was made for a workspace in another '
+            f'place or by another Python than {python_version()}, and its programs name those: run '
             '`make distclean setup` to make it anew'
         )
 

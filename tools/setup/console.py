@@ -12,7 +12,7 @@ class SetupError(Exception):
 
 
 class Steps:
-    """Numbered steps with progress: one line that is rewritten on a terminal, else a line at times."""
+    """Numbered steps with progress: a line that is rewritten on a terminal, else one at times."""
 
     QUIET_PERIOD_S = 5.0
 

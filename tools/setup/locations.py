@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 import hashlib
 import os
-from dataclasses import dataclass
 from pathlib import Path
 
 from console import SetupError
@@ -60,8 +60,8 @@ def find_locations(root: Path, wanted: str | None) -> Locations:
         environment = cache_folder() / hashlib.sha256(os.fsencode(root)).hexdigest()[:12]
     if not fits_in_shebang(environment):
         raise SetupError(
-            f'The environment cannot lie in {environment}: the path has a space or is too long for '
-            'the first line of a script. Keep it elsewhere, as in: make setup VENV=/opt/venv'
+            f'The environment cannot lie in {environment}: the path has a space or is too long '
+            'for the first line of a script. Keep it elsewhere, as in: make setup VENV=/opt/venv'
         )
     return Locations(root, link, environment)
 

@@ -2,18 +2,18 @@
 """Mends what the wheels of PyPI leave open, in the environment's own copies.
 
 - Their CMake files name the Python of the machine that built them.
-- rosidl_adapter reads the names of its own output as ASCII, so that a path with other letters fails.
-- The libraries that they bring along lie in a dozen folders: links in lib/ make one search path do.
+- rosidl_adapter reads the names of its own output as ASCII: a path with other letters fails.
+- The libraries that they bring along lie in a dozen folders: links in lib/ make one of them do.
 - Their start-up hook loads half of pathlib into every Python, and starts the small Python that
   reads colcon's set-up files a second time in an environment that the shell does not have.
 """
 
 from __future__ import annotations
 
-import os
-import re
 from collections.abc import Callable
+import os
 from pathlib import Path
+import re
 
 BUILD_PYTHON = re.compile(r'/opt/python/cp\d+-cp\d+/include/python3\.\d+')
 BUILD_NUMPY = re.compile(r'/opt/python/[^;"]*/numpy/_core/include')

@@ -26,8 +26,8 @@ def python_problem(version=None, implementation=None):
     if implementation == 'CPython' and OLDEST_PYTHON <= version <= NEWEST_PYTHON:
         return None
     return (
-        'This is {} {}.{}, but the ROS 2 wheels exist for CPython 3.10 to 3.13 only: install one of'
-        ' these (Debian, Ubuntu: sudo apt install python3 python3-venv python3-dev) and name it, '
+        'This is {} {}.{}, but the ROS 2 wheels exist for CPython 3.10 to 3.13 only: install one '
+        'of these (Debian, Ubuntu: sudo apt install python3 python3-venv python3-dev) and name it, '
         'as in: make setup PYTHON=python3.12'
     ).format(implementation, *version)
 
@@ -37,23 +37,24 @@ def platform_problem(system=None, machine=None, libc=None):
     system, machine = system or sys.platform, machine or platform.machine()
     if system != 'linux' or machine != 'x86_64':
         return (
-            'This machine is {} on {}, but the ROS 2 wheels exist for Linux on x86_64 only: use such '
-            'a machine, or a virtual machine or container of that kind'
+            'This machine is {} on {}, but the ROS 2 wheels exist for Linux on x86_64 only: use '
+            'such a machine, or a virtual machine or container of that kind'
         ).format(system, machine)
     name, version = libc or platform.libc_ver()
     if name == 'glibc' and tuple(int(part) for part in version.split('.')[:2]) >= OLDEST_GLIBC:
         return None
+    found = '{} {}'.format(name or 'not glibc', version).strip()
     return (
-        'The C library here is {} {}, but the ROS 2 wheels need glibc 2.28 or newer: use Debian 10, '
+        'The C library here is {}, but the ROS 2 wheels need glibc 2.28 or newer: use Debian 10, '
         'Ubuntu 20.04, Fedora 29 or a newer release of these'
-    ).format(name or 'not glibc', version).replace('  ', ' ')
+    ).format(found)
 
 
 def venv_problem():
     """Name a Python that cannot make virtual environments."""
     try:
-        import ensurepip  # noqa: F401
-        import venv  # noqa: F401
+        import ensurepip
+        import venv
     except ImportError:
         package = 'python{}.{}-venv'.format(*sys.version_info[:2])
         return 'Python has no venv module here: sudo apt install ' + package
@@ -79,13 +80,13 @@ def headers_problem(include=None):
 
 
 def path_problem(path):
-    """Name a character in a path that the search-path variables and the build tools cannot hold."""
+    """Name a character in a path that search paths and build tools cannot hold."""
     found = sorted(set(path) & set(UNUSABLE_CHARACTERS))
     if not found:
         return None
     return (
-        'The path {!r} has the character {!r}, which search paths and build tools cannot hold: move '
-        'or rename the folder'
+        'The path {!r} has the character {!r}, which search paths and build tools cannot hold: '
+        'move or rename the folder'
     ).format(path, found[0])
 
 

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
 from collections.abc import Callable, Sequence
+import os
 from pathlib import Path
+import subprocess
 
 from console import SetupError
 
@@ -50,16 +50,19 @@ def run_logged(
     Returns the exit status. An exception, as of Ctrl-C, ends the program too.
     """
     log.parent.mkdir(parents=True, exist_ok=True)
-    with log.open('w', encoding='utf-8') as record, subprocess.Popen(
-        [str(part) for part in command],
-        cwd=cwd,
-        env=variables,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        encoding='utf-8',
-        errors='replace',
-    ) as process:
+    with (
+        log.open('w', encoding='utf-8') as record,
+        subprocess.Popen(
+            [str(part) for part in command],
+            cwd=cwd,
+            env=variables,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            encoding='utf-8',
+            errors='replace',
+        ) as process,
+    ):
         try:
             assert process.stdout is not None
             for line in process.stdout:
@@ -80,7 +83,11 @@ def last_words(log: Path, mark: str, count: int = 3) -> str:
 def run_or_fail(command: Sequence[str | Path], *, cwd: Path, failure: str) -> None:
     """Run a program that says nothing when all is well."""
     done = subprocess.run(
-        [str(part) for part in command], cwd=cwd, capture_output=True, encoding='utf-8', check=False
+        [str(part) for part in command],
+        cwd=cwd,
+        capture_output=True,
+        encoding='utf-8',
+        check=False,
     )
     if done.returncode != 0:
         raise SetupError(f'{failure}:\n{(done.stderr or done.stdout).strip()}')

@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 import hashlib
 import os
-from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 IGNORED = {'__pycache__', '.pytest_cache', '.mypy_cache', '.ruff_cache', 'test'}

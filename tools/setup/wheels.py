@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import csv
-import re
 from collections.abc import Iterator
+import csv
 from pathlib import Path
+import re
 
 from console import SetupError, Steps
 from locations import Locations

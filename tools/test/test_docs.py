@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the commands and files of the documentation, page by page, as a reader would.
 
-A page's blocks run in order, in one bash with an empty home folder. `bash` blocks run to their end;
-`bash terminal` blocks run in a terminal of their own, which has the same variables and folder, until
-`bash stop`; a block with `file=PATH` is written there. The lines of a `text` block have to appear in
-what the block before it prints.
+A page's blocks run in order, in one bash with an empty home folder. `bash` blocks run to their
+end; `bash terminal` blocks run in a terminal of their own, with the same variables and folder,
+until `bash stop`; a block with `file=PATH` is written there. The lines of a `text` block have to
+appear in what the block before it prints.
 """
 
 from __future__ import annotations

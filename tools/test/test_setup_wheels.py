@@ -49,7 +49,10 @@ def test_cmake_files_name_the_python_at_hand(tmp_path: Path, packages: Path) -> 
     exported = tmp_path / 'share' / 'std_msgs' / 'cmake' / 'export.cmake'
     adapter = tmp_path / 'share/rosidl_adapter/cmake/rosidl_adapt_interfaces.cmake'
     for path, text in (
-        (exported, '"/opt/python/cp312-cp312/include/python3.12;/opt/python/x/numpy/_core/include"'),
+        (
+            exported,
+            '"/opt/python/cp312-cp312/include/python3.12;/opt/python/x/numpy/_core/include"',
+        ),
         (adapter, 'file(STRINGS "${idl_output}" idl_tuples)'),
     ):
         path.parent.mkdir(parents=True)

@@ -3,16 +3,15 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
+import re
 
 COMMENT = re.compile(r'^\s*(#|//|/\*|\*|"""|\'\'\'|$)')
 HOLDER = re.compile(
     r'(?:copyright\s*(?:\(c\)|©)?\s*[:,]?\s*\d{4}|SPDX-FileCopyrightText:)', re.IGNORECASE
 )
 LICENCE = re.compile(
-    r'SPDX-License-Identifier:|licen[sc]ed under|permission is hereby granted|redistribution and use'
-    r'|licen[sc]e',
+    r'SPDX-License-Identifier:|permission is hereby granted|redistribution and use|licen[sc]e',
     re.IGNORECASE,
 )
 

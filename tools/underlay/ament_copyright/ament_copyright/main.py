@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 import argparse
-import os
-import sys
 from collections.abc import Iterator, Sequence
+import os
 from pathlib import Path
+import sys
 
 from ament_copyright.header import read_header
 

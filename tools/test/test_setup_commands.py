@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of the set-up's commands, as far as they need no download."""
+
+from __future__ import annotations
+
+from pathlib import Path
+import subprocess
+import sys
+
+import commands
+from console import SetupError
+from locations import Locations
+import pytest
+from stamp import Stamp
+
+
+@pytest.fixture
+def locations(tmp_path: Path) -> Locations:
+    """Return the locations of an empty workspace."""
+    return Locations(tmp_path, tmp_path / '.venv', tmp_path / '.venv')
+
+
+def test_an_environment_of_another_place_is_refused(locations: Locations) -> None:
+    """A moved workspace gets the command that makes its environment anew."""
+    home = Stamp(locations.environment / 'stamp' / 'home')
+    commands.require_same_home(locations, home, 'here')
+    home.write('here')
+    commands.require_same_home(locations, home, 'here')
+    with pytest.raises(SetupError, match='make distclean setup'):
+        commands.require_same_home(locations, home, 'there')
+
+
+def test_only_the_own_environment_is_deleted(tmp_path: Path, locations: Locations) -> None:
+    """Distclean leaves an environment that the user named, and its link goes."""
+    locations.environment.mkdir()
+    commands.forget_environment(locations)
+    assert not locations.environment.exists()
+    named = tmp_path / 'named'
+    named.mkdir()
+    locations.link.symlink_to(named)
+    commands.forget_environment(Locations(tmp_path, locations.link, named))
+    assert named.is_dir()
+    assert not locations.link.is_symlink()
+
+
+def test_a_machine_that_lacks_something_is_told_all_at_once(
+    locations: Locations, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Everything that is missing is named before anything is downloaded."""
+    monkeypatch.setenv('PATH', str(locations.root))
+    with pytest.raises(SetupError, match=r'sudo apt install g\+\+'):
+        commands.require_machine(locations, has_wheels=True)
+
+
+@pytest.mark.parametrize('arguments', [['nope'], ['setup', 'more'], ['--nope']])
+def test_wrong_arguments_are_usage_errors(root: Path, arguments: list[str]) -> None:
+    """An argument that the set-up does not know ends it with status 2 and a usage line."""
+    done = subprocess.run(
+        [sys.executable, str(root / 'tools' / 'setup'), *arguments],
+        capture_output=True,
+        encoding='utf-8',
+        check=False,
+    )
+    assert done.returncode == 2
+    assert done.stderr.startswith('usage: tools/setup')
+
+
+def test_a_command_that_the_environment_lacks_is_named(root: Path) -> None:
+    """A missing program means an incomplete environment, which the message says how to complete."""
+    done = subprocess.run(
+        [root / 'tools' / 'in_environment', 'no-such-program'],
+        capture_output=True,
+        encoding='utf-8',
+        check=False,
+    )
+    assert done.returncode == 1
+    assert "no 'no-such-program': run 'make setup'" in done.stderr
