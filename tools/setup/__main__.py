@@ -6,11 +6,12 @@ instead of a syntax error.
 """
 
 import sys
+from typing import List
 
 import prerequisites
 
 
-def main(argv):
+def main(argv: List[str]) -> int:
     """Check the machine, then hand over to the command; return the exit status."""
     problem = prerequisites.python_problem()
     if problem:

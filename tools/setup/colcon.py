@@ -43,12 +43,12 @@ def _build_underlay(
             steps.progress(line)
 
     build = locations.environment / 'build'
+    command: list[str | Path] = [locations.environment / 'bin' / 'colcon']
+    command += ['--log-base', build / 'log', 'build', '--build-base', build]
+    command += ['--base-paths', locations.underlay, *selection]
+    command += ['--merge-install', '--install-base', locations.environment]
     status = run_logged(
-        [
-            *(locations.environment / 'bin' / 'colcon', '--log-base', build / 'log', 'build'),
-            *('--base-paths', locations.underlay, '--build-base', build),
-            *('--merge-install', '--install-base', locations.environment, *selection),
-        ],
+        command,
         cwd=locations.root,
         variables=variables,
         log=log,
@@ -69,14 +69,9 @@ def workspace_sources(locations: Locations) -> Iterator[str]:
 
 def build_workspace(locations: Locations, arguments: list[str]) -> int:
     """Run `colcon build` as a user would in the sourced environment; return its exit status."""
-    command = [
-        locations.root / 'tools' / 'in_environment',
-        '--underlay',
-        'colcon',
-        'build',
-        *arguments,
-    ]
-    return subprocess.call([os.fspath(part) for part in command], cwd=locations.root)
+    runner = os.fspath(locations.root / 'tools' / 'in_environment')
+    command = [runner, '--underlay', 'colcon', 'build', *arguments]
+    return subprocess.call(command, cwd=locations.root)
 
 
 def is_built(root: Path) -> bool:

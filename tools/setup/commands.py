@@ -126,8 +126,8 @@ def require_same_home(locations: Locations, home: Stamp, where: str) -> None:
     if (locations.environment / 'stamp' / 'home').exists() and not home.matches(where):
         raise SetupError(
             f'The environment in {locations.environment} was made for a workspace in another '
-            f'place or by another Python than {python_version()}, and its programs name those: run '
-            '`make distclean setup` to make it anew'
+            f'place or by another Python than {python_version()}, and its programs name those: '
+            'run `make distclean setup` to make it anew'
         )
 
 

@@ -9,6 +9,7 @@ import platform
 import shutil
 import sys
 import sysconfig
+from typing import List, Optional, Tuple
 
 OLDEST_PYTHON = (3, 10)
 NEWEST_PYTHON = (3, 13)
@@ -19,20 +20,26 @@ COMPILERS = ('c++', 'g++', 'clang++')
 UNUSABLE_CHARACTERS = ':;"\'`$\\\n'
 
 
-def python_problem(version=None, implementation=None):
+def python_problem(
+    version: Optional[Tuple[int, int]] = None, implementation: Optional[str] = None
+) -> Optional[str]:
     """Name a Python for which the wheels do not exist."""
-    version = tuple(version or sys.version_info[:2])
+    version = version or sys.version_info[:2]
     implementation = implementation or platform.python_implementation()
     if implementation == 'CPython' and OLDEST_PYTHON <= version <= NEWEST_PYTHON:
         return None
     return (
-        'This is {} {}.{}, but the ROS 2 wheels exist for CPython 3.10 to 3.13 only: install one '
-        'of these (Debian, Ubuntu: sudo apt install python3 python3-venv python3-dev) and name it, '
-        'as in: make setup PYTHON=python3.12'
+        'This is {} {}.{}, but the ROS 2 wheels exist for CPython 3.10 to 3.13 only: install '
+        'one of these (Debian, Ubuntu: sudo apt install python3 python3-venv python3-dev) and '
+        'name it, as in: make setup PYTHON=python3.12'
     ).format(implementation, *version)
 
 
-def platform_problem(system=None, machine=None, libc=None):
+def platform_problem(
+    system: Optional[str] = None,
+    machine: Optional[str] = None,
+    libc: Optional[Tuple[str, str]] = None,
+) -> Optional[str]:
     """Name a machine for which the wheels do not exist."""
     system, machine = system or sys.platform, machine or platform.machine()
     if system != 'linux' or machine != 'x86_64':
@@ -50,7 +57,7 @@ def platform_problem(system=None, machine=None, libc=None):
     ).format(found)
 
 
-def venv_problem():
+def venv_problem() -> Optional[str]:
     """Name a Python that cannot make virtual environments."""
     try:
         import ensurepip
@@ -61,14 +68,14 @@ def venv_problem():
     return None
 
 
-def compiler_problem(path=None):
+def compiler_problem(path: Optional[str] = None) -> Optional[str]:
     """Name a missing C++ compiler."""
     if any(shutil.which(name, path=path) for name in COMPILERS):
         return None
     return 'There is no C++ compiler here: sudo apt install g++'
 
 
-def headers_problem(include=None):
+def headers_problem(include: Optional[str] = None) -> Optional[str]:
     """Name missing C headers of Python, which message packages compile against."""
     include = include or sysconfig.get_path('include')
     if os.path.isfile(os.path.join(include, 'Python.h')):
@@ -79,7 +86,7 @@ def headers_problem(include=None):
     )
 
 
-def path_problem(path):
+def path_problem(path: str) -> Optional[str]:
     """Name a character in a path that search paths and build tools cannot hold."""
     found = sorted(set(path) & set(UNUSABLE_CHARACTERS))
     if not found:
@@ -90,7 +97,7 @@ def path_problem(path):
     ).format(path, found[0])
 
 
-def space_problem(folder, needed):
+def space_problem(folder: str, needed: int) -> Optional[str]:
     """Name a disk without room for the environment."""
     while not os.path.isdir(folder):
         folder = os.path.dirname(folder)
@@ -103,7 +110,7 @@ def space_problem(folder, needed):
     ).format(free // 10**6, folder, needed // 10**6)
 
 
-def problems(root, environment, has_wheels):
+def problems(root: str, environment: str, has_wheels: bool) -> List[str]:
     """Return the sentences of all that is missing for this workspace and its environment."""
     checks = [
         platform_problem(),

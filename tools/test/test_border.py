@@ -14,11 +14,11 @@ import pytest
 FOREIGN = re.compile(r'\.venv|\btools/|\bunderlay\b|\bwheels?\b|\bPyPI\b|\bpip install\b')
 TEXTS = {'.py', '.xml', '.cfg', '.md', '.yaml', '.xacro', '.urdf', '.rviz', '.txt'}
 # Packages of ROS 2 Jazzy that launch files and nodes of src/ may import.
-JAZZY = {
-    'ament_flake8', 'ament_index_python', 'ament_pep257', 'builtin_interfaces',
-    'domain_coordinator', 'geometry_msgs', 'launch', 'launch_ros', 'nav_msgs', 'rcl_interfaces', 'rclpy', 'sensor_msgs',
-    'std_msgs', 'std_srvs', 'tf2_msgs', 'xacro',
-}  # fmt: skip
+JAZZY = set(
+    'ament_flake8 ament_index_python ament_pep257 builtin_interfaces domain_coordinator '
+    'geometry_msgs launch launch_ros nav_msgs rcl_interfaces rclpy sensor_msgs std_msgs std_srvs '
+    'tf2_msgs xacro'.split()
+)
 LIBRARIES = {'numpy', 'pytest', 'setuptools', 'yaml'}
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -66,7 +66,7 @@ def test_wrong_arguments_are_usage_errors(root: Path, arguments: list[str]) -> N
 
 
 def test_a_command_that_the_environment_lacks_is_named(root: Path) -> None:
-    """A missing program means an incomplete environment, which the message says how to complete."""
+    """A missing program means an incomplete environment; the message says what completes it."""
     done = subprocess.run(
         [root / 'tools' / 'in_environment', 'no-such-program'],
         capture_output=True,
