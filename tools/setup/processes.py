@@ -19,6 +19,7 @@ INHERITED = {
     'PIP_PREFIX',
     'PIP_TARGET',
     'PIP_USER',
+    'PYTHONDONTWRITEBYTECODE',  # what is installed is compiled, which halves its start-up
     'PYTHONHOME',
     'PYTHONPATH',
     'ROS_DISTRO',
@@ -29,12 +30,17 @@ INHERITED = {
 
 def environment_variables(environment: Path) -> dict[str, str]:
     """Return the variables with which the environment's own programs run."""
-    variables = {k: v for k, v in os.environ.items() if k not in INHERITED}
+    variables = without_inherited()
     variables['PATH'] = f'{environment}/bin{os.pathsep}{variables.get("PATH", os.defpath)}'
     variables['LD_LIBRARY_PATH'] = f'{environment}/lib'
     variables['CMAKE_PREFIX_PATH'] = str(environment)
     variables['_ROS_WHEELS_BOOTSTRAP_COMPLETE'] = '1'
     return variables
+
+
+def without_inherited() -> dict[str, str]:
+    """Return the variables of this process without those of another installation."""
+    return {name: value for name, value in os.environ.items() if name not in INHERITED}
 
 
 def run_logged(

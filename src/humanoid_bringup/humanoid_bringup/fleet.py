@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Name the robots of a fleet."""
+from __future__ import annotations
+
+MOST_ROBOTS = 50
+
+
+def robot_namespaces(count: str) -> list[str]:
+    """Return robot1, robot2, ... for a count given as text; ValueError tells what is wrong."""
+    try:
+        number = int(count)
+    except ValueError:
+        raise ValueError(_refusal(count)) from None
+    if not 1 <= number <= MOST_ROBOTS:
+        raise ValueError(_refusal(count))
+    return [f'robot{index}' for index in range(1, number + 1)]
+
+
+def _refusal(count: str) -> str:
+    """Build the sentence that refuses a count."""
+    return (
+        f"Launch argument 'robots' is '{count}', but must be a whole number "
+        f"from 1 to {MOST_ROBOTS}. Pass for example 'robots:=3'.")

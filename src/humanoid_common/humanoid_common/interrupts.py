@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What SIGINT and SIGTERM do to a node."""
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+import signal
+import socket
+import threading
+import time
+from types import FrameType
+
+from humanoid_common.stop_request import StopRequest
+
+STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+
+class PatientInterrupt:
+    """
+    A signal handler that lets the node end by itself.
+
+    Raising KeyboardInterrupt would break into whatever runs at that moment. Only when the node
+    still runs a second later, a further signal raises, so that a callback that never returns
+    can be ended.
+    """
+
+    def __init__(
+        self, patience_s: float = 1.0, clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Set how long the node may take to end by itself."""
+        self._patience_s = patience_s
+        self._clock = clock
+        self._first_s: float | None = None
+
+    def __call__(self, number: int, frame: FrameType | None) -> None:
+        """Note the first signal; raise KeyboardInterrupt when patience is at an end."""
+        now_s = self._clock()
+        if self._first_s is None:
+            self._first_s = now_s
+        elif now_s - self._first_s > self._patience_s:
+            raise KeyboardInterrupt
+
+
+@contextmanager
+def stop_on_signals() -> Iterator[StopRequest]:
+    """
+    Turn SIGINT and SIGTERM into a request to stop.
+
+    The main thread may be waiting inside ROS, where no Python runs. So the interpreter writes
+    the number of each signal to a socket, and a thread of its own reads it and makes the
+    request. After the block both signals are ignored: the process is at its end already.
+    """
+    request = StopRequest()
+    reader, writer = socket.socketpair()
+    with reader, writer:
+        writer.setblocking(False)
+        signal.set_wakeup_fd(writer.fileno(), warn_on_full_buffer=False)
+        handler = PatientInterrupt()
+        for number in STOP_SIGNALS:
+            signal.signal(number, handler)
+        watcher = threading.Thread(target=_watch, args=(reader, request), daemon=True)
+        watcher.start()
+        try:
+            yield request
+        finally:
+            for number in STOP_SIGNALS:
+                signal.signal(number, signal.SIG_IGN)
+            signal.set_wakeup_fd(-1)
+            writer.shutdown(socket.SHUT_RDWR)
+            watcher.join()
+
+
+def _watch(reader: socket.socket, request: StopRequest) -> None:
+    """Make the request for each signal that asks for it, until the socket is shut down."""
+    while numbers := reader.recv(64):
+        if any(number in STOP_SIGNALS for number in numbers):
+            request.make()

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The parameters of a node, as an immutable snapshot that follows every accepted change."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict
+from typing import Any, Generic, TypeVar
+
+from humanoid_common.descriptors import descriptor_of
+from humanoid_common.parameters import (
+    build, ParameterError, specs_of, unknown_parameter_warnings, widened)
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+T = TypeVar('T')
+_WIDER = {
+    Parameter.Type.INTEGER: Parameter.Type.DOUBLE,
+    Parameter.Type.INTEGER_ARRAY: Parameter.Type.DOUBLE_ARRAY,
+}
+
+
+class NodeParameters(Generic[T]):
+    """
+    Declare the fields of a parameter dataclass on a node, and keep the current snapshot.
+
+    A change at run time is checked as a whole and refused with its reason; an accepted one
+    replaces the snapshot and is handed to `on_change`.
+    """
+
+    def __init__(
+        self, node: Node, kind: type[T], on_change: Callable[[T], None] | None = None,
+    ) -> None:
+        """Declare the parameters, with the values that were given to the node at its start."""
+        self._node = node
+        self._kind = kind
+        self._specs = specs_of(kind)
+        self._on_change = on_change
+        self._current = self._declare()
+        node.add_pre_set_parameters_callback(self._widen)
+        node.add_on_set_parameters_callback(self._check)
+        node.add_post_set_parameters_callback(self._swap)
+
+    @property
+    def current(self) -> T:
+        """Return the snapshot of all parameters."""
+        return self._current
+
+    def _declare(self) -> T:
+        """Check the values given at the start, declare all parameters, warn of unknown ones."""
+        given = _given_values(self._node)
+        known = {name: value for name, value in given.items() if name in self._specs}
+        snapshot = self._build_at_start(known)
+        for name, value in asdict(snapshot).items():
+            self._node.declare_parameter(
+                name, value, descriptor_of(self._specs[name]), ignore_override=True)
+        self._warn_of_unknown(given)
+        return snapshot
+
+    def _build_at_start(self, values: dict[str, Any]) -> T:
+        """Build the first snapshot; name the node when a value is refused."""
+        try:
+            return build(self._kind, values)
+        except ParameterError as error:
+            raise ParameterError(
+                f"Node '{self._node.get_fully_qualified_name()}' cannot start. {error.reason} "
+                "Correct the parameter file or the '-p' argument that sets it.",
+                *error.names) from error
+
+    def _warn_of_unknown(self, given: dict[str, Any]) -> None:
+        """Log a warning for each given value that no parameter takes."""
+        others = [name for name in given
+                  if not self._node.has_parameter(name) and not name.startswith('qos_overrides.')]
+        for warning in unknown_parameter_warnings(others, self._specs):
+            self._node.get_logger().warning(warning)
+
+    def _widen(self, changes: list[Parameter]) -> list[Parameter]:
+        """Accept integers where a floating-point number is meant."""
+        return [self._widen_one(change) for change in changes]
+
+    def _widen_one(self, change: Parameter) -> Parameter:
+        """Turn an integer into the floating-point number that the parameter asks for."""
+        spec = self._specs.get(change.name)
+        wide_type = _WIDER.get(change.type_)
+        if spec is None or spec.element is not float or wide_type is None:
+            return change
+        return Parameter(change.name, wide_type, widened(spec, change.value))
+
+    def _check(self, changes: list[Parameter]) -> SetParametersResult:
+        """Accept the changes only when the snapshot that they lead to is valid."""
+        try:
+            self._changed(changes)
+        except ParameterError as error:
+            return SetParametersResult(successful=False, reason=error.reason)
+        return SetParametersResult(successful=True)
+
+    def _swap(self, changes: list[Parameter]) -> None:
+        """Replace the snapshot after an accepted change, and tell the node."""
+        snapshot = self._changed(changes)
+        if snapshot != self._current:
+            self._current = snapshot
+            if self._on_change is not None:
+                self._on_change(snapshot)
+
+    def _changed(self, changes: list[Parameter]) -> T:
+        """Build the snapshot that the changes lead to."""
+        new = {change.name: change.value for change in changes if change.name in self._specs}
+        return build(self._kind, {**asdict(self._current), **new})
+
+
+def _given_values(node: Node) -> dict[str, Any]:
+    """
+    Return what parameter files and `-p` arguments set for this node.
+
+    rclpy offers no public way to ask for values of parameters that are not declared.
+    """
+    overrides: dict[str, Parameter] = getattr(node, '_parameter_overrides', {})
+    return {name: override.value for name, override in overrides.items()}

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Parameters as data: a frozen dataclass whose fields know their meaning and their limits.
+
+Nothing here needs ROS; `humanoid_common.node_parameters` declares such a dataclass on a node.
+"""
+from __future__ import annotations
+
+from humanoid_common.parameters.building import build
+from humanoid_common.parameters.errors import ParameterError
+from humanoid_common.parameters.fields import parameter, ParameterRules
+from humanoid_common.parameters.specs import ParameterSpec, specs_of
+from humanoid_common.parameters.unknown import unknown_parameter_warnings
+from humanoid_common.parameters.values import checked_value, ParameterValue, widened
+
+__all__ = [
+    'build',
+    'checked_value',
+    'parameter',
+    'ParameterError',
+    'ParameterRules',
+    'ParameterSpec',
+    'ParameterValue',
+    'specs_of',
+    'unknown_parameter_warnings',
+    'widened',
+]

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Build a checked snapshot of all parameters."""
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+from humanoid_common.parameters.specs import specs_of
+from humanoid_common.parameters.values import checked_value
+
+T = TypeVar('T')
+
+
+def build(kind: type[T], values: Mapping[str, Any]) -> T:
+    """
+    Build the parameter dataclass from the values; those that are missing take their defaults.
+
+    Each value is checked by the rules of its field; then the dataclass itself checks, in its
+    `__post_init__`, what must hold for all of them together.
+    """
+    specs = specs_of(kind)
+    checked = {name: checked_value(specs[name], value) for name, value in values.items()}
+    return kind(**checked)

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The fields of a parameter dataclass."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, Field, field
+from typing import Any, TypeVar
+
+T = TypeVar('T')
+_RULES = 'humanoid_common.parameters'
+
+
+@dataclass(frozen=True)
+class ParameterRules:
+    """What a parameter means, and which values it takes."""
+
+    description: str
+    at_least: float | None = None
+    at_most: float | None = None
+    choices: tuple[str, ...] = ()
+    read_only: bool = False
+
+
+def parameter(
+    default: T,
+    description: str,
+    *,
+    at_least: float | None = None,
+    at_most: float | None = None,
+    choices: Sequence[str] = (),
+    read_only: bool = False,
+) -> T:
+    """
+    Declare one parameter as a field of a frozen dataclass.
+
+    Limits and choices of a list apply to each of its elements.
+    """
+    rules = ParameterRules(description, at_least, at_most, tuple(choices), read_only)
+    return field(default=default, metadata={_RULES: rules})
+
+
+def rules_of(declared: Field[Any]) -> ParameterRules:
+    """Return the rules that `parameter` stored in a field."""
+    rules = declared.metadata.get(_RULES)
+    if not isinstance(rules, ParameterRules):
+        raise TypeError(f"Field '{declared.name}' is not declared with parameter(...).")
+    return rules

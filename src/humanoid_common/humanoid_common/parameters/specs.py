@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a parameter dataclass says about each of its parameters."""
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any, get_args, get_origin, get_type_hints
+
+from humanoid_common.parameters.fields import ParameterRules, rules_of
+
+_SCALARS = {
+    bool: ('true or false', 'true and false values'),
+    int: ('an integer', 'integers'),
+    float: ('a number', 'numbers'),
+    str: ('a text', 'texts'),
+}
+
+
+@dataclass(frozen=True)
+class ParameterSpec:
+    """One parameter: its name, its type, its default and its rules."""
+
+    name: str
+    element: type
+    is_list: bool
+    default: Any
+    rules: ParameterRules
+
+    @property
+    def expected(self) -> str:
+        """Name the type in words."""
+        one, many = _SCALARS[self.element]
+        return f'a list of {many}' if self.is_list else one
+
+
+def specs_of(kind: type) -> dict[str, ParameterSpec]:
+    """Read the parameters of a parameter dataclass, by name."""
+    hints = get_type_hints(kind)
+    specs = {}
+    for declared in fields(kind):
+        element, is_list = _element_of(declared.name, hints[declared.name])
+        specs[declared.name] = ParameterSpec(
+            declared.name, element, is_list, declared.default, rules_of(declared))
+    return specs
+
+
+def _element_of(name: str, hint: Any) -> tuple[type, bool]:
+    """Split a type hint into the type of one element and whether it is a list."""
+    if hint in _SCALARS:
+        return hint, False
+    arguments = get_args(hint)
+    if get_origin(hint) is tuple and len(arguments) == 2 and arguments[1] is Ellipsis:
+        if arguments[0] in _SCALARS:
+            return arguments[0], True
+    raise TypeError(
+        f"Parameter '{name}' has type {hint}, but must have one of bool, int, float, str, "
+        'or a tuple of them such as tuple[float, ...].')

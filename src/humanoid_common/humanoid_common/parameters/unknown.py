@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tell about values that were set for parameters which do not exist."""
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from humanoid_common.naming import did_you_mean
+
+
+def unknown_parameter_warnings(given: Iterable[str], known: Iterable[str]) -> list[str]:
+    """Return a sentence for each given parameter that is not among the known ones."""
+    names = sorted(known)
+    return [_warning(name, names) for name in sorted(set(given) - set(names))]
+
+
+def _warning(name: str, known: list[str]) -> str:
+    """Build the warning for one unknown name."""
+    advice = did_you_mean(name, known) or f"It has: {', '.join(known)}."
+    return f"Ignored the value of '{name}': this node has no such parameter. {advice}"

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check one value against the rules of its parameter."""
+from __future__ import annotations
+
+from array import array
+from collections.abc import Sequence
+import math
+from typing import Any, Union
+
+from humanoid_common.naming import did_you_mean
+from humanoid_common.parameters.errors import ParameterError
+from humanoid_common.parameters.specs import ParameterSpec
+
+Scalar = Union[bool, int, float, str]
+ParameterValue = Union[Scalar, tuple[Scalar, ...]]
+
+
+def widened(spec: ParameterSpec, value: Any) -> Any:
+    """Turn integers into the floating-point numbers that the parameter asks for."""
+    if spec.element is not float:
+        return value
+    if spec.is_list and _is_sequence(value):
+        return [_as_float(element) for element in value]
+    return _as_float(value)
+
+
+def checked_value(spec: ParameterSpec, value: Any) -> ParameterValue:
+    """Return the value in the type of its parameter, or raise ParameterError with the reason."""
+    value = widened(spec, value)
+    if spec.is_list:
+        if not _is_sequence(value):
+            raise _refusal(spec, value, f'must be {spec.expected}', verb='is')
+        if len(value) == 0:
+            raise _refusal(spec, value, 'must not be empty', verb='is')
+        return tuple(_checked_element(spec, element) for element in value)
+    return _checked_element(spec, value)
+
+
+def _checked_element(spec: ParameterSpec, value: Any) -> Scalar:
+    """Check the type, the limits and the choices of one element."""
+    if type(value) is not spec.element:
+        raise _refusal(spec, value, f'must be {spec.expected}')
+    if isinstance(value, float) and not math.isfinite(value):
+        raise _refusal(spec, value, 'must be finite')
+    if isinstance(value, (int, float)):
+        _check_limits(spec, value)
+    if isinstance(value, str) and spec.rules.choices and value not in spec.rules.choices:
+        allowed = ', '.join(repr(choice) for choice in spec.rules.choices)
+        hint = did_you_mean(value, spec.rules.choices)
+        raise _refusal(spec, value, f'must be one of {allowed}', hint)
+    checked: Scalar = value
+    return checked
+
+
+def _check_limits(spec: ParameterSpec, value: float) -> None:
+    """Check that a number lies within the limits."""
+    low, high = spec.rules.at_least, spec.rules.at_most
+    if (low is None or value >= low) and (high is None or value <= high):
+        return
+    if low is None:
+        raise _refusal(spec, value, f'must be at most {high}')
+    if high is None:
+        raise _refusal(spec, value, f'must be at least {low}')
+    raise _refusal(spec, value, f'must be between {low} and {high}')
+
+
+def _refusal(
+    spec: ParameterSpec, value: Any, requirement: str, hint: str = '', verb: str = '',
+) -> ParameterError:
+    """Build the sentence that refuses a value, which for a list is one of its elements."""
+    verb = verb or ('contains' if spec.is_list else 'is')
+    sentences = [
+        f"Parameter '{spec.name}' {verb} {value!r}, but {requirement}.",
+        hint,
+        f'Its meaning: {spec.rules.description}']
+    return ParameterError(' '.join(filter(None, sentences)), spec.name)
+
+
+def _is_sequence(value: Any) -> bool:
+    """Tell whether the value is a list of elements, which a text is not."""
+    return isinstance(value, (Sequence, array)) and not isinstance(value, (str, bytes))
+
+
+def _as_float(value: Any) -> Any:
+    """Turn an integer into a float and leave all else alone."""
+    return float(value) if type(value) is int else value

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Quality of service by name, so that both ends of a topic choose the same."""
+from __future__ import annotations
+
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
+__all__ = ['COMMAND', 'EVENT', 'LATCHED', 'SENSOR', 'STATE']
+
+
+def _keep_last(
+    depth: int, reliability: ReliabilityPolicy,
+    durability: DurabilityPolicy = DurabilityPolicy.VOLATILE,
+) -> QoSProfile:
+    """Build a profile that keeps the newest messages."""
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_LAST, depth=depth,
+        reliability=reliability, durability=durability)
+
+
+SENSOR = _keep_last(5, ReliabilityPolicy.BEST_EFFORT)
+"""Measurements: a newer one replaces a lost one, so nobody waits for it to be sent again."""
+
+STATE = _keep_last(10, ReliabilityPolicy.RELIABLE)
+"""What is true now: every subscriber gets each message, with room for a short pause."""
+
+COMMAND = _keep_last(1, ReliabilityPolicy.RELIABLE)
+"""What to do now: it must arrive, and only the newest one may be obeyed."""
+
+LATCHED = _keep_last(1, ReliabilityPolicy.RELIABLE, DurabilityPolicy.TRANSIENT_LOCAL)
+"""What seldom changes, such as a robot description: also those who join late receive it."""
+
+EVENT = _keep_last(50, ReliabilityPolicy.RELIABLE)
+"""What happened: each one counts, so a burst must fit into the queue."""

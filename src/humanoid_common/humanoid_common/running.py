@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The body of every `main`: run a node until it is told to stop."""
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+import sys
+
+from humanoid_common.errors import NodeStartError
+from humanoid_common.interrupts import stop_on_signals
+from humanoid_common.stop_request import StopRequest
+import rclpy
+from rclpy.exceptions import ParameterException
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+
+NodeFactory = Callable[[], Node]
+
+
+def run_node(factory: NodeFactory, args: Sequence[str] | None = None) -> int:
+    """
+    Run the node that the factory makes, and return the exit status.
+
+    SIGINT and SIGTERM end the node between two callbacks, with status 0. A node that cannot
+    start ends with status 1 and one message on stderr.
+    """
+    with stop_on_signals() as stop:
+        try:
+            _initialize(args)
+            _run(factory, stop)
+        except (KeyboardInterrupt, ExternalShutdownException):
+            return 0
+        except (NodeStartError, ParameterException) as error:
+            sys.stderr.write(f'{error}\n')
+            return 1
+        finally:
+            rclpy.try_shutdown()
+    return 0
+
+
+def _initialize(args: Sequence[str] | None) -> None:
+    """
+    Start ROS, with a sentence instead of a traceback when it refuses the arguments.
+
+    ROS leaves the signals alone: its own handling would take the context away from a callback
+    that is running.
+    """
+    try:
+        rclpy.init(args=None if args is None else list(args),
+                   signal_handler_options=SignalHandlerOptions.NO)
+    except RuntimeError as error:
+        raise NodeStartError(
+            f'The ROS arguments of this node cannot be used: {error}. '
+            'Correct what follows --ros-args, or the parameter file that it names.') from error
+
+
+def _run(factory: NodeFactory, stop: StopRequest) -> None:
+    """Make the node, run its callbacks until the request to stop, and destroy it."""
+    node = factory()
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    waker = node.create_guard_condition(lambda: None)
+    stop.wake_with(waker.trigger)
+    try:
+        while rclpy.ok() and not stop.is_made:
+            executor.spin_once()
+    finally:
+        stop.wake_with(None)
+        executor.shutdown()
+        node.destroy_node()

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Read a stream in the background."""
+from __future__ import annotations
+
+import threading
+from typing import IO
+
+
+class Capture:
+    """Collect all that comes out of a stream, as text."""
+
+    def __init__(self, stream: IO[bytes] | None) -> None:
+        """Start to read."""
+        if stream is None:
+            raise ValueError('There is no stream to read: start the program with pipes.')
+        self._stream = stream
+        self._chunks: list[bytes] = []
+        self._thread = threading.Thread(target=self._read, daemon=True)
+        self._thread.start()
+
+    @property
+    def text(self) -> str:
+        """Return what has come so far."""
+        return b''.join(self._chunks).decode(errors='replace')
+
+    def join(self, timeout_s: float) -> None:
+        """Wait until the stream has ended."""
+        self._thread.join(timeout_s)
+
+    def _read(self) -> None:
+        """Read line by line until the end."""
+        with self._stream:
+            for line in self._stream:
+                self._chunks.append(line)

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run a launch file: `python3 -m humanoid_common.testing.launch_file FILE [name:=value ...]`."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+import sys
+
+from launch import LaunchDescription, LaunchService
+from launch.actions import IncludeLaunchDescription
+from launch.launch_description_sources import AnyLaunchDescriptionSource
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Launch the file that the first argument names, and return the exit status."""
+    path, *settings = arguments
+    pairs = [tuple(setting.split(':=', 1)) for setting in settings]
+    service = LaunchService(argv=settings, noninteractive=True)
+    service.include_launch_description(LaunchDescription([
+        IncludeLaunchDescription(AnyLaunchDescriptionSource(path), launch_arguments=pairs)]))
+    return int(service.run())
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run a launch file in a process of its own, and look into one without running it."""
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+
+from humanoid_common.testing.processes import module_command, running_program, RunningProgram
+from launch import LaunchContext, LaunchDescription, LaunchDescriptionEntity
+from launch.actions import DeclareLaunchArgument
+from launch.launch_description_sources import AnyLaunchDescriptionSource
+
+
+@contextmanager
+def running_launch_file(
+    path: Path, *arguments: str, environment: Mapping[str, str] = {},
+) -> Iterator[RunningProgram]:
+    """Launch a file, with arguments in the form `name:=value`, for the length of a block."""
+    command = module_command('humanoid_common.testing.launch_file', str(path), *arguments)
+    with running_program(command, environment) as program:
+        yield program
+
+
+def load_launch_file(path: Path) -> LaunchDescription:
+    """Load a launch file without running it."""
+    return AnyLaunchDescriptionSource(str(path)).get_launch_description(LaunchContext())
+
+
+def argument_defaults(description: LaunchDescription) -> dict[str, str]:
+    """Return the default of each launch argument that the description declares."""
+    context = LaunchContext()
+    return {
+        argument.name: ''.join(
+            context.perform_substitution(part) for part in argument.default_value or ())
+        for argument in _arguments(description.entities)}
+
+
+def undescribed_arguments(description: LaunchDescription) -> list[str]:
+    """Return the names of the launch arguments that lack a description."""
+    return [argument.name for argument in _arguments(description.entities)
+            if argument.description in ('', 'no description given')]
+
+
+def _arguments(
+    entities: Iterable[LaunchDescriptionEntity],
+) -> Iterator[DeclareLaunchArgument]:
+    """Yield the declarations among the entities."""
+    return (entity for entity in entities if isinstance(entity, DeclareLaunchArgument))

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run a program, read its output while it runs, signal it, and leave nothing behind."""
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+import os
+import signal
+import subprocess
+import sys
+
+from humanoid_common.testing.capture import Capture
+from humanoid_common.testing.waiting import wait_until
+
+
+@dataclass(frozen=True)
+class ExitReport:
+    """How a program ended and what it wrote."""
+
+    status: int
+    stdout: str
+    stderr: str
+
+    @property
+    def output(self) -> str:
+        """Return both streams, first stdout."""
+        return self.stdout + self.stderr
+
+
+class RunningProgram:
+    """A program under test, in a process group of its own."""
+
+    def __init__(self, command: Sequence[str], environment: Mapping[str, str] = {}) -> None:
+        """Start the command; the environment is added to the present one."""
+        self._command = list(command)
+        self._process = subprocess.Popen(
+            self._command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE, start_new_session=True,
+            env={**os.environ, 'PYTHONUNBUFFERED': '1', **environment})
+        self._stdout = Capture(self._process.stdout)
+        self._stderr = Capture(self._process.stderr)
+
+    @property
+    def output(self) -> str:
+        """Return what was written so far on both streams."""
+        return self._stdout.text + self._stderr.text
+
+    @property
+    def has_ended(self) -> bool:
+        """Tell whether the program has ended."""
+        return self._process.poll() is not None
+
+    def wait_for_output(self, text: str, timeout_s: float = 15.0) -> None:
+        """Wait until the text was written on either stream."""
+        wait_until(
+            lambda: text in self.output or self.has_ended, timeout_s,
+            lambda: f'{text!r} from {self._command}; it wrote: {self.output}')
+        wait_until(
+            lambda: text in self.output, 1.0,
+            lambda: f'{text!r} from {self._command}, which ended; it wrote: {self.output}')
+
+    def signal(self, number: signal.Signals) -> None:
+        """Send a signal to the program itself, as `kill` does."""
+        self._process.send_signal(number)
+
+    def wait_for_exit(self, timeout_s: float = 15.0) -> ExitReport:
+        """Wait until the program has ended and all its output was read."""
+        wait_until(
+            lambda: self.has_ended, timeout_s,
+            lambda: f'the end of {self._command}; it wrote: {self.output}')
+        self._stdout.join(timeout_s)
+        self._stderr.join(timeout_s)
+        return ExitReport(self._process.returncode, self._stdout.text, self._stderr.text)
+
+    def stop(self, number: signal.Signals, timeout_s: float = 15.0) -> ExitReport:
+        """Send the signal and wait for the end."""
+        self.signal(number)
+        return self.wait_for_exit(timeout_s)
+
+    def close(self) -> None:
+        """End every process of the group that is still alive."""
+        try:
+            os.killpg(self._process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        self._process.wait()
+
+
+@contextmanager
+def running_program(
+    command: Sequence[str], environment: Mapping[str, str] = {},
+) -> Iterator[RunningProgram]:
+    """Run a command for the length of a `with` block."""
+    program = RunningProgram(command, environment)
+    try:
+        yield program
+    finally:
+        program.close()
+
+
+def module_command(module: str, *arguments: str) -> list[str]:
+    """Return the command that runs a module with the Python at hand."""
+    return [sys.executable, '-m', module, *arguments]
+
+
+def assert_clean_exit(report: ExitReport) -> None:
+    """Assert that a node ended in order: status 0, and nothing on stderr but log lines."""
+    noise = [line for line in report.stderr.splitlines() if line and not line.startswith('[')]
+    assert not noise, f'the program wrote more than log lines on stderr:\n{report.stderr}'
+    assert report.status == 0, f'status {report.status}:\n{report.output}'

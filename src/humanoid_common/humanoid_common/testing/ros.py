@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Nodes in this process, in a domain of their own."""
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+import os
+from typing import Any, TypeVar
+
+from domain_coordinator import domain_id
+from humanoid_common.testing.waiting import wait_until
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+NodeT = TypeVar('NodeT', bound=Node)
+
+
+class RosSandbox:
+    """An own context and executor, for nodes that meet only each other."""
+
+    def __init__(self, domain: int) -> None:
+        """Start ROS in the domain."""
+        self.environment = {
+            'ROS_DOMAIN_ID': str(domain), 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
+        self._context = Context()
+        rclpy.init(args=[], context=self._context, domain_id=domain)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._nodes: list[Node] = []
+
+    def start(
+        self, factory: Callable[..., NodeT], parameters: Mapping[str, Any] = {},
+        **options: Any,
+    ) -> NodeT:
+        """Start a node with parameter values, as if they came from a parameter file."""
+        overrides = [Parameter(name, value=value) for name, value in parameters.items()]
+        node = factory(context=self._context, parameter_overrides=overrides, **options)
+        self._nodes.append(node)
+        self._executor.add_node(node)
+        return node
+
+    def observer(self) -> Node:
+        """Start a plain node, to watch the others with."""
+        return self.start(lambda **options: Node('observer', **options))
+
+    def wait_until(
+        self, predicate: Callable[[], bool], timeout_s: float = 10.0, what: str = 'the condition',
+    ) -> None:
+        """Spin until the predicate holds; a failure tells which topics exist."""
+        wait_until(
+            predicate, timeout_s, lambda: f'{what}; {self._graph()}',
+            lambda: self._executor.spin_once(timeout_sec=0.05))
+
+    def close(self) -> None:
+        """Destroy the nodes and end ROS."""
+        self._executor.shutdown()
+        for node in self._nodes:
+            node.destroy_node()
+        self._context.try_shutdown()
+
+    def _graph(self) -> str:
+        """Describe the topics that the nodes see."""
+        names = sorted({name for node in self._nodes for name, _ in
+                        node.get_topic_names_and_types(no_demangle=False)})
+        return f"topics: {', '.join(names)}"
+
+
+@contextmanager
+def ros_sandbox() -> Iterator[RosSandbox]:
+    """
+    Give a domain that nobody else uses, confined to this machine.
+
+    The environment is set for the programs that are started meanwhile, and restored after.
+    """
+    with domain_id() as domain:
+        names = ('ROS_DOMAIN_ID', 'ROS_AUTOMATIC_DISCOVERY_RANGE')
+        saved = {name: os.environ.get(name) for name in names}
+        os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+        os.environ['ROS_DOMAIN_ID'] = str(domain)
+        sandbox = RosSandbox(domain)
+        try:
+            yield sandbox
+        finally:
+            sandbox.close()
+            _restore(saved)
+
+
+def _restore(saved: Mapping[str, str | None]) -> None:
+    """Put the environment variables back."""
+    for name, value in saved.items():
+        if value is None:
+            os.environ.pop(name, None)
+        else:
+            os.environ[name] = value

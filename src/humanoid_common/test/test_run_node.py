@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check how nodes start and end."""
+from __future__ import annotations
+
+from pathlib import Path
+import signal
+import sys
+import time
+
+from humanoid_common.testing.processes import (
+    assert_clean_exit, ExitReport, running_program, RunningProgram)
+from humanoid_common.testing.ros import ros_sandbox
+from humanoid_common.testing.waiting import wait_until
+import pytest
+
+HEAD = """
+import sys, time
+from humanoid_common.errors import NodeStartError
+from humanoid_common.running import run_node
+from rclpy.node import Node
+"""
+BUSY = HEAD + """
+class Busy(Node):
+    def __init__(self):
+        super().__init__('busy')
+        self.create_timer(0.001, lambda: self.get_logger().debug('tick'))
+        self.get_logger().info('ready')
+sys.exit(run_node(Busy))
+"""
+STUCK = HEAD + """
+class Stuck(Node):
+    def __init__(self):
+        super().__init__('stuck')
+        self.create_timer(0.001, self.block)
+    def block(self):
+        self.get_logger().info('ready')
+        while True:
+            time.sleep(0.01)
+sys.exit(run_node(Stuck))
+"""
+REFUSING = HEAD + """
+def refuse():
+    raise NodeStartError('There is no robot. Build one.')
+sys.exit(run_node(refuse))
+"""
+BROKEN = HEAD + """
+def fail():
+    raise RuntimeError('a mistake in the code')
+sys.exit(run_node(fail))
+"""
+
+
+def run(tmp_path: Path, code: str, *arguments: str) -> ExitReport:
+    """Run code until it ends by itself."""
+    script = tmp_path / 'node.py'
+    script.write_text(code, encoding='utf-8')
+    with ros_sandbox(), running_program([sys.executable, str(script), *arguments]) as program:
+        return program.wait_for_exit()
+
+
+def repeat(program: RunningProgram) -> None:
+    """Press Ctrl-C, and give the node a moment."""
+    program.signal(signal.SIGINT)
+    time.sleep(0.3)
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_signal_ends_in_order(tmp_path: Path, number: signal.Signals) -> None:
+    """A node with much to do ends with status 0 and no traceback."""
+    script = tmp_path / 'busy.py'
+    script.write_text(BUSY, encoding='utf-8')
+    with ros_sandbox(), running_program([sys.executable, str(script)]) as program:
+        program.wait_for_output('ready')
+        assert_clean_exit(program.stop(number))
+
+
+def test_repeated_signals(tmp_path: Path) -> None:
+    """Signals that come thick and fast do not disturb the end."""
+    script = tmp_path / 'busy.py'
+    script.write_text(BUSY, encoding='utf-8')
+    with ros_sandbox(), running_program([sys.executable, str(script)]) as program:
+        program.wait_for_output('ready')
+        for number in (signal.SIGINT, signal.SIGINT, signal.SIGTERM):
+            program.signal(number)
+        assert_clean_exit(program.wait_for_exit())
+
+
+def test_stuck_callback(tmp_path: Path) -> None:
+    """A node whose callback never returns ends with repeated Ctrl-C."""
+    script = tmp_path / 'stuck.py'
+    script.write_text(STUCK, encoding='utf-8')
+    with ros_sandbox(), running_program([sys.executable, str(script)]) as program:
+        program.wait_for_output('ready')
+        wait_until(
+            lambda: program.has_ended, pause=lambda: repeat(program),
+            message=lambda: f'the end of the node; it wrote: {program.output}')
+        assert_clean_exit(program.wait_for_exit())
+
+
+def test_refusal_is_one_sentence(tmp_path: Path) -> None:
+    """A node that cannot start says why, without a traceback, with status 1."""
+    assert run(tmp_path, REFUSING) == ExitReport(1, '', 'There is no robot. Build one.\n')
+
+
+def test_mistake_keeps_its_traceback(tmp_path: Path) -> None:
+    """A mistake in the code is not hidden."""
+    report = run(tmp_path, BROKEN)
+    assert report.status == 1 and 'RuntimeError: a mistake in the code' in report.stderr
+
+
+def test_bad_ros_arguments(tmp_path: Path) -> None:
+    """ROS arguments that cannot be used are named, without a traceback."""
+    report = run(tmp_path, BUSY, '--ros-args', '-p', 'no_value')
+    assert report.status == 1 and 'Traceback' not in report.stderr
+    assert 'no_value' in report.stderr and 'Correct what follows --ros-args' in report.stderr

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Report the first joint of a stream of joint states, now and then."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+
+class JointReporter:
+    """Makes a line of text of the first joint, at most once in a period."""
+
+    def __init__(self, period_s: float) -> None:
+        """Set the least time between two reports."""
+        self.period_s = period_s
+        self._last_s: float | None = None
+
+    def report(
+        self, names: Sequence[str], positions_rad: Sequence[float], now_s: float,
+    ) -> str | None:
+        """Return the line, or None when it is too early or there is nothing to report."""
+        if not names or not positions_rad or not self._is_due(now_s):
+            return None
+        self._last_s = now_s
+        return f'{names[0]}: {positions_rad[0]:.3f} rad'
+
+    def _is_due(self, now_s: float) -> bool:
+        """Tell whether a period has passed since the last report."""
+        return self._last_s is None or now_s - self._last_s >= self.period_s

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Joints that swing like sine waves."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+import math
+
+
+@dataclass(frozen=True)
+class Swing:
+    """
+    The motion of one joint: amplitude times the sine of a growing angle.
+
+    `turned_rad` is how far the angle has come at the time `since_s`; the phase is added to it.
+    """
+
+    joint: str
+    amplitude_rad: float
+    frequency_rad_s: float
+    phase_rad: float = 0.0
+    turned_rad: float = 0.0
+    since_s: float = 0.0
+
+    def position_rad(self, now_s: float) -> float:
+        """Return where the joint is to be."""
+        return self.amplitude_rad * math.sin(self._angle_rad(now_s))
+
+    def velocity_rad_s(self, now_s: float) -> float:
+        """Return the derivative of the position."""
+        return self.amplitude_rad * self.frequency_rad_s * math.cos(self._angle_rad(now_s))
+
+    def followed_by(self, successor: Swing, now_s: float) -> Swing:
+        """Hand over to a swing of another frequency without a jump of the angle."""
+        turned_rad = math.fmod(self._angle_rad(now_s) - self.phase_rad, math.tau)
+        return replace(successor, turned_rad=turned_rad, since_s=now_s)
+
+    def _angle_rad(self, now_s: float) -> float:
+        """Return the angle whose sine the joint follows."""
+        return self.frequency_rad_s * (now_s - self.since_s) + self.turned_rad + self.phase_rad
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The motion of several joints."""
+
+    swings: tuple[Swing, ...]
+
+    @property
+    def joints(self) -> list[str]:
+        """Return the names of the joints, in order."""
+        return [swing.joint for swing in self.swings]
+
+    def positions_rad(self, now_s: float) -> list[float]:
+        """Return where the joints are to be."""
+        return [swing.position_rad(now_s) for swing in self.swings]
+
+    def velocities_rad_s(self, now_s: float) -> list[float]:
+        """Return how fast the joints are to move."""
+        return [swing.velocity_rad_s(now_s) for swing in self.swings]
+
+    def followed_by(self, successor: Motion, now_s: float) -> Motion:
+        """Hand over to another motion; joints that are in both turn on without a jump."""
+        before = {swing.joint: swing for swing in self.swings}
+        return Motion(tuple(
+            before[swing.joint].followed_by(swing, now_s) if swing.joint in before else swing
+            for swing in successor.swings))
+
+
+def motion_of(
+    joints: Sequence[str], amplitudes_rad: Sequence[float],
+    frequencies_rad_s: Sequence[float], phases_rad: Sequence[float],
+) -> Motion:
+    """Build a motion from lists of equal length, one element a joint."""
+    return Motion(tuple(
+        Swing(*columns)
+        for columns in zip(joints, amplitudes_rad, frequencies_rad_s, phases_rad)))

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Install humanoid_description."""
+from __future__ import annotations
+
+from glob import glob
+
+from setuptools import setup
+
+package_name = 'humanoid_description'
+model_folders = ('urdf', 'urdf/common', 'urdf/limbs')
+
+setup(
+    name=package_name,
+    version='0.1.0',
+    packages=[],
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
+        ('share/' + package_name, ['package.xml']),
+        *((f'share/{package_name}/{folder}', glob(f'{folder}/*.xacro'))
+          for folder in model_folders),
+    ],
+    install_requires=['setuptools'],
+    extras_require={'test': ['pytest']},
+    zip_safe=True,
+    maintainer='Humanoid workspace maintainers',
+    maintainer_email='maintainers@humanoid-workspace.dev',
+    description='The model of the humanoid: one xacro macro a limb, and one file composing them',
+    license='Apache-2.0',
+)

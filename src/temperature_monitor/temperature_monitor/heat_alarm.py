@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tell when it is too hot, and when it is not any more."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+
+
+@dataclass(frozen=True)
+class Notice:
+    """A sentence about a reading."""
+
+    text: str
+    is_warning: bool
+
+
+class HeatAlarm:
+    """Warns of every reading above the threshold, and tells once when it is back to normal."""
+
+    def __init__(self, threshold_celsius: float) -> None:
+        """Set the threshold."""
+        self.threshold_celsius = threshold_celsius
+        self._is_hot = False
+
+    def judge(self, celsius: float) -> Notice | None:
+        """Return what there is to say about a reading, or None."""
+        if not math.isfinite(celsius):
+            return Notice(f'The thermometer reads {celsius}: is it broken?', is_warning=True)
+        was_hot, self._is_hot = self._is_hot, celsius > self.threshold_celsius
+        if self._is_hot:
+            return Notice(self._compare(celsius, 'above'), is_warning=True)
+        if was_hot:
+            return Notice(
+                'Back to normal: ' + self._compare(celsius, 'not above'), is_warning=False)
+        return None
+
+    def _compare(self, celsius: float, relation: str) -> str:
+        """Say how a reading relates to the threshold."""
+        return f'{celsius:.1f} °C is {relation} {self.threshold_celsius:.1f} °C'

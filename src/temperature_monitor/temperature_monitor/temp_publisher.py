@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Publish temperatures that are made up."""
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.qos import STATE
+from humanoid_common.running import run_node
+from humanoid_common.steady import SteadyTimer
+from rclpy.node import Node
+from sensor_msgs.msg import Temperature
+from temperature_monitor.settings import PublisherParameters
+from temperature_monitor.thermometer import generator_of
+
+
+class TempPublisher(Node):
+    """Publishes readings of a thermometer on the topic `temperature`."""
+
+    def __init__(self, **options: Any) -> None:
+        """Start to publish."""
+        super().__init__('temp_publisher', **options)
+        self._settings = NodeParameters(self, PublisherParameters, self._change)
+        parameters = self._settings.current
+        self._generator = generator_of(parameters.seed)
+        self._publisher = self.create_publisher(Temperature, 'temperature', STATE)
+        self._timer = SteadyTimer(self, parameters.rate_hz, self._publish)
+        self.get_logger().info(f'Publishing the temperature ({parameters.rate_hz:g} Hz)')
+
+    def _publish(self, now_s: float) -> None:
+        """Publish the next reading."""
+        thermometer = self._settings.current.thermometer
+        message = Temperature(
+            temperature=thermometer.read(self._generator),
+            variance=thermometer.variance_celsius2)
+        message.header.stamp = self.get_clock().now().to_msg()
+        message.header.frame_id = self._settings.current.frame_id
+        self._publisher.publish(message)
+
+    def _change(self, parameters: PublisherParameters) -> None:
+        """Follow a change of the rate; all else is looked up for each reading."""
+        self._timer.set_rate(parameters.rate_hz)
+
+
+def main() -> int:
+    """Run the node."""
+    return run_node(TempPublisher)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find the launch arguments that a description declares."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Dict, List, Tuple
+
+from .actions.declare_launch_argument import DeclareLaunchArgument
+from .actions.include_launch_description import IncludeLaunchDescription
+from .actions.reset_launch_configurations import ResetLaunchConfigurations
+from .launch_description_entity import LaunchDescriptionEntity
+
+Found = Dict[str, Tuple[DeclareLaunchArgument, List[IncludeLaunchDescription]]]
+
+
+def find_arguments(
+    entities: Iterable[LaunchDescriptionEntity], conditional: bool,
+) -> List[Tuple[DeclareLaunchArgument, List[IncludeLaunchDescription]]]:
+    """Return the first declaration of each name, with the includes that lead to it."""
+    found: Found = {}
+    _search(entities, conditional, [], found)
+    return list(found.values())
+
+
+def _search(
+    entities: Iterable[LaunchDescriptionEntity],
+    conditional: bool,
+    includes: List[IncludeLaunchDescription],
+    found: Found,
+) -> None:
+    """Search depth-first; behind a reset of the configurations nothing can be told."""
+    for entity in entities:
+        if isinstance(entity, ResetLaunchConfigurations):
+            return
+        if isinstance(entity, DeclareLaunchArgument):
+            _note(entity, conditional, includes, found)
+        else:
+            _descend(entity, includes, found)
+
+
+def _note(
+    argument: DeclareLaunchArgument,
+    conditional: bool,
+    includes: List[IncludeLaunchDescription],
+    found: Found,
+) -> None:
+    """Keep the declaration unless its name is known already."""
+    if argument.name not in found:
+        argument._conditionally_included = conditional or argument.condition is not None
+        found[argument.name] = (argument, includes)
+
+
+def _descend(
+    entity: LaunchDescriptionEntity, includes: List[IncludeLaunchDescription], found: Found,
+) -> None:
+    """Search what an entity brings in; only its direct children count as conditional."""
+    if isinstance(entity, IncludeLaunchDescription):
+        includes = [*includes, entity]
+    _search(entity.describe_sub_entities(), False, includes, found)
+    for _, children in entity.describe_conditional_sub_entities():
+        _search(children, True, includes, found)

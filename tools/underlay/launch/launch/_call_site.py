@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find the line of the launch file that created an action."""
+
+from __future__ import annotations
+
+import sys
+from typing import NamedTuple, Optional
+
+_OWN_PACKAGES = frozenset(('launch', 'launch_ros'))
+_COMMANDS = frozenset(('ros2cli', 'ros2launch'))
+
+
+class CallSite(NamedTuple):
+    """A line of a file."""
+
+    file_name: str
+    line: int
+
+    def __str__(self) -> str:
+        """Return the line as people write it."""
+        return f"'{self.file_name}', line {self.line}"
+
+
+def calling_line() -> Optional[CallSite]:
+    """Return the innermost line that is not of launch itself, None if a command called."""
+    frame = sys._getframe(1)
+    while frame is not None:
+        package = str(frame.f_globals.get('__name__', '')).partition('.')[0]
+        if package in _COMMANDS:
+            return None
+        if package not in _OWN_PACKAGES:
+            return CallSite(frame.f_code.co_filename, frame.f_lineno)
+        frame = frame.f_back  # type: ignore[assignment]
+    return None

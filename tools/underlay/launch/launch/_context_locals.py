@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The local variables of a launch context."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Dict, List
+
+
+class ContextLocals:
+    """Variables that last for the handling of one event, above variables that stay."""
+
+    def __init__(self) -> None:
+        """Create an empty set of variables."""
+        self._globals: Dict[str, Any] = {}
+        self._locals: Dict[str, Any] = {}
+        self._stack: List[Dict[str, Any]] = []
+        self.view = LocalsView(self)
+
+    def as_dict(self) -> Dict[str, Any]:
+        """Return a copy of all the variables."""
+        return {**self._globals, **self._locals}
+
+    def extend(self, extra: Mapping[str, Any]) -> None:
+        """Add variables that last until the next pop."""
+        self._locals.update(extra)
+
+    def extend_globals(self, extra: Mapping[str, Any]) -> None:
+        """Add variables that stay."""
+        self._globals.update(extra)
+
+    def push(self) -> None:
+        """Keep the variables for the next pop."""
+        self._stack.append(dict(self._locals))
+
+    def pop(self) -> None:
+        """Restore the variables of the last push."""
+        if not self._stack:
+            raise RuntimeError('cannot pop the locals: none have been pushed')
+        self._locals = self._stack.pop()
+
+
+class LocalsView:
+    """The variables as attributes, for reading."""
+
+    __slots__ = ('_owner',)
+
+    def __init__(self, owner: ContextLocals) -> None:
+        """Create a view of these variables."""
+        object.__setattr__(self, '_owner', owner)
+
+    def __getattr__(self, name: str) -> Any:
+        """Return a variable; an AttributeError lists those that there are."""
+        known = self._owner.as_dict()
+        if name in known:
+            return known[name]
+        names = ', '.join(f"'{each}'" for each in known) or 'none'
+        raise AttributeError(
+            f"context.locals has no attribute '{name}'; the available ones are: {names}")
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Refuse: variables are added by extend_locals()."""
+        raise AttributeError(
+            f"context.locals.{name} cannot be set; use context.extend_locals({{'{name}': ...}})")

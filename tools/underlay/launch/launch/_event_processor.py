@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Handle the events of a launch until nothing is left to do."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import threading
+from typing import Any, Dict, List, Optional, Set, Tuple, TYPE_CHECKING
+
+from ._failure_report import report_failure
+from .event_handler import BaseEventHandler
+from .events.shutdown import Shutdown
+from .launch_description_entity import LaunchDescriptionEntity
+from .logging import get_logger
+from .utilities.normalize_to_list_of_entities_impl import normalize_to_list_of_entities
+from .utilities.visit_all_entities_and_collect_futures_impl import visit_into
+
+if TYPE_CHECKING:
+    from .event import Event
+    from .launch_context import LaunchContext
+
+
+class EventProcessor:
+    """Takes one event after the other from the queue of a context."""
+
+    def __init__(self, context: LaunchContext, loop: asyncio.AbstractEventLoop) -> None:
+        """Create the processor of one run."""
+        self.return_code = 0
+        self._context = context
+        self._loop = loop
+        self._thread = threading.get_ident()
+        self._awake = asyncio.Event()
+        self._pending: Set[asyncio.Future[Any]] = set()
+        self._shutting_down = False
+        self._logger: logging.Logger = get_logger('launch')
+
+    def wake_up(self) -> None:
+        """Let the processor look at the queue; this may be called from any thread."""
+        if threading.get_ident() == self._thread:
+            self._awake.set()
+            return
+        try:
+            self._loop.call_soon_threadsafe(self._awake.set)
+        except RuntimeError:  # the loop is closed: nobody handles events any more
+            pass
+
+    async def run(self, *, shutdown_when_idle: bool) -> int:
+        """Handle events until the launch is shut down and all is done."""
+        while True:
+            self._track(self._context._completion_futures)
+            if self._context._event_queue:
+                self._handle(self._context._event_queue.popleft())
+                await asyncio.sleep(0)
+            elif self._pending or not (self._shutting_down or shutdown_when_idle):
+                await self._sleep()
+            elif self._shutting_down:
+                return self.return_code
+            else:
+                self._context.emit_event_sync(Shutdown(reason='idle'))
+
+    async def _sleep(self) -> None:
+        self._awake.clear()
+        if not self._context._event_queue:
+            await self._awake.wait()
+
+    def fail(self, error: BaseException) -> None:
+        """Report an error and shut the launch down, with 1 as its return code."""
+        self.return_code = 1
+        report_failure(self._logger, error)
+        if not self._context.is_shutdown:
+            self._context._set_is_shutdown(True)
+            self._context.emit_event_sync(Shutdown(reason=str(error)))
+
+    def on_loop_error(self, loop: asyncio.AbstractEventLoop, details: Dict[str, Any]) -> None:
+        """Report an error that a callback of the loop raised."""
+        self.fail(details.get('exception') or RuntimeError(details['message']))
+
+    # Events.
+
+    def _handle(self, event: Event) -> None:
+        """Run the handlers that match; a shutdown reaches all of them, come what may."""
+        is_shutdown = isinstance(event, Shutdown)
+        if is_shutdown:
+            self._shutting_down = True
+            self._context._set_is_shutdown(True)
+        for handler in tuple(self._context._event_handlers):
+            if not self._run_handler(handler, event) and not is_shutdown:
+                return
+
+    def _run_handler(self, handler: BaseEventHandler, event: Event) -> bool:
+        """Run a handler and visit what it returns; return whether that went well."""
+        futures: List[Tuple[LaunchDescriptionEntity, asyncio.Future[Any]]] = []
+        self._context._push_locals()
+        try:
+            if handler.matches(event):
+                for entity in normalize_to_list_of_entities(handler.handle(event, self._context)):
+                    visit_into(entity, self._context, futures)
+        except Exception as error:
+            self.fail(error)
+            return False
+        finally:
+            self._context._pop_locals()
+            self._track([future for _, future in futures])
+        return True
+
+    # Futures.
+
+    def _track(self, futures: List[asyncio.Future[Any]]) -> None:
+        """Wait for futures before the launch counts as idle."""
+        for future in futures:
+            if future not in self._pending:
+                self._pending.add(future)
+                future.add_done_callback(self._on_done)
+        futures.clear()
+
+    def _on_done(self, future: asyncio.Future[Any]) -> None:
+        self._pending.discard(future)
+        error: Optional[BaseException] = None if future.cancelled() else future.exception()
+        if error is not None:
+            self.fail(error)
+        self.wake_up()

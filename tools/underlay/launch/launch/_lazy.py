@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Import the public names of a package only when they are used."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from importlib import import_module
+import re
+import sys
+from typing import Any
+
+_WORD_BORDER = re.compile(r'(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])')
+
+
+def snake_case(name: str) -> str:
+    """Return the name of the module that holds a class of this name."""
+    return _WORD_BORDER.sub('_', name).lower()
+
+
+def lazy_exports(
+    package: str,
+    names: Iterable[str],
+    elsewhere: Mapping[str, str] | None = None,
+) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
+    """
+    Return the `__getattr__` and `__dir__` of a package (PEP 562).
+
+    Each name lies in the module of its snake_case name, unless `elsewhere` says otherwise;
+    there, an empty text marks a sub-package.
+    """
+    modules = {name: snake_case(name) for name in names}
+    modules.update(elsewhere or {})
+
+    def get(name: str) -> Any:
+        if name not in modules:
+            raise AttributeError(_unknown(package, name, modules))
+        if not modules[name]:
+            return import_module(f'{package}.{name}')
+        value = getattr(import_module(f'{package}.{modules[name]}'), name)
+        setattr(sys.modules[package], name, value)
+        return value
+
+    return get, lambda: sorted(modules)
+
+
+def _unknown(package: str, name: str, known: Iterable[str]) -> str:
+    """Say that a package lacks a name, and which known name comes closest."""
+    text = f"module '{package}' has no attribute '{name}'"
+    if name.startswith('_'):
+        return text
+    import difflib
+    close = difflib.get_close_matches(name, list(known), n=1)
+    return text + (f". Did you mean: '{close[0]}'?" if close else '')

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scopes of the environment of this process."""
+
+from __future__ import annotations
+
+import os
+from typing import Dict, List
+
+
+class EnvironmentScopes:
+    """Keeps copies of the environment and restores them."""
+
+    def __init__(self) -> None:
+        """Remember the environment of now for a reset."""
+        self._at_start = dict(os.environ)
+        self._stack: List[Dict[str, str]] = []
+
+    def push(self) -> None:
+        """Keep the environment for the next pop."""
+        self._stack.append(dict(os.environ))
+
+    def pop(self) -> None:
+        """Restore the environment of the last push."""
+        if not self._stack:
+            raise RuntimeError('cannot pop the environment: none has been pushed')
+        _restore(self._stack.pop())
+
+    def reset(self) -> None:
+        """Restore the environment of the start."""
+        _restore(self._at_start)
+
+
+def _restore(kept: Dict[str, str]) -> None:
+    """Make the environment equal to a copy, touching only what differs."""
+    for name in [name for name in os.environ if name not in kept]:
+        del os.environ[name]
+    for name, value in kept.items():
+        if os.environ.get(name) != value:
+            os.environ[name] = value

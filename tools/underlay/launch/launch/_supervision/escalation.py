@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""End a process, gently first."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+import logging
+import signal
+from typing import List
+
+
+class Escalation:
+    """Sends SIGINT, some time later SIGTERM, and at last SIGKILL."""
+
+    def __init__(
+        self,
+        *,
+        label: str,
+        logger: logging.Logger,
+        send: Callable[[signal.Signals], None],
+        sigterm_timeout: str,
+        sigkill_timeout: str,
+    ) -> None:
+        """Create the escalation of a process; the timeouts are texts of seconds."""
+        self._label = label
+        self._logger = logger
+        self._send = send
+        self._sigterm_timeout = sigterm_timeout
+        self._sigterm_s = _seconds('sigterm_timeout', sigterm_timeout)
+        self._sigkill_s = self._sigterm_s + _seconds('sigkill_timeout', sigkill_timeout)
+        self._timers: List[asyncio.TimerHandle] = []
+
+    def begin(self, loop: asyncio.AbstractEventLoop) -> None:
+        """Send SIGINT now and plan the rest."""
+        self.send_logged(signal.SIGINT)
+        self._timers = [
+            loop.call_later(self._sigterm_s, self._step, self._sigterm_timeout, signal.SIGINT,
+                            signal.SIGTERM),
+            loop.call_later(self._sigkill_s, self._step, self._sigkill_s, signal.SIGTERM,
+                            signal.SIGKILL),
+        ]
+
+    def cancel(self) -> None:
+        """Send nothing more, because the process has ended."""
+        for timer in self._timers:
+            timer.cancel()
+
+    def send_logged(self, number: signal.Signals) -> None:
+        """Send a signal and say so."""
+        self._logger.info("sending signal '%s' to process[%s]", number.name, self._label)
+        self._send(number)
+
+    def _step(self, waited: object, last: signal.Signals, following: signal.Signals) -> None:
+        self._logger.error(
+            "process[%s] failed to terminate '%s' seconds after receiving '%s', escalating to "
+            "'%s'", self._label, waited, last.name, following.name)
+        self.send_logged(following)
+
+
+def _seconds(name: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise ValueError(
+            f"the {name} of a process must be a number of seconds, but it is '{text}'") from None

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Notice at once that a child process has ended."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import subprocess
+import threading
+
+
+def watch_exit(
+    child: subprocess.Popen[bytes], loop: asyncio.AbstractEventLoop,
+) -> asyncio.Future[int]:
+    """Return a future of the return code of a child process."""
+    future: asyncio.Future[int] = loop.create_future()
+    try:
+        descriptor = os.pidfd_open(child.pid)
+    except (AttributeError, OSError):
+        _watch_in_thread(child, loop, future)
+    else:
+        loop.add_reader(descriptor, _reap, child, loop, future, descriptor)
+    return future
+
+
+def _reap(
+    child: subprocess.Popen[bytes],
+    loop: asyncio.AbstractEventLoop,
+    future: asyncio.Future[int],
+    descriptor: int,
+) -> None:
+    loop.remove_reader(descriptor)
+    os.close(descriptor)
+    _finish(future, child.wait())
+
+
+def _watch_in_thread(
+    child: subprocess.Popen[bytes],
+    loop: asyncio.AbstractEventLoop,
+    future: asyncio.Future[int],
+) -> None:
+    """Wait in a thread, where the system cannot tell the event loop of a child's end."""
+    def wait() -> None:
+        code = child.wait()
+        try:
+            loop.call_soon_threadsafe(_finish, future, code)
+        except RuntimeError:  # the loop is closed: nobody waits any more
+            pass
+    threading.Thread(target=wait, name=f'wait for {child.pid}', daemon=True).start()
+
+
+def _finish(future: asyncio.Future[int], code: int) -> None:
+    if not future.done():
+        future.set_result(code)

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cut a stream of bytes into lines of text."""
+
+from __future__ import annotations
+
+from typing import List
+
+
+class LineSplitter:
+    """Collects bytes and returns the lines that are complete."""
+
+    def __init__(self) -> None:
+        """Create an empty splitter."""
+        self._pieces: List[bytes] = []
+
+    def feed(self, data: bytes) -> List[str]:
+        """Return the lines that are complete with these bytes."""
+        if b'\n' not in data:
+            self._pieces.append(data)
+            return []
+        *lines, rest = b''.join([*self._pieces, data]).split(b'\n')
+        self._pieces = [rest] if rest else []
+        return [_decode(line) for line in lines]
+
+    def flush(self) -> List[str]:
+        """Return what stands behind the last line break, as a line if there is something."""
+        rest = b''.join(self._pieces)
+        self._pieces = []
+        return [_decode(rest)] if rest else []
+
+
+def _decode(line: bytes) -> str:
+    """Return a line as text; a pseudo terminal adds a carriage return at its end."""
+    return line.decode('utf-8', 'replace').rstrip('\r')

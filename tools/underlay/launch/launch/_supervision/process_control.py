@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""React to the events that are meant for a process."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..event import Event
+from ..event_handler import BaseEventHandler
+from ..events.process.process_stdin import ProcessStdin
+from ..events.process.process_targeted_event import ProcessTargetedEvent
+from ..events.process.signal_process import SignalProcess
+from ..events.shutdown import Shutdown
+
+if TYPE_CHECKING:
+    from .supervisor import Supervisor
+    from ..actions.execute_local import ExecuteLocal
+    from ..launch_context import LaunchContext
+
+
+class ProcessControl(BaseEventHandler):
+    """Hands the events that are meant for a process to its supervisor."""
+
+    def __init__(self, action: ExecuteLocal, supervisor: Supervisor) -> None:
+        """Create the handler of one process."""
+        super().__init__(matcher=self._is_meant)
+        self._action = action
+        self._supervisor = supervisor
+
+    def _is_meant(self, event: Event) -> bool:
+        if isinstance(event, ProcessTargetedEvent):
+            return event.process_matcher(self._action)
+        if isinstance(event, ProcessStdin):
+            return event.action is self._action
+        return isinstance(event, Shutdown)
+
+    def handle(self, event: Event, context: LaunchContext) -> None:
+        """End the process, send it a signal, or write to it."""
+        super().handle(event, context)
+        if isinstance(event, SignalProcess):
+            self._supervisor.send_signal(event.signal)
+        elif isinstance(event, ProcessStdin):
+            self._supervisor.write(event.text)
+        else:
+            self._supervisor.stop()

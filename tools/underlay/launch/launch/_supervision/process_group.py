@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Groups of processes: a process and what it has started."""
+
+from __future__ import annotations
+
+import os
+import signal
+from typing import List
+
+_TO_THE_GROUP = frozenset((
+    signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGKILL, signal.SIGSTOP,
+    signal.SIGCONT))
+
+
+def send_signal(pid: int, number: signal.Signals) -> None:
+    """
+    Send a signal to a process that leads its group.
+
+    Signals that end, stop or continue go to the whole group, because the process may be a
+    wrapper around what is meant; others would surprise whoever does not expect them.
+    """
+    try:
+        if number in _TO_THE_GROUP:
+            os.killpg(pid, number)
+        else:
+            os.kill(pid, number)
+    except (ProcessLookupError, PermissionError):
+        pass  # it has ended, or it has become another user's
+
+
+def is_empty(group: int) -> bool:
+    """Return whether no process of the group is left, apart from dead ones."""
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return True
+    except PermissionError:
+        return False
+    return not living_members(group)
+
+
+def living_members(group: int) -> List[int]:
+    """Return the ids of the processes of a group that are not dead."""
+    pids = [int(name) for name in os.listdir('/proc') if name.isdigit()]
+    return [pid for pid in pids if _is_living_member(pid, group)]
+
+
+def _is_living_member(pid: int, group: int) -> bool:
+    try:
+        with open(f'/proc/{pid}/stat', 'rb') as file:
+            fields = file.read().rpartition(b')')[2].split()
+    except OSError:
+        return False
+    return int(fields[2]) == group and fields[0] not in (b'Z', b'X')

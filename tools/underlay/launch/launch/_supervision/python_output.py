@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tell which commands run Python, whose output is late unless it is unbuffered."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import os
+import shutil
+
+
+def runs_python(command: Sequence[str], *, shell: bool) -> bool:
+    """Return whether one of the words is a Python interpreter, or a script for one."""
+    words = ' '.join(command).split() if shell else command
+    return any(_is_python(word) for word in words if word and not word.startswith('-'))
+
+
+def _is_python(word: str) -> bool:
+    if os.path.basename(word).startswith('python'):
+        return True
+    path = word if '/' in word else shutil.which(word)
+    return path is not None and b'python' in _interpreter(path)
+
+
+def _interpreter(path: str) -> bytes:
+    """Return the first line of a script, empty for anything else."""
+    try:
+        if not os.path.isfile(path):
+            return b''
+        with open(path, 'rb') as file:
+            head = file.read(256)
+    except (OSError, ValueError):
+        return b''
+    return head.partition(b'\n')[0] if head.startswith(b'#!') else b''

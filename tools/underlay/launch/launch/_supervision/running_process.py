@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A process that was started, with its streams."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+import os
+import signal
+import subprocess
+from typing import Optional, Tuple
+
+from .exit_watch import watch_exit
+from .output_stream import OutputStream
+from .process_group import send_signal
+
+OnOutput = Callable[[int, bytes], None]
+
+
+class RunningProcess:
+    """A process in a session and a group of its own."""
+
+    def __init__(
+        self,
+        command: Sequence[str],
+        *,
+        cwd: Optional[str],
+        env: Optional[Mapping[str, str]],
+        shell: bool,
+        emulate_tty: bool,
+        loop: asyncio.AbstractEventLoop,
+        on_output: OnOutput,
+    ) -> None:
+        """Start a process; what it writes goes to `on_output` with the stream, 1 or 2."""
+        readers, writers = zip(*[_channel(emulate_tty) for _ in range(2)])
+        try:
+            self._child: subprocess.Popen[bytes] = subprocess.Popen(
+                ' '.join(command) if shell else list(command), shell=shell, cwd=cwd, env=env,
+                stdin=subprocess.PIPE, stdout=writers[0], stderr=writers[1], bufsize=0,
+                start_new_session=True)
+        except BaseException:
+            _close(readers)
+            raise
+        finally:
+            _close(writers)
+        self._streams = [
+            OutputStream(loop, reader, partial(on_output, number))
+            for number, reader in zip((1, 2), readers)]
+        self.exited = watch_exit(self._child, loop)
+
+    @property
+    def pid(self) -> int:
+        """Return the id of the process, which is also that of its group."""
+        return self._child.pid
+
+    def send_signal(self, number: signal.Signals) -> None:
+        """Send a signal while the process runs."""
+        if not self.exited.done():
+            send_signal(self.pid, number)
+
+    def write(self, data: bytes) -> None:
+        """Write to the standard input of the process, if it still reads."""
+        try:
+            os.write(self._child.stdin.fileno(), data)  # type: ignore[union-attr]
+        except OSError:
+            pass
+
+    def drain(self) -> None:
+        """Read what the process has written so far."""
+        for stream in self._streams:
+            stream.drain()
+
+    def close(self) -> None:
+        """Close the streams."""
+        for stream in self._streams:
+            stream.close()
+        if self._child.stdin is not None:
+            self._child.stdin.close()
+
+    def kill_at_once(self) -> None:
+        """Kill the group and wait for the end of the process."""
+        send_signal(self.pid, signal.SIGKILL)
+        self._child.wait()
+        self.close()
+
+
+def _channel(emulate_tty: bool) -> Tuple[int, int]:
+    """Return the end to read from and the end to write to."""
+    return os.openpty() if emulate_tty else os.pipe()
+
+
+def _close(descriptors: Sequence[int]) -> None:
+    for descriptor in descriptors:
+        os.close(descriptor)

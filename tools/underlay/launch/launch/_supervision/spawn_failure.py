@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say why a process could not be started."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import os
+from typing import Any
+
+
+def explain_spawn_failure(details: Mapping[str, Any], error: Exception) -> str:
+    """Return a sentence about the process and what to do."""
+    return f'exception occurred while executing process: {_reason(details, error)}'
+
+
+def _reason(details: Mapping[str, Any], error: Exception) -> str:
+    cwd, program = details['cwd'], details['cmd'][0]
+    if cwd is not None and not os.path.isdir(cwd):
+        return f"the folder '{cwd}', in which '{program}' was to be started, does not exist"
+    if isinstance(error, FileNotFoundError):
+        return _not_found(program)
+    if isinstance(error, PermissionError):
+        return f"'{program}' may not be executed; 'chmod +x' makes it executable"
+    return f"'{program}' cannot be started: {error}"
+
+
+def _not_found(program: str) -> str:
+    if not os.path.exists(program):
+        where = 'does not exist' if '/' in program else 'was not found on the PATH'
+        return f"the program '{program}' {where}"
+    return f"'{program}' exists, but the interpreter that its first line names does not"

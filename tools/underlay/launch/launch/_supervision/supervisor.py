@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Watch over the process of an action, from its start to its end."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import signal
+from typing import Any, Dict, Optional, TYPE_CHECKING
+
+from .escalation import Escalation
+from .leftovers import end_leftovers
+from .process_options import ProcessOptions
+from .process_output import ProcessOutput
+from .running_process import RunningProcess
+from .spawn_failure import explain_spawn_failure
+from ..events.process.process_exited import ProcessExited
+from ..events.process.process_started import ProcessStarted
+from ..events.process.process_stderr import ProcessStderr
+from ..events.process.process_stdout import ProcessStdout
+from ..logging import get_logger
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..actions.execute_local import ExecuteLocal
+    from ..launch_context import LaunchContext
+
+
+class Supervisor:
+    """Starts a process, reports on it, starts it again if wanted, and ends it on shutdown."""
+
+    def __init__(
+        self,
+        action: ExecuteLocal,
+        options: ProcessOptions,
+        context: LaunchContext,
+        loop: asyncio.AbstractEventLoop,
+    ) -> None:
+        """Create the supervisor of an action that is prepared."""
+        self._action = action
+        self._options = options
+        self._context = context
+        self._loop = loop
+        self._details: Dict[str, Any] = action.description_of_process()
+        self._label: str = self._details['name']
+        self._logger: logging.Logger = get_logger(self._label)
+        self.output = ProcessOutput(
+            self._label, options.where_output_goes(context), action.format_line,
+            keep=options.cached_output)
+        self.return_code: Optional[int] = None
+        self._process: Optional[RunningProcess] = None
+        self._escalation: Optional[Escalation] = None
+        self._stopped = loop.create_future()
+        self.task = loop.create_task(self._supervise())
+
+    @property
+    def details(self) -> Dict[str, Any]:
+        """Return the facts about the process; `pid` is there when it was started."""
+        return self._details
+
+    # What others may ask for.
+
+    def stop(self) -> None:
+        """End the process, and do not start it again."""
+        if not self._stopped.done():
+            self._stopped.set_result(None)
+        if self._process is not None and self._escalation is None:
+            self._begin_escalation()
+
+    def send_signal(self, number: signal.Signals) -> None:
+        """Send a signal to the process."""
+        if self._process is None:
+            raise RuntimeError(
+                f"the signal '{number.name}' cannot be sent to process[{self._label}], which is "
+                'not running')
+        self._logger.info("sending signal '%s' to process[%s]", number.name, self._label)
+        self._process.send_signal(number)
+
+    def write(self, data: bytes) -> None:
+        """Write to the standard input of the process."""
+        if self._process is not None:
+            self._process.write(data)
+
+    # The life of the process.
+
+    async def _supervise(self) -> None:
+        respawned = 0
+        while not self._context.is_shutdown and not self._stopped.done():
+            if not await self._run_once():
+                return
+            if not self._options.may_respawn(self._context, respawned):
+                return
+            respawned += 1
+            await self._wait_before_respawn()
+
+    async def _wait_before_respawn(self) -> None:
+        delay = self._options.respawn_delay
+        if delay and not self._stopped.done():
+            await asyncio.wait([self._stopped], timeout=delay)
+
+    async def _run_once(self) -> bool:
+        """Run the process to its end; return whether it could be started."""
+        process = self._start()
+        if process is None:
+            return False
+        self._process = process
+        try:
+            self._report_start(process)
+            self.return_code = await process.exited
+            self._report_end(process)
+            await end_leftovers(process.pid, was_interrupted=self._escalation is not None)
+            process.drain()
+            self.output.flush()
+        finally:
+            self._forget(process)
+        return True
+
+    def _start(self) -> Optional[RunningProcess]:
+        details = self._details
+        try:
+            process = RunningProcess(
+                details['cmd'], cwd=details['cwd'], env=details['env'],
+                shell=self._options.shell, emulate_tty=self._options.wants_tty(self._context),
+                loop=self._loop, on_output=self._on_output)
+        except (OSError, ValueError) as error:
+            self._logger.error('%s', explain_spawn_failure(details, error))
+            self._logger.debug('the traceback of it', exc_info=True)
+            return None
+        if self._context._processes is not None:
+            self._context._processes.add(process)
+        return process
+
+    def _report_start(self, process: RunningProcess) -> None:
+        self._details['pid'] = process.pid
+        if self._options.log_cmd:
+            self._logger.info(
+                "process details: cmd='%s', cwd='%s', custom_env?=%s", self._command_line(),
+                self._details['cwd'], self._details['env'] is not None)
+        self._logger.info('process started with pid [%s]', process.pid)
+        self._context.emit_event_sync(ProcessStarted(**self._event_details()))
+        if self._stopped.done():
+            self._begin_escalation()
+
+    def _report_end(self, process: RunningProcess) -> None:
+        if self._escalation is not None:
+            self._escalation.cancel()
+        process.drain()
+        self.output.flush()
+        if self.return_code == 0:
+            self._logger.info('process has finished cleanly [pid %s]', process.pid)
+        else:
+            self._logger.error(
+                "process has died [pid %s, exit code %s, cmd '%s'].", process.pid,
+                self.return_code, self._command_line())
+        self._context.emit_event_sync(
+            ProcessExited(returncode=self.return_code or 0, **self._event_details()))
+
+    def _forget(self, process: RunningProcess) -> None:
+        """Let go of a process that has ended; one that has not is left to the registry."""
+        self._process = None
+        if process.exited.done():
+            process.close()
+            if self._context._processes is not None:
+                self._context._processes.remove(process)
+
+    def _on_output(self, stream: int, data: bytes) -> None:
+        self.output.feed(stream, data)
+        event_class = ProcessStdout if stream == 1 else ProcessStderr
+        event = event_class(text=data, **self._event_details())
+        if self._context.would_handle_event(event):
+            self._context.emit_event_sync(event)
+
+    def _begin_escalation(self) -> None:
+        process = self._process
+        if process is None:
+            return
+        self._escalation = Escalation(
+            label=self._label, logger=self._logger, send=process.send_signal,
+            sigterm_timeout=perform_substitutions(self._context, self._options.sigterm_timeout),
+            sigkill_timeout=perform_substitutions(self._context, self._options.sigkill_timeout))
+        self._escalation.begin(self._loop)
+
+    def _command_line(self) -> str:
+        return ' '.join(self._details['cmd'])
+
+    def _event_details(self) -> Dict[str, Any]:
+        return {'action': self._action, 'pid': self._process.pid if self._process else 0,
+                **{key: self._details[key] for key in ('name', 'cmd', 'cwd', 'env')}}

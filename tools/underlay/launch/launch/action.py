@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The base class of all actions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import List, Optional, Tuple, TYPE_CHECKING
+
+from ._call_site import calling_line, CallSite
+from .launch_description_entity import LaunchDescriptionEntity
+
+if TYPE_CHECKING:
+    from .condition import Condition
+    from .launch_context import LaunchContext
+
+
+class Action(LaunchDescriptionEntity):
+    """Something to do, at once or when an event happens, perhaps under a condition."""
+
+    call_site: Optional[CallSite] = None
+
+    def __init__(self, *, condition: Optional[Condition] = None) -> None:
+        """Create an action that is executed if `condition` is None or fulfilled."""
+        self.__condition = condition
+        self.call_site = calling_line()
+
+    @property
+    def condition(self) -> Optional[Condition]:
+        """Return the condition, or None if the action is always executed."""
+        return self.__condition
+
+    def get_sub_entities(self) -> List[LaunchDescriptionEntity]:
+        """Return the entities that executing this action brings in; subclasses override this."""
+        return []
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return f'Action({self!r})'
+
+    def describe_sub_entities(self) -> List[LaunchDescriptionEntity]:
+        """Return the entities that are visited with this one in any case."""
+        return self.get_sub_entities() if self.__condition is None else []
+
+    def describe_conditional_sub_entities(
+        self,
+    ) -> List[Tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """Return the entities that are visited if the condition is fulfilled."""
+        if self.__condition is None:
+            return []
+        return [(f'Conditionally included by {self.describe()}', self.get_sub_entities())]
+
+    def visit(self, context: LaunchContext) -> Optional[Iterable[LaunchDescriptionEntity]]:
+        """Execute the action if its condition allows it."""
+        if self.__condition is not None and not self.__condition.evaluate(context):
+            return None
+        try:
+            return self.execute(context)
+        finally:
+            self._announce_completion(context)
+
+    def _announce_completion(self, context: LaunchContext) -> None:
+        """Emit an event at the end of the execution if anyone waits for it by now."""
+        from .events.execution_complete import ExecutionComplete
+        event = ExecutionComplete(action=self)
+        if not context.would_handle_event(event):
+            return
+        future = self.get_asyncio_future()
+        if future is None:
+            context.emit_event_sync(event)
+        else:
+            future.add_done_callback(lambda _: context.emit_event_sync(event))
+
+    def execute(self, context: LaunchContext) -> Optional[Iterable[LaunchDescriptionEntity]]:
+        """Do it; the entities returned are visited next. Subclasses override this."""
+        raise NotImplementedError(
+            f"the action class '{type(self).__name__}' does not define execute(context)")

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that adds to an environment variable."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, List, TYPE_CHECKING, Union
+
+from ..action import Action
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+from ..utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class AppendEnvironmentVariable(Action):
+    """Adds a value to an environment variable, behind or before what it has."""
+
+    def __init__(
+        self,
+        name: SomeSubstitutionsType,
+        value: SomeSubstitutionsType,
+        prepend: Union[bool, SomeSubstitutionsType] = False,
+        separator: SomeSubstitutionsType = os.pathsep,
+        **kwargs: Any,
+    ) -> None:
+        """Create the action."""
+        super().__init__(**kwargs)
+        self.__name = normalize_to_list_of_substitutions(name)
+        self.__value = normalize_to_list_of_substitutions(value)
+        self.__prepend = normalize_typed_substitution(prepend, bool)
+        self.__separator = normalize_to_list_of_substitutions(separator)
+
+    @property
+    def name(self) -> List[Substitution]:
+        """Return the parts of the name."""
+        return self.__name
+
+    @property
+    def value(self) -> List[Substitution]:
+        """Return the parts of the value."""
+        return self.__value
+
+    @property
+    def separator(self) -> List[Substitution]:
+        """Return the parts of the separator."""
+        return self.__separator
+
+    def execute(self, context: LaunchContext) -> None:
+        """Add the value; a variable that is not set becomes the value alone."""
+        name = perform_substitutions(context, self.__name)
+        values = [perform_substitutions(context, self.__value)]
+        if name in context.environment:
+            before = perform_typed_substitution(context, self.__prepend, bool)
+            values.insert(len(values) if before else 0, context.environment[name])
+        separator = perform_substitutions(context, self.__separator)
+        context.environment[name] = separator.join(values)

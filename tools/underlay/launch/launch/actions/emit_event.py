@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that emits an event."""
+
+from __future__ import annotations
+
+from typing import Any, TYPE_CHECKING
+
+from ..action import Action
+from ..event import Event
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class EmitEvent(Action):
+    """Emits an event, which is handled when all that is being visited is done."""
+
+    def __init__(self, *, event: Event, **kwargs: Any) -> None:
+        """Create the action."""
+        super().__init__(**kwargs)
+        if not isinstance(event, Event):
+            raise RuntimeError(
+                f"EmitEvent expected an event, but got '{event!r}' of type "
+                f"'{type(event).__name__}'")
+        self.__event = event
+
+    @property
+    def event(self) -> Event:
+        """Return the event."""
+        return self.__event
+
+    def execute(self, context: LaunchContext) -> None:
+        """Emit it."""
+        context.emit_event_sync(self.__event)

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that runs a process on this machine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+import os
+from typing import Any, Dict, List, Optional, TYPE_CHECKING, Union
+
+from ..action import Action
+from ..descriptions.executable import Executable
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitutions.launch_configuration import LaunchConfiguration
+from ..utilities.type_utils import normalize_typed_substitution
+
+if TYPE_CHECKING:
+    import asyncio
+
+    from .._supervision.supervisor import Supervisor
+    from ..launch_context import LaunchContext
+
+OnExit = Union[
+    LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity], Callable[..., Any]]
+Output = Union[SomeSubstitutionsType, Dict[str, Any]]
+
+_OVERRIDE_OUTPUT = 'OVERRIDE_LAUNCH_PROCESS_OUTPUT'
+
+
+class ExecuteLocal(Action):
+    """Runs the program that a description stands for, and watches over it."""
+
+    def __init__(
+        self,
+        *,
+        process_description: Executable,
+        shell: bool = False,
+        sigterm_timeout: Union[float, SomeSubstitutionsType] = LaunchConfiguration(
+            'sigterm_timeout', default=5),
+        sigkill_timeout: Union[float, SomeSubstitutionsType] = LaunchConfiguration(
+            'sigkill_timeout', default=5),
+        emulate_tty: bool = False,
+        output: Output = 'log',
+        output_format: str = '[{this.process_description.final_name}] {line}',
+        cached_output: bool = False,
+        log_cmd: bool = False,
+        on_exit: Optional[OnExit] = None,
+        respawn: Union[bool, SomeSubstitutionsType] = False,
+        respawn_delay: Optional[float] = None,
+        respawn_max_retries: int = -1,
+        **kwargs: Any,
+    ) -> None:
+        """
+        Create the action.
+
+        :param process_description: what is executed
+        :param shell: whether a shell reads the command line
+        :param sigterm_timeout: the seconds from SIGINT to SIGTERM when the process is to end
+        :param sigkill_timeout: the seconds from then to SIGKILL
+        :param emulate_tty: whether the output is a terminal for the process
+        :param output: where the output goes: screen, log, both, own_log, full, or a dictionary
+        :param output_format: how a line of the output looks
+        :param cached_output: whether the output is kept for get_stdout() and get_stderr()
+        :param log_cmd: whether the command line is logged
+        :param on_exit: what is visited, or called, when the process has ended
+        :param respawn: whether the process is started again when it has ended
+        :param respawn_delay: the seconds before that
+        :param respawn_max_retries: how many times at most; negative stands for always
+        """
+        super().__init__(**kwargs)
+        from .._supervision.process_options import (
+            output_substitutions,
+            ProcessOptions,
+            timeout_substitutions,
+        )
+        self.__process_description = process_description
+        self.__options = ProcessOptions(
+            shell=shell, emulate_tty=emulate_tty, cached_output=cached_output, log_cmd=log_cmd,
+            output=output_substitutions(os.environ.get(_OVERRIDE_OUTPUT) or output),
+            output_format=output_format,
+            sigterm_timeout=timeout_substitutions(sigterm_timeout),
+            sigkill_timeout=timeout_substitutions(sigkill_timeout),
+            respawn=normalize_typed_substitution(respawn, bool), respawn_delay=respawn_delay,
+            respawn_max_retries=respawn_max_retries)
+        self.__on_exit = on_exit
+        self.__executed = False
+        self.__supervisor: Optional[Supervisor] = None
+
+    # What the action is about.
+
+    @property
+    def process_description(self) -> Executable:
+        """Return the description of what is executed."""
+        return self.__process_description
+
+    @property
+    def shell(self) -> bool:
+        """Return whether a shell reads the command line."""
+        return self.__options.shell
+
+    @property
+    def emulate_tty(self) -> bool:
+        """Return whether the output is a terminal for the process."""
+        return self.__options.emulate_tty
+
+    @property
+    def output(self) -> Any:
+        """Return where the output goes."""
+        return self.__options.output
+
+    @property
+    def name(self) -> Any:
+        """Return the label once it is known, and before the parts of the name."""
+        return self.__process_description.final_name or self.__process_description.name
+
+    @property
+    def cmd(self) -> Any:
+        """Return the command line once it is known, and before the parts of its words."""
+        return self.__process_description.final_cmd or self.__process_description.cmd
+
+    @property
+    def cwd(self) -> Any:
+        """Return the folder once it is known, and before its parts."""
+        return self.__process_description.final_cwd or self.__process_description.cwd
+
+    @property
+    def env(self) -> Any:
+        """Return the environment once it is known, and before its parts."""
+        return self.__process_description.final_env or self.__process_description.env
+
+    # What became of it.
+
+    @property
+    def process_details(self) -> Optional[Dict[str, Any]]:
+        """Return name, cmd, cwd, env and pid of the process, None before it was executed."""
+        return self.__supervisor.details if self.__supervisor is not None else None
+
+    @property
+    def return_code(self) -> Optional[int]:
+        """Return how the process ended, None before that."""
+        return self.__supervisor.return_code if self.__supervisor is not None else None
+
+    def get_stdout(self) -> str:
+        """Return what the process has written to its standard output, if it is kept."""
+        return self._kept_output(1)
+
+    def get_stderr(self) -> str:
+        """Return what the process has written to its standard error, if it is kept."""
+        return self._kept_output(2)
+
+    def _kept_output(self, stream: int) -> str:
+        if not self.__options.cached_output:
+            raise RuntimeError(
+                f'the output of {self!r} was not kept: create the action with cached_output=True')
+        return '' if self.__supervisor is None else self.__supervisor.output.kept(stream)
+
+    # What it does.
+
+    def format_line(self, line: str) -> str:
+        """Return a line of the output as it is logged."""
+        return self.__options.output_format.format(line=line, this=self)
+
+    def description_of_process(self) -> Dict[str, Any]:
+        """Return the final name, cmd, cwd and env."""
+        description = self.__process_description
+        return {'name': description.final_name, 'cmd': description.final_cmd,
+                'cwd': description.final_cwd, 'env': description.final_env}
+
+    def prepare(self, context: LaunchContext) -> None:
+        """Find out the final form of the description."""
+        self.__process_description.prepare(context, self, shell=self.__options.shell)
+
+    def get_sub_entities(self) -> List[LaunchDescriptionEntity]:
+        """Return the entities that are visited when the process has ended."""
+        if isinstance(self.__on_exit, LaunchDescriptionEntity):
+            return [self.__on_exit]
+        if self.__on_exit is None or callable(self.__on_exit):
+            return []
+        return list(self.__on_exit)
+
+    def execute(self, context: LaunchContext) -> Optional[List[LaunchDescriptionEntity]]:
+        """Start the process as soon as all that is being visited is done."""
+        if self.__executed:
+            raise RuntimeError(
+                f"ExecuteProcess action '{self.name}': executed more than once: {self!r}; a "
+                'process that is to run again needs an action of its own, or respawn=True')
+        self.prepare(context)
+        self.__executed = True
+        if not context.is_shutdown:
+            self._begin_supervision(context)
+        return None
+
+    def _begin_supervision(self, context: LaunchContext) -> None:
+        from .._supervision.process_control import ProcessControl
+        from .._supervision.supervisor import Supervisor
+        loop = context.asyncio_loop
+        if loop is None:
+            raise RuntimeError(f"the process '{self.name}' can only be started by a running launch")
+        self.__supervisor = Supervisor(self, self.__options, context, loop)
+        context.register_event_handler(ProcessControl(self, self.__supervisor))
+        if self.__on_exit is not None:
+            from ..event_handlers.on_process_exit import OnProcessExit
+            context.register_event_handler(
+                OnProcessExit(target_action=self, on_exit=self.__on_exit))
+
+    def get_asyncio_future(self) -> Optional[asyncio.Future[None]]:
+        """Return a future that is done when the process has ended for good."""
+        return None if self.__supervisor is None else self.__supervisor.task

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that includes a launch file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import os
+from typing import Any, List, Optional, Tuple, TYPE_CHECKING, Union
+
+from ._include_location import enter_launch_file, LeaveLaunchFile
+from .set_launch_configuration import SetLaunchConfiguration
+from ..action import Action
+from ..launch_description import LaunchDescription
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..launch_description_source import LaunchDescriptionSource
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+Arguments = Iterable[Tuple[SomeSubstitutionsType, SomeSubstitutionsType]]
+
+
+class IncludeLaunchDescription(Action):
+    """Visits the launch description of a file, with some launch arguments."""
+
+    def __init__(
+        self,
+        launch_description_source: Union[LaunchDescriptionSource, SomeSubstitutionsType],
+        *,
+        launch_arguments: Optional[Arguments] = None,
+        **kwargs: Any,
+    ) -> None:
+        """Create the action; a source that is only a path is read in any format."""
+        super().__init__(**kwargs)
+        if not isinstance(launch_description_source, LaunchDescriptionSource):
+            from ..launch_description_sources.any_launch_description_source import (
+                AnyLaunchDescriptionSource,
+            )
+            launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
+        self.__source = launch_description_source
+        self.__launch_arguments = () if launch_arguments is None else tuple(launch_arguments)
+
+    @property
+    def launch_description_source(self) -> LaunchDescriptionSource:
+        """Return the source."""
+        return self.__source
+
+    @property
+    def launch_arguments(
+        self,
+    ) -> Tuple[Tuple[SomeSubstitutionsType, SomeSubstitutionsType], ...]:
+        """Return the launch arguments."""
+        return self.__launch_arguments
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return f'IncludeLaunchDescription({self.__source.location})'
+
+    def get_sub_entities(self) -> List[LaunchDescriptionEntity]:
+        """Return the launch description if it can be loaded without a context."""
+        description = self.__source.try_get_launch_description_without_context()
+        return [] if description is None else [description]
+
+    def execute(self, context: LaunchContext) -> List[LaunchDescriptionEntity]:
+        """Load the file and return its description, with the arguments before it."""
+        description = self.__source.get_launch_description(context)
+        leave = enter_launch_file(context, os.path.abspath(self.__source.location))
+        self._check_required(description, context)
+        arguments = [SetLaunchConfiguration(name, value)
+                     for name, value in self.__launch_arguments]
+        return [*arguments, description, LeaveLaunchFile(leave)]
+
+    def given_names(self, context: Optional[LaunchContext] = None) -> List[str]:
+        """Return the names of the launch arguments that are given here."""
+        return [_text(name, context) for name, _ in self.__launch_arguments]
+
+    def _check_required(self, description: LaunchDescription, context: LaunchContext) -> None:
+        """Raise an error if an argument is neither given nor has a default."""
+        given = self.given_names(context)
+        found = description.get_launch_arguments_with_include_launch_description_actions()
+        for argument, includes in found:
+            if argument._conditionally_included or argument.default_value is not None:
+                continue
+            names = [*given, *(name for each in includes for name in each.given_names())]
+            if argument.name not in names:
+                raise RuntimeError(
+                    f"Included launch description missing required argument '{argument.name}' "
+                    f"(description: '{argument.description}'), given: [{', '.join(names)}]")
+
+
+def _text(name: SomeSubstitutionsType, context: Optional[LaunchContext]) -> str:
+    """Return the name of an argument; without a context, as far as it is known."""
+    from ..launch_context import LaunchContext
+    from ..substitutions.substitution_failure import SubstitutionFailure
+    try:
+        return perform_substitutions(
+            context or LaunchContext(), normalize_to_list_of_substitutions(name))
+    except SubstitutionFailure:
+        if context is not None:
+            raise
+        return ''

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that logs a text."""
+
+from __future__ import annotations
+
+from typing import Any, List, TYPE_CHECKING
+
+from ..action import Action
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class LogInfo(Action):
+    """Logs a text for the user."""
+
+    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Any) -> None:
+        """Create the action."""
+        super().__init__(**kwargs)
+        self.__msg = normalize_to_list_of_substitutions(msg)
+
+    @property
+    def msg(self) -> List[Substitution]:
+        """Return the parts of the text."""
+        return self.__msg
+
+    def execute(self, context: LaunchContext) -> None:
+        """Log the text."""
+        from ..logging import get_logger
+        get_logger('launch.user').info('%s', perform_substitutions(context, self.__msg))

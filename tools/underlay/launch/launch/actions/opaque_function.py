@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that calls a function of the launch file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, Optional, TYPE_CHECKING
+
+from ..action import Action
+from ..launch_description_entity import LaunchDescriptionEntity
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class OpaqueFunction(Action):
+    """Calls a function with the context; the entities it returns are visited next."""
+
+    def __init__(
+        self,
+        *,
+        function: Callable[..., Optional[Iterable[LaunchDescriptionEntity]]],
+        args: Optional[Iterable[Any]] = None,
+        kwargs: Optional[Mapping[str, Any]] = None,
+        **left_over_kwargs: Any,
+    ) -> None:
+        """Create the action; the function gets the context, `args` and `kwargs`."""
+        super().__init__(**left_over_kwargs)
+        if not callable(function):
+            raise TypeError(
+                f"OpaqueFunction expected a callable as its function, but got '{function!r}'")
+        self.__function = function
+        self.__args = tuple(args or ())
+        self.__kwargs = dict(kwargs or {})
+
+    def execute(self, context: LaunchContext) -> Optional[Iterable[LaunchDescriptionEntity]]:
+        """Call the function."""
+        result = self.__function(context, *self.__args, **self.__kwargs)
+        if result is not None and not isinstance(result, Iterable):
+            name = getattr(self.__function, '__name__', repr(self.__function))
+            raise TypeError(
+                f"'{type(result).__name__}' object is not iterable: the function '{name}' of an "
+                'OpaqueFunction must return a list of actions or None')
+        return result

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that closes a scope of launch configurations."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..action import Action
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class PopLaunchConfigurations(Action):
+    """Restores the launch configurations that PushLaunchConfigurations kept."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """Restore them."""
+        context._pop_launch_configurations()

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that opens a scope of the environment."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..action import Action
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class PushEnvironment(Action):
+    """Keeps the environment until PopEnvironment restores it."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """Keep it."""
+        context._push_environment()

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that opens a scope of launch configurations."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..action import Action
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class PushLaunchConfigurations(Action):
+    """Keeps the launch configurations until PopLaunchConfigurations restores them."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """Keep them."""
+        context._push_launch_configurations()

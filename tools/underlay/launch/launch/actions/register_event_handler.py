@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that registers an event handler."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, List, Tuple, TYPE_CHECKING
+
+from ..action import Action
+from ..event_handler import BaseEventHandler
+from ..launch_description_entity import LaunchDescriptionEntity
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class RegisterEventHandler(Action):
+    """Registers an event handler."""
+
+    def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
+        """Create the action."""
+        super().__init__(**kwargs)
+        self.__event_handler = event_handler
+
+    @property
+    def event_handler(self) -> BaseEventHandler:
+        """Return the handler."""
+        return self.__event_handler
+
+    def execute(self, context: LaunchContext) -> None:
+        """Register it."""
+        context.register_event_handler(self.__event_handler)
+
+    def describe_conditional_sub_entities(
+        self,
+    ) -> List[Tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """Return the entities of the handler, which wait for an event."""
+        text, entities = self.__event_handler.describe()
+        return [(text, entities)] if entities else []

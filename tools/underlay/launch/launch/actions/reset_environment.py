@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that undoes all changes of the environment."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..action import Action
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class ResetEnvironment(Action):
+    """Restores the environment that the launch was started with."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """Restore it."""
+        context._reset_environment()

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that sets an environment variable."""
+
+from __future__ import annotations
+
+from typing import Any, List, TYPE_CHECKING
+
+from ..action import Action
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class SetEnvironmentVariable(Action):
+    """Sets an environment variable of the launch and of the processes it starts later."""
+
+    def __init__(
+        self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any,
+    ) -> None:
+        """Create the action."""
+        super().__init__(**kwargs)
+        self.__name = normalize_to_list_of_substitutions(name)
+        self.__value = normalize_to_list_of_substitutions(value)
+
+    @property
+    def name(self) -> List[Substitution]:
+        """Return the parts of the name."""
+        return self.__name
+
+    @property
+    def value(self) -> List[Substitution]:
+        """Return the parts of the value."""
+        return self.__value
+
+    def execute(self, context: LaunchContext) -> None:
+        """Set it."""
+        name = perform_substitutions(context, self.__name)
+        context.environment[name] = perform_substitutions(context, self.__value)

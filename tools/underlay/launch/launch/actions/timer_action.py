@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that waits before it visits others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Dict, List, Optional, Tuple, TYPE_CHECKING, Union
+
+from ..action import Action
+from ..event_handler import EventHandler
+from ..event_handlers.on_shutdown import OnShutdown
+from ..events.timer_event import TimerEvent
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+from ._captured_scope import EnterScope, LeaveScope
+
+if TYPE_CHECKING:
+    import asyncio
+
+    from ..launch_context import LaunchContext
+
+
+class TimerAction(Action):
+    """Visits actions once, when a period is over, in the scope in which it was started."""
+
+    def __init__(
+        self,
+        *,
+        period: Union[float, SomeSubstitutionsType],
+        actions: Iterable[LaunchDescriptionEntity],
+        cancel_on_shutdown: Union[bool, SomeSubstitutionsType] = True,
+        **kwargs: Any,
+    ) -> None:
+        """Create the action; the period is a float in seconds, or stands for one."""
+        super().__init__(**kwargs)
+        self.__period = _checked_period(period)
+        self.__actions = list(actions)
+        self.__cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)
+        self.__done: Optional[asyncio.Future[None]] = None
+        self.__timer: Optional[asyncio.TimerHandle] = None
+        self.__canceled = False
+
+    @property
+    def period(self) -> Any:
+        """Return the period in seconds, or the substitutions that stand for it."""
+        return self.__period
+
+    @property
+    def actions(self) -> List[LaunchDescriptionEntity]:
+        """Return the actions."""
+        return self.__actions
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return f'TimerAction(period={self.__period}, actions=<actions>)'
+
+    def describe_conditional_sub_entities(
+        self,
+    ) -> List[Tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """Return the actions, which wait for the timer."""
+        return [(f'after {self.__period} second(s)', self.__actions)]
+
+    def execute(self, context: LaunchContext) -> None:
+        """Start the timer."""
+        if self.__canceled or context.is_shutdown:
+            return
+        if context.asyncio_loop is None:
+            raise RuntimeError('a TimerAction can only be executed by a running launch')
+        self.__done = context.asyncio_loop.create_future()
+        context.register_event_handler(self._reaction(context))
+        if perform_typed_substitution(context, self.__cancel_on_shutdown, bool):
+            context.register_event_handler(OnShutdown(on_shutdown=lambda *_: self.cancel()))
+        period = perform_typed_substitution(context, self.__period, float)
+        self.__timer = context.asyncio_loop.call_later(period, self._run_out, context)
+
+    def _reaction(self, context: LaunchContext) -> EventHandler:
+        """Return the handler that visits the actions in the scope of now."""
+        configurations: Dict[str, Any] = dict(context.launch_configurations)
+        entities = [EnterScope(configurations, context.get_locals_as_dict()),
+                    *self.__actions, LeaveScope()]
+        return EventHandler(
+            matcher=lambda event: isinstance(event, TimerEvent) and event.timer_action is self,
+            entities=entities, handle_once=True)
+
+    def _run_out(self, context: LaunchContext) -> None:
+        if not self.__canceled:
+            context.emit_event_sync(TimerEvent(timer_action=self))
+            self._finish()
+
+    def cancel(self) -> None:
+        """Stop the timer, or keep it from starting."""
+        self.__canceled = True
+        if self.__timer is not None:
+            self.__timer.cancel()
+        self._finish()
+
+    def _finish(self) -> None:
+        if self.__done is not None and not self.__done.done():
+            self.__done.set_result(None)
+
+    def get_asyncio_future(self) -> Optional[asyncio.Future[None]]:
+        """Return a future that is done when the timer is."""
+        return self.__done
+
+
+def _checked_period(period: Any) -> Any:
+    """Return the period as a float or as substitutions; whole numbers are refused."""
+    if isinstance(period, int):
+        raise TypeError(
+            f'the period of a TimerAction must be a float or a substitution, but it is the '
+            f"{type(period).__name__} {period}: write {float(period)} instead")
+    return normalize_typed_substitution(period, float)

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that removes an event handler."""
+
+from __future__ import annotations
+
+from typing import Any, TYPE_CHECKING
+
+from ..action import Action
+from ..event_handler import BaseEventHandler
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class UnregisterEventHandler(Action):
+    """Removes an event handler."""
+
+    def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
+        """Create the action."""
+        super().__init__(**kwargs)
+        self.__event_handler = event_handler
+
+    @property
+    def event_handler(self) -> BaseEventHandler:
+        """Return the handler."""
+        return self.__event_handler
+
+    def execute(self, context: LaunchContext) -> None:
+        """Remove it; a ValueError says that it was not registered."""
+        context.unregister_event_handler(self.__event_handler)

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that removes an environment variable."""
+
+from __future__ import annotations
+
+from typing import Any, List, TYPE_CHECKING
+
+from ..action import Action
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class UnsetEnvironmentVariable(Action):
+    """Removes an environment variable if it is set."""
+
+    def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
+        """Create the action."""
+        super().__init__(**kwargs)
+        self.__name = normalize_to_list_of_substitutions(name)
+
+    @property
+    def name(self) -> List[Substitution]:
+        """Return the parts of the name."""
+        return self.__name
+
+    def execute(self, context: LaunchContext) -> None:
+        """Remove it."""
+        context.environment.pop(perform_substitutions(context, self.__name), None)

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A condition that is fulfilled by a true expression."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .evaluate_condition_expression_impl import evaluate_condition_expression
+from ..condition import Condition
+from ..some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
+from ..utilities.ensure_argument_type_impl import ensure_argument_type
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class IfCondition(Condition):
+    """Fulfilled if an expression is true or 1, not if it is false or 0; else an error."""
+
+    def __init__(self, predicate_expression: SomeSubstitutionsType) -> None:
+        """Create the condition from anything like a text."""
+        ensure_argument_type(
+            predicate_expression, SomeSubstitutionsType_types_tuple,
+            'predicate_expression', type(self).__name__)
+        self.__expression = normalize_to_list_of_substitutions(predicate_expression)
+        super().__init__(predicate=self._evaluate)
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        parts = ' + '.join(sub.describe() for sub in self.__expression)
+        return f'{type(self).__name__}({parts})'
+
+    def _evaluate(self, context: LaunchContext) -> bool:
+        return evaluate_condition_expression(context, self.__expression)

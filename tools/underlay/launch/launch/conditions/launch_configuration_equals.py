@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A condition that compares a launch configuration with a text."""
+
+from __future__ import annotations
+
+from typing import Optional, TYPE_CHECKING
+import warnings
+
+from ..condition import Condition
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class LaunchConfigurationEquals(Condition):
+    """Fulfilled if a launch configuration has a value; None stands for being unset."""
+
+    def __init__(
+        self,
+        launch_configuration_name: str,
+        expected_value: Optional[SomeSubstitutionsType],
+    ) -> None:
+        """Create the condition; IfCondition(EqualsSubstitution(...)) is the newer way."""
+        self._name = launch_configuration_name
+        self._expected = (
+            None if expected_value is None
+            else normalize_to_list_of_substitutions(expected_value))
+        super().__init__(predicate=self._evaluate)
+        warnings.warn(
+            f'{type(self).__name__} is deprecated; write '
+            "IfCondition(EqualsSubstitution(LaunchConfiguration('name'), 'value')) instead, or "
+            'with NotEqualsSubstitution', UserWarning, stacklevel=2)
+
+    def _equals(self, context: LaunchContext) -> bool:
+        value = context.launch_configurations.get(self._name)
+        if self._expected is None or value is None:
+            return value is None and self._expected is None
+        return str(value) == perform_substitutions(context, self._expected)
+
+    def _evaluate(self, context: LaunchContext) -> bool:
+        return self._equals(context)

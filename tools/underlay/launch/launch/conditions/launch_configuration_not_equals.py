@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A condition that tells a launch configuration from a text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .launch_configuration_equals import LaunchConfigurationEquals
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
+    """Fulfilled if a launch configuration does not have a value."""
+
+    def _evaluate(self, context: LaunchContext) -> bool:
+        return not self._equals(context)

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Descriptions of what actions work on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from .executable import Executable as Executable
+
+__all__ = [
+    'Executable',
+]
+
+__getattr__, __dir__ = lazy_exports(__name__, __all__)

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The description of a program with its arguments, folder and environment."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from itertools import count
+import os
+import re
+import shlex
+from typing import Any, Dict, List, Optional, Tuple, TYPE_CHECKING
+
+from .._supervision.python_output import runs_python
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..action import Action
+    from ..launch_context import LaunchContext
+
+Variables = List[Tuple[List[Substitution], List[Substitution]]]
+SomeVariables = Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
+
+_numbers = count(1)
+
+
+class Executable:
+    """Describes what is executed; its final form is known when it is prepared."""
+
+    def __init__(
+        self,
+        *,
+        cmd: Iterable[SomeSubstitutionsType],
+        prefix: Optional[SomeSubstitutionsType] = None,
+        name: Optional[SomeSubstitutionsType] = None,
+        cwd: Optional[SomeSubstitutionsType] = None,
+        env: Optional[SomeVariables] = None,
+        additional_env: Optional[SomeVariables] = None,
+        arguments: Optional[Iterable[SomeSubstitutionsType]] = None,
+    ) -> None:
+        """Create the description; each item of `cmd` becomes one argument."""
+        words = [*cmd, *(arguments or ())]
+        self.__cmd = [normalize_to_list_of_substitutions(word) for word in words]
+        self.__prefix = _normalize(prefix)
+        self.__name = _normalize(name)
+        self.__cwd = _normalize(cwd)
+        self.__env = None if env is None else _normalize_variables(env)
+        self.__additional_env = _normalize_variables(additional_env or {})
+        self.__final_cmd: Optional[List[str]] = None
+        self.__final_name: Optional[str] = None
+        self.__final_cwd: Optional[str] = None
+        self.__final_env: Optional[Dict[str, str]] = None
+
+    @property
+    def cmd(self) -> List[List[Substitution]]:
+        """Return the parts of each argument."""
+        return self.__cmd
+
+    @property
+    def prefix(self) -> Optional[List[Substitution]]:
+        """Return the parts of the prefix."""
+        return self.__prefix
+
+    @property
+    def name(self) -> Optional[List[Substitution]]:
+        """Return the parts of the name."""
+        return self.__name
+
+    @property
+    def cwd(self) -> Optional[List[Substitution]]:
+        """Return the parts of the folder."""
+        return self.__cwd
+
+    @property
+    def env(self) -> Optional[Variables]:
+        """Return the whole environment, or None if it is inherited."""
+        return self.__env
+
+    @property
+    def additional_env(self) -> Variables:
+        """Return what is added to the environment."""
+        return self.__additional_env
+
+    @property
+    def final_cmd(self) -> Optional[List[str]]:
+        """Return the arguments, once they are known."""
+        return self.__final_cmd
+
+    @property
+    def final_name(self) -> Optional[str]:
+        """Return the label of the process, once it is known."""
+        return self.__final_name
+
+    @property
+    def final_cwd(self) -> Optional[str]:
+        """Return the folder, once it is known; None is that of the launch."""
+        return self.__final_cwd
+
+    @property
+    def final_env(self) -> Optional[Dict[str, str]]:
+        """Return the environment, once it is known."""
+        return self.__final_env
+
+    def prepare(
+        self,
+        context: LaunchContext,
+        action: Optional[Action] = None,
+        *,
+        extra_arguments: Iterable[str] = (),
+        shell: bool = False,
+    ) -> None:
+        """Find out the final form; `extra_arguments` come behind those of `cmd`."""
+        command = [perform_substitutions(context, word) for word in self.__cmd]
+        if not command:
+            raise ValueError(f'the command of {action or self!r} is empty: it needs a program')
+        self.__final_cmd = [*self._prefix_words(context, command), *command, *extra_arguments]
+        name = (perform_substitutions(context, self.__name) if self.__name is not None
+                else os.path.basename(self.__final_cmd[0]))
+        self.__final_name = f'{name}-{next(_numbers)}'
+        self.__final_cwd = (
+            None if self.__cwd is None else perform_substitutions(context, self.__cwd))
+        self.__final_env = self._environment(context, shell)
+
+    def _prefix_words(self, context: LaunchContext, command: List[str]) -> List[str]:
+        """Return the prefix given here, or that of the whole launch if its filter matches."""
+        if self.__prefix is not None:
+            return shlex.split(perform_substitutions(context, self.__prefix))
+        pattern = context.launch_configurations.get('launch-prefix-filter')
+        if pattern is not None and not re.match(pattern, os.path.basename(command[0])):
+            return []
+        return shlex.split(context.launch_configurations.get('launch-prefix', ''))
+
+    def _environment(self, context: LaunchContext, shell: bool) -> Dict[str, str]:
+        if self.__env is not None:
+            environment = _perform_variables(context, self.__env)
+        else:
+            environment = dict(context.environment)
+            if runs_python(self.__final_cmd or [], shell=shell):
+                environment.setdefault('PYTHONUNBUFFERED', '1')
+        return {**environment, **_perform_variables(context, self.__additional_env)}
+
+
+def _normalize(value: Optional[SomeSubstitutionsType]) -> Optional[List[Substitution]]:
+    return None if value is None else normalize_to_list_of_substitutions(value)
+
+
+def _normalize_variables(variables: Mapping[Any, Any]) -> Variables:
+    return [(normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value))
+            for name, value in variables.items()]
+
+
+def _perform_variables(context: LaunchContext, variables: Variables) -> Dict[str, str]:
+    return {perform_substitutions(context, name): perform_substitutions(context, value)
+            for name, value in variables}

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The base classes of all event handlers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any, List, Optional, Tuple, TYPE_CHECKING
+
+from .launch_description_entity import LaunchDescriptionEntity
+from .some_entities_type import SomeEntitiesType
+
+if TYPE_CHECKING:
+    from .event import Event
+    from .launch_context import LaunchContext
+
+
+class BaseEventHandler:
+    """Something that may react to an event."""
+
+    def __init__(self, *, matcher: Callable[[Any], bool], handle_once: bool = False) -> None:
+        """Create a handler of the events that `matcher` accepts, or of the first only."""
+        self.__matcher = matcher
+        self.__handle_once = handle_once
+
+    @property
+    def handle_once(self) -> bool:
+        """Return whether the handler reacts only once."""
+        return self.__handle_once
+
+    @property
+    def handler_description(self) -> str:
+        """Return what the handler does, for people."""
+        return ''
+
+    @property
+    def matcher_description(self) -> str:
+        """Return which events the handler accepts, for people."""
+        return getattr(self.__matcher, '__name__', repr(self.__matcher))
+
+    def matches(self, event: Event) -> bool:
+        """Return whether the handler reacts to an event."""
+        return self.__matcher(event)
+
+    def describe(self) -> Tuple[str, List[Any]]:
+        """Return a short description for people, and the entities behind it."""
+        return f"{type(self).__name__}(matcher='{self.matcher_description}')", []
+
+    def handle(self, event: Event, context: LaunchContext) -> Optional[SomeEntitiesType]:
+        """Make the event known to the context; subclasses react to it."""
+        context.extend_locals({'event': event})
+        if self.__handle_once:
+            context.unregister_event_handler(self)
+        return None
+
+
+class EventHandler(BaseEventHandler):
+    """Visits entities when an event happens."""
+
+    def __init__(
+        self,
+        *,
+        matcher: Callable[[Any], bool],
+        entities: Optional[SomeEntitiesType] = None,
+        handle_once: bool = False,
+    ) -> None:
+        """Create a handler that visits `entities` when `matcher` accepts an event."""
+        super().__init__(matcher=matcher, handle_once=handle_once)
+        if entities is None or isinstance(entities, LaunchDescriptionEntity):
+            self.__entities: Iterable[LaunchDescriptionEntity] = (
+                [] if entities is None else [entities])
+        else:
+            self.__entities = entities
+
+    @property
+    def entities(self) -> Iterable[LaunchDescriptionEntity]:
+        """Return the entities that are visited."""
+        return self.__entities
+
+    def describe(self) -> Tuple[str, List[Any]]:
+        """Return a short description for people, and the entities behind it."""
+        return super().describe()[0], list(self.__entities)
+
+    def handle(self, event: Event, context: LaunchContext) -> Optional[SomeEntitiesType]:
+        """Return the entities, which are visited next."""
+        super().handle(event, context)
+        return self.__entities

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The event handlers that a launch description may register."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from .event_named import event_named as event_named
+    from .on_action_event_base import OnActionEventBase as OnActionEventBase
+    from .on_execution_complete import OnExecutionComplete as OnExecutionComplete
+    from .on_process_exit import OnProcessExit as OnProcessExit
+    from .on_process_io import OnProcessIO as OnProcessIO
+    from .on_process_start import OnProcessStart as OnProcessStart
+    from .on_shutdown import OnShutdown as OnShutdown
+
+__all__ = [
+    'OnActionEventBase',
+    'OnExecutionComplete',
+    'OnProcessExit',
+    'OnProcessIO',
+    'OnProcessStart',
+    'OnShutdown',
+    'event_named',
+]
+
+_ELSEWHERE = {
+    'OnProcessIO': 'on_process_io',
+}
+
+__getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The base class of the handlers of events that belong to an action."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any, List, Optional, Tuple, Type, TYPE_CHECKING, Union
+
+from ..event import Event
+from ..event_handler import BaseEventHandler
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..some_entities_type import SomeEntitiesType
+
+if TYPE_CHECKING:
+    from ..action import Action
+    from ..launch_context import LaunchContext
+
+Reaction = Union[SomeEntitiesType, Callable[..., Optional[SomeEntitiesType]]]
+
+
+class OnActionEventBase(BaseEventHandler):
+    """Reacts to one class of events of one action, of some, or of all."""
+
+    def __init__(
+        self,
+        *,
+        action_matcher: Optional[Union[Callable[[Action], bool], Action]],
+        on_event: Reaction,
+        target_event_cls: Type[Any],
+        target_action_cls: Type[Action],
+        **kwargs: Any,
+    ) -> None:
+        """Create a handler; `action_matcher` is an action, a predicate, or None for all."""
+        if not (action_matcher is None or isinstance(action_matcher, target_action_cls)
+                or callable(action_matcher)):
+            raise TypeError(
+                f"expected the target_action of {type(self).__name__} to be a "
+                f"'{target_action_cls.__name__}', a callable or None, "
+                f"but got '{action_matcher!r}'")
+        self.__target = action_matcher
+        self.__target_event_cls = target_event_cls
+        self.__reaction, self.__entities = checked_reaction(on_event, type(self).__name__)
+        super().__init__(matcher=self._is_meant, **kwargs)
+
+    @property
+    def matcher_description(self) -> str:
+        """Return which events the handler accepts, for people."""
+        return f'event == {self.__target_event_cls.__name__} and event.action == {self.__target}'
+
+    def describe(self) -> Tuple[str, List[Any]]:
+        """Return a short description for people, and the entities behind it."""
+        return super().describe()[0], list(self.__entities)
+
+    def _is_meant(self, event: Event) -> bool:
+        """Return whether the event belongs to the target."""
+        if not isinstance(event, self.__target_event_cls):
+            return False
+        if self.__target is None or event.action is self.__target:
+            return True
+        from ..action import Action
+        if isinstance(self.__target, Action):
+            return False
+        return bool(self.__target(event.action))
+
+    def handle(self, event: Event, context: LaunchContext) -> Optional[SomeEntitiesType]:
+        """Return the entities of the reaction, which are visited next."""
+        super().handle(event, context)
+        if self.__reaction is not None:
+            return self.__reaction(event, context)
+        return self.__entities
+
+
+def checked_reaction(
+    reaction: Any, owner: str,
+) -> Tuple[
+    Optional[Callable[..., Optional[SomeEntitiesType]]], List[LaunchDescriptionEntity],
+]:
+    """Split a reaction into a callable or a list of entities; a TypeError names its owner."""
+    if isinstance(reaction, LaunchDescriptionEntity):
+        return None, [reaction]
+    if callable(reaction):
+        return reaction, []
+    entities = list(reaction) if isinstance(reaction, Iterable) else [reaction]
+    for entity in entities:
+        if not isinstance(entity, LaunchDescriptionEntity):
+            raise TypeError(
+                f'expected {owner} to be given an action, a list of actions or a callable, '
+                f"but got '{entity!r}' of type '{type(entity).__name__}'")
+    return None, entities

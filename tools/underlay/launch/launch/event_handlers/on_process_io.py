@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A handler of the output of processes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Dict, Optional, TYPE_CHECKING, Union
+
+from .on_action_event_base import OnActionEventBase
+from ..events.process.process_io import ProcessIO
+from ..some_entities_type import SomeEntitiesType
+
+if TYPE_CHECKING:
+    from ..actions.execute_local import ExecuteLocal
+    from ..launch_context import LaunchContext
+
+IOReaction = Callable[[ProcessIO], Optional[SomeEntitiesType]]
+
+
+class OnProcessIO(OnActionEventBase):
+    """Reacts when a process writes something."""
+
+    def __init__(
+        self,
+        *,
+        target_action: Optional[Union[Callable[[Any], bool], ExecuteLocal]] = None,
+        on_stdin: Optional[IOReaction] = None,
+        on_stdout: Optional[IOReaction] = None,
+        on_stderr: Optional[IOReaction] = None,
+        **kwargs: Any,
+    ) -> None:
+        """Create a handler; each reaction is called with the event."""
+        from ..actions.execute_local import ExecuteLocal
+        self.__reactions: Dict[int, Optional[IOReaction]] = {
+            0: on_stdin, 1: on_stdout, 2: on_stderr}
+        for reaction in self.__reactions.values():
+            if reaction is not None and not callable(reaction):
+                raise TypeError(
+                    'expected the reactions of OnProcessIO to be callables that take the event, '
+                    f"but got '{reaction!r}'")
+        super().__init__(
+            action_matcher=target_action,
+            on_event=self._react,
+            target_event_cls=ProcessIO,
+            target_action_cls=ExecuteLocal,
+            **kwargs,
+        )
+
+    def _react(self, event: ProcessIO, context: LaunchContext) -> Optional[SomeEntitiesType]:
+        """Call the reaction to the stream that the event belongs to."""
+        stream = 0 if event.from_stdin else 1 if event.from_stdout else 2
+        reaction = self.__reactions[stream]
+        return reaction(event) if reaction is not None else None

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A handler of the shutdown."""
+
+from __future__ import annotations
+
+from typing import Any, List, Optional, Tuple, TYPE_CHECKING
+
+from .on_action_event_base import checked_reaction, Reaction
+from ..event_handler import BaseEventHandler
+from ..events.shutdown import Shutdown
+from ..some_entities_type import SomeEntitiesType
+
+if TYPE_CHECKING:
+    from ..event import Event
+    from ..launch_context import LaunchContext
+
+
+class OnShutdown(BaseEventHandler):
+    """Reacts when the launch ends, for whatever reason."""
+
+    def __init__(self, *, on_shutdown: Reaction, **kwargs: Any) -> None:
+        """Create a handler from entities, or a callable that takes the event and the context."""
+        super().__init__(matcher=lambda event: isinstance(event, Shutdown), **kwargs)
+        self.__reaction, self.__entities = checked_reaction(on_shutdown, type(self).__name__)
+
+    @property
+    def matcher_description(self) -> str:
+        """Return which events the handler accepts, for people."""
+        return 'event is Shutdown'
+
+    def describe(self) -> Tuple[str, List[Any]]:
+        """Return a short description for people, and the entities behind it."""
+        return super().describe()[0], list(self.__entities)
+
+    def handle(self, event: Event, context: LaunchContext) -> Optional[SomeEntitiesType]:
+        """Return the entities of the reaction, which are visited next."""
+        super().handle(event, context)
+        if self.__reaction is not None:
+            return self.__reaction(event, context)
+        return self.__entities

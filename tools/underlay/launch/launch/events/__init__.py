@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The events that handlers react to."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from . import process as process
+    from .execution_complete import ExecutionComplete as ExecutionComplete
+    from .include_launch_description import IncludeLaunchDescription as IncludeLaunchDescription
+    from .matchers import matches_action as matches_action
+    from .shutdown import Shutdown as Shutdown
+    from .timer_event import TimerEvent as TimerEvent
+
+__all__ = [
+    'ExecutionComplete',
+    'IncludeLaunchDescription',
+    'Shutdown',
+    'TimerEvent',
+    'matches_action',
+    'process',
+]
+
+_ELSEWHERE = {
+    'matches_action': 'matchers',
+    'process': '',
+}
+
+__getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

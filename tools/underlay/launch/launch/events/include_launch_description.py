@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The event that brings a launch description in."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..event import Event
+
+if TYPE_CHECKING:
+    from ..launch_description import LaunchDescription
+
+
+class IncludeLaunchDescription(Event):
+    """A launch description is to be visited."""
+
+    name = 'launch.events.IncludeLaunchDescription'
+
+    def __init__(self, launch_description: LaunchDescription) -> None:
+        """Create the event of a description."""
+        self.__launch_description = launch_description
+
+    @property
+    def launch_description(self) -> LaunchDescription:
+        """Return the description to visit."""
+        return self.__launch_description

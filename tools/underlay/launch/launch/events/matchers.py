@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Functions that tell whether an event belongs to an action."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..actions.execute_local import ExecuteLocal
+
+
+def matches_action(target_action: ExecuteLocal) -> Callable[[Any], bool]:
+    """Return a matcher of this action."""
+    return lambda action: action is target_action

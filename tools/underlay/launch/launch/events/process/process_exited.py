@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The event of a process that has ended."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .running_process_event import RunningProcessEvent
+
+
+class ProcessExited(RunningProcessEvent):
+    """A process has ended."""
+
+    name = 'launch.events.process.ProcessExited'
+
+    def __init__(self, *, returncode: int, **kwargs: Any) -> None:
+        """Create the event; a negative code is the signal that ended the process."""
+        super().__init__(**kwargs)
+        self.__returncode = returncode
+
+    @property
+    def returncode(self) -> int:
+        """Return the exit status, or minus the number of the signal."""
+        return self.__returncode

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The base class of the events of a process's input and output."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .running_process_event import RunningProcessEvent
+
+
+class ProcessIO(RunningProcessEvent):
+    """A process wrote, or is to read, some bytes."""
+
+    name = 'launch.events.process.ProcessIO'
+
+    def __init__(self, *, text: bytes, fd: int, **kwargs: Any) -> None:
+        """Create the event from the bytes and the number of the stream (0, 1 or 2)."""
+        super().__init__(**kwargs)
+        self.__text = text
+        self.__fd = fd
+
+    @property
+    def text(self) -> bytes:
+        """Return the bytes as they came, not cut into lines."""
+        return self.__text
+
+    @property
+    def from_stdin(self) -> bool:
+        """Return whether the bytes are input."""
+        return self.__fd == 0
+
+    @property
+    def from_stdout(self) -> bool:
+        """Return whether the bytes come from the standard output."""
+        return self.__fd == 1
+
+    @property
+    def from_stderr(self) -> bool:
+        """Return whether the bytes come from the standard error output."""
+        return self.__fd == 2

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The event of a process that was started."""
+
+from __future__ import annotations
+
+from .running_process_event import RunningProcessEvent
+
+
+class ProcessStarted(RunningProcessEvent):
+    """A process was started."""
+
+    name = 'launch.events.process.ProcessStarted'

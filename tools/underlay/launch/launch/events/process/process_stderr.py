@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The event of bytes from the standard error output of a process."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .process_io import ProcessIO
+
+
+class ProcessStderr(ProcessIO):
+    """A process wrote to its standard error output."""
+
+    name = 'launch.events.process.ProcessStderr'
+
+    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
+        """Create the event from the bytes."""
+        super().__init__(text=text, fd=2, **kwargs)

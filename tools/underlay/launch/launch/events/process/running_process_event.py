@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The base class of the events of a process that runs or has run."""
+
+from __future__ import annotations
+
+from typing import Dict, List, Optional, TYPE_CHECKING
+
+from ...event import Event
+
+if TYPE_CHECKING:
+    from ...actions.execute_local import ExecuteLocal
+
+
+class RunningProcessEvent(Event):
+    """Something happened to a process."""
+
+    name = 'launch.events.process.RunningProcessEvent'
+
+    def __init__(
+        self,
+        *,
+        action: ExecuteLocal,
+        name: str,
+        cmd: List[str],
+        cwd: Optional[str],
+        env: Optional[Dict[str, str]],
+        pid: int,
+    ) -> None:
+        """Create the event from the facts about the process."""
+        self.__action = action
+        self.__name = name
+        self.__cmd = cmd
+        self.__cwd = cwd
+        self.__env = env
+        self.__pid = pid
+
+    @property
+    def action(self) -> ExecuteLocal:
+        """Return the action that started the process."""
+        return self.__action
+
+    @property
+    def execute_process_action(self) -> ExecuteLocal:
+        """Return the action that started the process (the older name)."""
+        return self.__action
+
+    @property
+    def process_name(self) -> str:
+        """Return the label of the process."""
+        return self.__name
+
+    @property
+    def cmd(self) -> List[str]:
+        """Return the command line."""
+        return self.__cmd
+
+    @property
+    def cwd(self) -> Optional[str]:
+        """Return the folder that the process was started in; None is that of the launch."""
+        return self.__cwd
+
+    @property
+    def env(self) -> Optional[Dict[str, str]]:
+        """Return the environment that the process was started with."""
+        return self.__env
+
+    @property
+    def pid(self) -> int:
+        """Return the process id."""
+        return self.__pid

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The event that sends a signal to certain processes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import signal
+from typing import TYPE_CHECKING, Union
+
+from .process_targeted_event import ProcessTargetedEvent
+
+if TYPE_CHECKING:
+    from ...actions.execute_local import ExecuteLocal
+
+
+class SignalProcess(ProcessTargetedEvent):
+    """The processes that a matcher accepts are to get a signal."""
+
+    name = 'launch.events.process.SignalProcess'
+
+    def __init__(
+        self,
+        *,
+        signal_number: Union[str, signal.Signals, int],
+        process_matcher: Callable[[ExecuteLocal], bool],
+    ) -> None:
+        """Create the event from a signal, given by its name (`'SIGINT'`) or number."""
+        super().__init__(process_matcher=process_matcher)
+        self.__signal = (
+            signal.Signals[signal_number] if isinstance(signal_number, str)
+            else signal.Signals(signal_number))
+
+    @property
+    def signal(self) -> signal.Signals:
+        """Return the signal."""
+        return self.__signal
+
+    @property
+    def signal_name(self) -> str:
+        """Return the name of the signal, such as SIGINT."""
+        return self.__signal.name

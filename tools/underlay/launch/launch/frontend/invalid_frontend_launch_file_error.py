@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The error of a launch file that is not in a format which can be parsed."""
+
+from __future__ import annotations
+
+from ..invalid_launch_file_error import InvalidLaunchFileError
+
+
+class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
+    """A launch file has a syntax error, or a format that no parser knows."""
+
+    def __init__(self, text: str = '') -> None:
+        """Create the error; without a text it says that the format is unknown."""
+        super().__init__()
+        if text:
+            self.args = (text,)

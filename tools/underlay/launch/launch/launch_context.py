@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The state that the entities of a launch share."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Mapping
+import os
+from typing import Any, Deque, Dict, List, Optional, TYPE_CHECKING
+
+from ._context_locals import ContextLocals, LocalsView
+from ._scopes import EnvironmentScopes
+
+if TYPE_CHECKING:
+    import asyncio
+
+    from ._supervision.process_registry import ProcessRegistry
+    from .event import Event
+    from .event_handler import BaseEventHandler
+    from .substitution import Substitution
+
+
+class LaunchContext:
+    """The launch configurations, the environment, the event handlers and the event queue."""
+
+    def __init__(
+        self, *, argv: Optional[Iterable[str]] = None, noninteractive: bool = False,
+    ) -> None:
+        """Create a context; it needs no running event loop."""
+        self.__argv = list(argv) if argv is not None else []
+        self.__noninteractive = noninteractive
+        self.__is_shutdown = False
+        self.__loop: Optional[asyncio.AbstractEventLoop] = None
+        self.__wake_up: Optional[Callable[[], None]] = None
+        self.__locals = ContextLocals()
+        self.__configurations: Dict[str, Any] = {}
+        self.__configurations_stack: List[Dict[str, Any]] = []
+        self.__environment = EnvironmentScopes()
+        self._event_handlers: Deque[BaseEventHandler] = deque()
+        self._event_queue: Deque[Event] = deque()
+        self._completion_futures: List[asyncio.Future[Any]] = []
+        self._processes: Optional[ProcessRegistry] = None
+
+    # What the launch was started with, and its state.
+
+    @property
+    def argv(self) -> List[str]:
+        """Return the arguments that the launch was started with."""
+        return self.__argv
+
+    @property
+    def noninteractive(self) -> bool:
+        """Return whether nobody sits at a terminal."""
+        return self.__noninteractive
+
+    @property
+    def is_shutdown(self) -> bool:
+        """Return whether the launch is shutting down."""
+        return self.__is_shutdown
+
+    def _set_is_shutdown(self, state: bool) -> None:
+        self.__is_shutdown = state
+
+    @property
+    def asyncio_loop(self) -> Optional[asyncio.AbstractEventLoop]:
+        """Return the event loop while the launch runs, else None."""
+        return self.__loop
+
+    def _attach(
+        self,
+        loop: Optional[asyncio.AbstractEventLoop],
+        wake_up: Optional[Callable[[], None]],
+    ) -> None:
+        """Tell which loop runs the launch, and how to wake it up for a new event."""
+        self.__loop = loop
+        self.__wake_up = wake_up
+
+    # Substitutions and launch configurations.
+
+    def perform_substitution(self, sub: Substitution) -> str:
+        """Return the text that a substitution stands for now."""
+        return sub.perform(self)
+
+    @property
+    def launch_configurations(self) -> Dict[str, Any]:
+        """Return the launch configurations, which may be changed."""
+        return self.__configurations
+
+    def _push_launch_configurations(self) -> None:
+        self.__configurations_stack.append(self.__configurations.copy())
+
+    def _pop_launch_configurations(self) -> None:
+        if not self.__configurations_stack:
+            raise RuntimeError('cannot pop the launch configurations: none have been pushed')
+        kept = self.__configurations_stack.pop()
+        self.__configurations.clear()
+        self.__configurations.update(kept)
+
+    # The environment.
+
+    @property
+    def environment(self) -> 'os._Environ[str]':
+        """Return the environment of this process, which children inherit."""
+        return os.environ
+
+    def _push_environment(self) -> None:
+        self.__environment.push()
+
+    def _pop_environment(self) -> None:
+        self.__environment.pop()
+
+    def _reset_environment(self) -> None:
+        self.__environment.reset()
+
+    # Locals.
+
+    @property
+    def locals(self) -> LocalsView:
+        """Return the local variables, each as an attribute."""
+        return self.__locals.view
+
+    def get_locals_as_dict(self) -> Dict[str, Any]:
+        """Return a copy of the local variables."""
+        return self.__locals.as_dict()
+
+    def extend_locals(self, extra_locals: Mapping[str, Any]) -> None:
+        """Add local variables; they last until the current event is handled."""
+        self.__locals.extend(extra_locals)
+
+    def extend_globals(self, extra_globals: Mapping[str, Any]) -> None:
+        """Add variables that last as long as the context does."""
+        self.__locals.extend_globals(extra_globals)
+
+    def _push_locals(self) -> None:
+        self.__locals.push()
+
+    def _pop_locals(self) -> None:
+        self.__locals.pop()
+
+    # Events.
+
+    def register_event_handler(
+        self, event_handler: BaseEventHandler, append: bool = False,
+    ) -> None:
+        """Register a handler before all others, or behind them with `append`."""
+        if append:
+            self._event_handlers.append(event_handler)
+        else:
+            self._event_handlers.appendleft(event_handler)
+
+    def unregister_event_handler(self, event_handler: BaseEventHandler) -> None:
+        """Remove a handler; a ValueError says that it was not registered."""
+        if event_handler not in self._event_handlers:
+            raise ValueError(f'the event handler {event_handler!r} is not registered')
+        self._event_handlers.remove(event_handler)
+
+    def would_handle_event(self, event: Event) -> bool:
+        """Return whether any handler matches an event now."""
+        return any(handler.matches(event) for handler in tuple(self._event_handlers))
+
+    def emit_event_sync(self, event: Event) -> None:
+        """Queue an event; this may be called from any thread."""
+        self._event_queue.append(event)
+        if self.__wake_up is not None:
+            self.__wake_up()
+
+    async def emit_event(self, event: Event) -> None:
+        """Queue an event."""
+        self.emit_event_sync(event)
+
+    def add_completion_future(self, completion_future: asyncio.Future[Any]) -> None:
+        """Keep the launch running until a future is done."""
+        self._completion_futures.append(completion_future)
+        if self.__wake_up is not None:
+            self.__wake_up()

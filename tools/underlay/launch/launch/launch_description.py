@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The description of what to launch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import List, Optional, Tuple, TYPE_CHECKING
+
+from .launch_description_entity import LaunchDescriptionEntity
+
+if TYPE_CHECKING:
+    from .actions.declare_launch_argument import DeclareLaunchArgument
+    from .actions.include_launch_description import IncludeLaunchDescription
+    from .launch_context import LaunchContext
+
+    ArgumentWithIncludes = Tuple[DeclareLaunchArgument, List[IncludeLaunchDescription]]
+
+
+class LaunchDescription(LaunchDescriptionEntity):
+    """A list of entities, visited in order."""
+
+    def __init__(
+        self,
+        initial_entities: Optional[Iterable[LaunchDescriptionEntity]] = None,
+        *,
+        deprecated_reason: Optional[str] = None,
+    ) -> None:
+        """Create a description; one with a `deprecated_reason` warns when it is used."""
+        self.__entities = list(initial_entities) if initial_entities is not None else []
+        self.__deprecated_reason = deprecated_reason
+
+    @property
+    def entities(self) -> List[LaunchDescriptionEntity]:
+        """Return the entities, in the order in which they are visited."""
+        return self.__entities
+
+    @property
+    def deprecated(self) -> bool:
+        """Return whether the description should no longer be used."""
+        return self.__deprecated_reason is not None
+
+    @property
+    def deprecated_reason(self) -> Optional[str]:
+        """Return why the description should no longer be used, or None."""
+        return self.__deprecated_reason
+
+    def add_entity(self, entity: LaunchDescriptionEntity) -> None:
+        """Append an entity."""
+        self.__entities.append(entity)
+
+    def add_action(self, action: LaunchDescriptionEntity) -> None:
+        """Append an action."""
+        self.add_entity(action)
+
+    def visit(self, context: LaunchContext) -> Iterable[LaunchDescriptionEntity]:
+        """Return the entities, which are visited next."""
+        if self.deprecated:
+            from .logging import get_logger
+            file_name = context.get_locals_as_dict().get('current_launch_file_path', 'unknown')
+            get_logger().warning(
+                'launch file [%s] is deprecated: %s', file_name, self.__deprecated_reason)
+        return self.__entities
+
+    def describe_sub_entities(self) -> List[LaunchDescriptionEntity]:
+        """Return the entities."""
+        return self.__entities
+
+    def get_launch_arguments(
+        self, conditional_inclusion: bool = False,
+    ) -> List[DeclareLaunchArgument]:
+        """Return the arguments declared here and in what is included, each name once."""
+        found = self.get_launch_arguments_with_include_launch_description_actions(
+            conditional_inclusion)
+        return [argument for argument, _ in found]
+
+    def get_launch_arguments_with_include_launch_description_actions(
+        self, conditional_inclusion: bool = False,
+    ) -> List[ArgumentWithIncludes]:
+        """Return the arguments, each with the includes that lead to its declaration."""
+        from ._argument_discovery import find_arguments
+        return find_arguments(self.__entities, conditional_inclusion)

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The base class of everything that a launch description may contain."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, List, Optional, Tuple, TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import asyncio
+
+    from .launch_context import LaunchContext
+
+
+class LaunchDescriptionEntity:
+    """A part of a launch description; visiting it makes it happen."""
+
+    def visit(
+        self, context: LaunchContext,
+    ) -> Optional[Iterable[LaunchDescriptionEntity]]:
+        """Do what the entity stands for; the entities returned are visited next."""
+        raise NotImplementedError(
+            f"the class '{type(self).__name__}' does not define visit(context)")
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return repr(self)
+
+    def describe_sub_entities(self) -> List[LaunchDescriptionEntity]:
+        """Return the entities that are visited with this one in any case."""
+        return []
+
+    def describe_conditional_sub_entities(
+        self,
+    ) -> List[Tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """Return the entities that may be visited, each list with the reason for it."""
+        return []
+
+    def get_asyncio_future(self) -> Optional[asyncio.Future[Any]]:
+        """Return a future that is done when the entity is; None if it is done at once."""
+        return None

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The sources that a launch description can be loaded from."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from .any_launch_description_source import (
+        AnyLaunchDescriptionSource as AnyLaunchDescriptionSource,
+    )
+    from .any_launch_file_utilities import (
+        get_launch_description_from_any_launch_file as get_launch_description_from_any_launch_file,
+    )
+    from .python_launch_description_source import (
+        PythonLaunchDescriptionSource as PythonLaunchDescriptionSource,
+    )
+    from .python_launch_file_utilities import (
+        InvalidPythonLaunchFileError as InvalidPythonLaunchFileError,
+    )
+    from .python_launch_file_utilities import (
+        get_launch_description_from_python_launch_file as get_launch_description_from_python_launch_file,
+    )
+    from .python_launch_file_utilities import (
+        load_python_launch_file_as_module as load_python_launch_file_as_module,
+    )
+
+__all__ = [
+    'AnyLaunchDescriptionSource',
+    'InvalidPythonLaunchFileError',
+    'PythonLaunchDescriptionSource',
+    'get_launch_description_from_any_launch_file',
+    'get_launch_description_from_python_launch_file',
+    'load_python_launch_file_as_module',
+]
+
+_ELSEWHERE = {
+    'InvalidPythonLaunchFileError': 'python_launch_file_utilities',
+    'get_launch_description_from_any_launch_file': 'any_launch_file_utilities',
+    'get_launch_description_from_python_launch_file': 'python_launch_file_utilities',
+    'load_python_launch_file_as_module': 'python_launch_file_utilities',
+}
+
+__getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

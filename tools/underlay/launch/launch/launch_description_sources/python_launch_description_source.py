@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A launch file in Python as the source of a launch description."""
+
+from __future__ import annotations
+
+from .python_launch_file_utilities import get_launch_description_from_python_launch_file
+from ..launch_description import LaunchDescription
+from ..launch_description_source import LaunchDescriptionSource
+from ..some_substitutions_type import SomeSubstitutionsType
+
+
+class PythonLaunchDescriptionSource(LaunchDescriptionSource):
+    """Loads a launch file in Python."""
+
+    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
+        """Create the source of the file at a path."""
+        super().__init__(None, launch_file_path, 'interpreted python launch file')
+
+    def _get_launch_description(self, location: str) -> LaunchDescription:
+        return get_launch_description_from_python_launch_file(location)

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Load launch files in Python."""
+
+from __future__ import annotations
+
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_file_location
+import os
+from traceback import walk_tb
+from types import ModuleType
+
+from .._call_site import CallSite
+from ..invalid_launch_file_error import InvalidLaunchFileError
+from ..launch_description import LaunchDescription
+
+_MODULE_NAME = 'python_launch_file'
+
+
+class InvalidPythonLaunchFileError(InvalidLaunchFileError):
+    """A Python file is not a launch file."""
+
+    def __init__(self, text: str) -> None:
+        """Create the error."""
+        super().__init__('.py')
+        self.args = (text,)
+
+
+def load_python_launch_file_as_module(
+    python_launch_file_path: 'str | os.PathLike[str]',
+) -> ModuleType:
+    """Return a launch file as a module, run from its source, which is not registered."""
+    path = os.fspath(python_launch_file_path)
+    loader = SourceFileLoader(_MODULE_NAME, path)
+    spec = spec_from_file_location(_MODULE_NAME, path, loader=loader)
+    if spec is None:
+        raise InvalidPythonLaunchFileError(f"launch file at '{path}' cannot be loaded")
+    module = module_from_spec(spec)
+    exec(compile(loader.get_data(path), path, 'exec', dont_inherit=True), module.__dict__)
+    return module
+
+
+def get_launch_description_from_python_launch_file(
+    python_launch_file_path: 'str | os.PathLike[str]',
+) -> LaunchDescription:
+    """Return what the function `generate_launch_description` of a launch file returns."""
+    path = os.fspath(python_launch_file_path)
+    if not os.path.isfile(path):
+        raise FileNotFoundError(missing_file(path))
+    try:
+        return _generate(path)
+    except Exception as error:
+        _point_at_line(path, error)
+        raise
+
+
+def _generate(path: str) -> LaunchDescription:
+    generate = getattr(
+        load_python_launch_file_as_module(path), 'generate_launch_description', None)
+    if generate is None:
+        raise InvalidPythonLaunchFileError(
+            f"launch file at '{path}' does not contain the required function "
+            "'generate_launch_description()'")
+    description = generate()
+    if not hasattr(description, 'visit'):
+        raise AttributeError(
+            f"'{type(description).__name__}' object has no attribute 'visit': the function "
+            f"generate_launch_description() of '{path}' must return a LaunchDescription")
+    result: LaunchDescription = description
+    return result
+
+
+def missing_file(path: str) -> str:
+    """Say that a launch file does not exist, and which one in its folder comes closest."""
+    import difflib
+    folder, name = os.path.split(path)
+    there = os.listdir(folder or '.') if os.path.isdir(folder or '.') else []
+    close = difflib.get_close_matches(name, there, n=1)
+    hint = f". Did you mean '{close[0]}'?" if close else ''
+    return f"the launch file '{path}' does not exist{hint}"
+
+
+def _point_at_line(path: str, error: Exception) -> None:
+    """Note on an exception the last line of the launch file that led to it."""
+    lines = [line for frame, line in walk_tb(error.__traceback__)
+             if frame.f_code.co_filename == path]
+    if lines and not hasattr(error, 'launch_call_site'):
+        error.launch_call_site = CallSite(path, lines[-1])  # type: ignore[attr-defined]

@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The service that runs launch descriptions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import logging
+import signal
+import threading
+from typing import Any, Optional, TYPE_CHECKING
+
+from .event_handler import EventHandler
+from .events.include_launch_description import IncludeLaunchDescription
+from .events.shutdown import Shutdown
+from .launch_context import LaunchContext
+
+if TYPE_CHECKING:
+    import asyncio
+
+    from .event import Event
+    from .launch_description import LaunchDescription
+
+
+class LaunchService:
+    """Visits launch descriptions and handles events until nothing is left to do."""
+
+    def __init__(
+        self,
+        *,
+        argv: Optional[Iterable[str]] = None,
+        noninteractive: bool = False,
+        debug: bool = False,
+    ) -> None:
+        """Create a service; `argv` is what the context knows as its arguments."""
+        self.__context = LaunchContext(argv=argv, noninteractive=noninteractive)
+        self.__context.register_event_handler(_IncludeHandler())
+        self.__debug = debug
+        self.__loop: Optional[asyncio.AbstractEventLoop] = None
+        self.__task: Optional[asyncio.Task[int]] = None
+        self.__interrupted = False
+        self.__lock = threading.Lock()
+
+    @property
+    def context(self) -> LaunchContext:
+        """Return the context."""
+        return self.__context
+
+    @property
+    def event_loop(self) -> Optional[asyncio.AbstractEventLoop]:
+        """Return the event loop while the service runs."""
+        return self.__loop
+
+    @property
+    def task(self) -> Optional[asyncio.Task[int]]:
+        """Return the task of the service while it runs."""
+        return self.__task
+
+    def emit_event(self, event: Event) -> None:
+        """Queue an event; this may be called from any thread, also before the service runs."""
+        self.__context.emit_event_sync(event)
+
+    def include_launch_description(self, launch_description: LaunchDescription) -> None:
+        """Queue a description to be visited; this may be called from any thread."""
+        self.emit_event(IncludeLaunchDescription(launch_description))
+
+    def shutdown(self, force_sync: bool = False) -> Optional[asyncio.Future[None]]:
+        """
+        End the service; this may be called from any thread.
+
+        In the thread of a running service, unless `force_sync` is set, the result can be awaited.
+        """
+        self.emit_event(Shutdown(reason='LaunchService.shutdown() called'))
+        loop = self.__loop
+        if force_sync or loop is None or threading.current_thread() is not (
+                threading.main_thread()):
+            return None
+        future: asyncio.Future[None] = loop.create_future()
+        future.set_result(None)
+        return future
+
+    def run(self, *, shutdown_when_idle: bool = True) -> int:
+        """Run until all is done; return 0, or 1 if an exception occurred in the launch."""
+        _require_main_thread()
+        import asyncio
+        loop = asyncio.new_event_loop()
+        asyncio.set_event_loop(loop)
+        try:
+            return loop.run_until_complete(self.run_async(shutdown_when_idle=shutdown_when_idle))
+        finally:
+            _cancel_all_tasks(loop)
+            asyncio.set_event_loop(None)
+            loop.close()
+
+    async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
+        """Do the same in the running event loop."""
+        _require_main_thread()
+        import asyncio
+        if not self.__lock.acquire(blocking=False):
+            raise RuntimeError('the LaunchService is running already and cannot run twice at once')
+        try:
+            self.__loop = asyncio.get_running_loop()
+            self.__task = asyncio.current_task()
+            return await self._run_in(self.__loop, shutdown_when_idle)
+        finally:
+            self.__loop = self.__task = None
+            self.__lock.release()
+
+    async def _run_in(
+        self, loop: asyncio.AbstractEventLoop, shutdown_when_idle: bool,
+    ) -> int:
+        """Set up what a run needs, and take it down again whatever happens."""
+        from ._event_processor import EventProcessor
+        from ._signals import handled_signals
+        from ._supervision.process_registry import ProcessRegistry
+        from .logging import log_launch_config
+        from .logging._screen import screen
+        self._set_level()
+        log_launch_config()
+        context = self.__context
+        context._set_is_shutdown(False)
+        self.__interrupted = False
+        processor = EventProcessor(context, loop)
+        context._processes = registry = ProcessRegistry()
+        context._attach(loop, processor.wake_up)
+        screen.on_closed = self._on_screen_closed
+        loop_error_handler = loop.get_exception_handler()
+        loop.set_exception_handler(processor.on_loop_error)
+        try:
+            with handled_signals(loop, self._on_signal):
+                return await processor.run(shutdown_when_idle=shutdown_when_idle)
+        finally:
+            loop.set_exception_handler(loop_error_handler)
+            screen.on_closed = None
+            context._attach(None, None)
+            registry.close()
+            context._processes = None
+
+    def _set_level(self) -> None:
+        if self.__debug:
+            from .logging import launch_config
+            launch_config.level = logging.DEBUG
+
+    def _on_signal(self, number: signal.Signals) -> None:
+        """End the service; whoever asks twice is told that it is ending."""
+        from .logging import get_logger
+        interrupted = number == signal.SIGINT
+        text = ('user interrupted with ctrl-c (SIGINT)' if interrupted
+                else f'asked to end by a signal ({number.name})')
+        if self.__interrupted:
+            get_logger('launch').warning('%s again, ignoring...', text)
+            return
+        self.__interrupted = True
+        get_logger('launch').warning('%s', text)
+        reason = 'ctrl-c (SIGINT)' if interrupted else number.name
+        self.emit_event(Shutdown(reason=reason, due_to_sigint=interrupted))
+
+    def _on_screen_closed(self) -> None:
+        """End the service when nobody reads what it writes any more, as in `| head`."""
+        self.emit_event(Shutdown(reason='the standard output was closed'))
+
+
+class _IncludeHandler(EventHandler):
+    """Visits the launch descriptions that are queued."""
+
+    def __init__(self) -> None:
+        """Create the handler."""
+        super().__init__(matcher=lambda event: isinstance(event, IncludeLaunchDescription))
+
+    def handle(self, event: Any, context: LaunchContext) -> LaunchDescription:
+        """Return the description, which is visited next."""
+        super().handle(event, context)
+        description: LaunchDescription = event.launch_description
+        return description
+
+
+def _require_main_thread() -> None:
+    if threading.current_thread() is not threading.main_thread():
+        raise RuntimeError(
+            'LaunchService can only be run in the main thread, where signals arrive')
+
+
+def _cancel_all_tasks(loop: asyncio.AbstractEventLoop) -> None:
+    """Let what is still in the loop come to an end."""
+    import asyncio
+    tasks = asyncio.all_tasks(loop)
+    for task in tasks:
+        task.cancel()
+    if tasks:
+        loop.run_until_complete(asyncio.gather(*tasks, return_exceptions=True))
+    loop.run_until_complete(loop.shutdown_asyncgens())

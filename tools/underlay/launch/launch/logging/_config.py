@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The settings of the log, and the loggers that obey them."""
+
+from __future__ import annotations
+
+import logging
+import os
+from typing import Dict, List, Optional
+
+from ._directory import make_run_directory
+from ._formats import log_formatter, screen_formatter
+from ._handlers import LogFileHandler, ScreenHandler
+
+_MAIN_LOG = 'launch.log'
+
+
+class LaunchConfig:
+    """Where the log goes, from which level on, and in which format."""
+
+    def __init__(self) -> None:
+        """Create the default settings; nothing is written yet."""
+        self.reset()
+
+    def reset(self) -> None:
+        """Go back to the default settings, with a new folder for the log files."""
+        self._log_dir: Optional[str] = None
+        self._level = logging.INFO
+        self._screen_formatter = screen_formatter(os.environ.get('OVERRIDE_LAUNCH_SCREEN_FORMAT'))
+        self._log_formatter = log_formatter(os.environ.get('OVERRIDE_LAUNCH_LOG_FORMAT'))
+        self._screen_handler: Optional[ScreenHandler] = None
+        self._file_handlers: Dict[str, LogFileHandler] = {}
+
+    @property
+    def level(self) -> int:
+        """Return the level from which on something is logged."""
+        return self._level
+
+    @level.setter
+    def level(self, value: int) -> None:
+        self._level = value
+        for name in _known_loggers:
+            logging.getLogger(name).setLevel(value)
+
+    @property
+    def log_dir(self) -> str:
+        """Return the folder of the log files of this run, which is made when it is needed."""
+        if self._log_dir is None:
+            self._log_dir = make_run_directory()
+        return self._log_dir
+
+    @log_dir.setter
+    def log_dir(self, value: str) -> None:
+        if self._log_dir not in (None, value):
+            raise RuntimeError(
+                f"the folder of the log files is '{self._log_dir}' already and cannot become "
+                f"'{value}'")
+        os.makedirs(value, exist_ok=True)
+        self._log_dir = value
+
+    def set_screen_format(self, screen_format: str) -> None:
+        """Set the brace-style format of what is shown on the screen."""
+        self._screen_formatter = screen_formatter(screen_format)
+        if self._screen_handler is not None:
+            self._screen_handler.setFormatter(self._screen_formatter)
+
+    def set_log_format(self, log_format: str) -> None:
+        """Set the brace-style format of the main log file."""
+        self._log_formatter = log_formatter(log_format)
+        if _MAIN_LOG in self._file_handlers:
+            self._file_handlers[_MAIN_LOG].setFormatter(self._log_formatter)
+
+    def get_screen_handler(self) -> ScreenHandler:
+        """Return the handler that writes to the screen."""
+        if self._screen_handler is None:
+            self._screen_handler = ScreenHandler()
+            self._screen_handler.setFormatter(self._screen_formatter)
+        return self._screen_handler
+
+    def get_log_file_path(self, file_name: str = _MAIN_LOG) -> str:
+        """Return the path of a log file."""
+        return os.path.join(self.log_dir, file_name)
+
+    def get_log_file_handler(self, file_name: str = _MAIN_LOG) -> LogFileHandler:
+        """Return the handler that writes to a log file."""
+        if file_name not in self._file_handlers:
+            handler = LogFileHandler(lambda: self.get_log_file_path(file_name))
+            handler.setFormatter(self._log_formatter)
+            self._file_handlers[file_name] = handler
+        return self._file_handlers[file_name]
+
+    def close(self) -> None:
+        """Close the log files; they open again when something is written."""
+        for handler in self._file_handlers.values():
+            handler.close()
+
+
+_known_loggers: List[Optional[str]] = []
+launch_config = LaunchConfig()
+
+
+def get_logger(name: Optional[str] = None) -> logging.Logger:
+    """Return a logger that writes to the screen and to the main log file."""
+    logger = logging.getLogger(name)
+    if name not in _known_loggers:
+        _known_loggers.append(name)
+        logger.propagate = False
+        logger.setLevel(launch_config.level)
+    handlers = [launch_config.get_screen_handler(), launch_config.get_log_file_handler()]
+    if name is None:
+        handlers = [each for each in handlers if each not in logger.handlers]
+        for each in handlers:
+            logger.addHandler(each)
+    elif logger.handlers != handlers:
+        logger.handlers = list(handlers)
+    return logger
+
+
+def log_launch_config(*, logger: Optional[logging.Logger] = None) -> None:
+    """Log where the log files are and from which level on something is logged."""
+    target = get_logger('launch') if logger is None else logger
+    target.info('All log files can be found below %s', launch_config.log_dir)
+    level = logging.getLevelName(launch_config.level)
+    target.info('Default logging verbosity is set to %s', level)
+
+
+def reset() -> None:
+    """Go back to the default settings, with a new folder for the log files."""
+    launch_config.close()
+    launch_config.reset()
+    for name in _known_loggers:
+        logger = logging.getLogger(name)
+        logger.handlers = [each for each in logger.handlers
+                           if not isinstance(each, (ScreenHandler, LogFileHandler))]
+        logger.setLevel(launch_config.level)

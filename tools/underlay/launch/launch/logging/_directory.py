@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The folder of the log files of one run."""
+
+from __future__ import annotations
+
+from datetime import datetime
+import os
+
+
+def base_directory() -> str:
+    """Return the folder below which each run has one of its own."""
+    explicit = os.environ.get('ROS_LOG_DIR')
+    if explicit:
+        return os.path.abspath(os.path.expanduser(explicit))
+    home = os.environ.get('ROS_HOME') or os.path.join('~', '.ros')
+    return os.path.abspath(os.path.join(os.path.expanduser(home), 'log'))
+
+
+def make_run_directory() -> str:
+    """Make the folder of this run, and let `latest` beside it lead there."""
+    now = datetime.now().strftime('%Y-%m-%d-%H-%M-%S-%f')
+    base = base_directory()
+    path = os.path.join(base, f'{now}-{os.uname().nodename}-{os.getpid()}')
+    try:
+        os.makedirs(path, exist_ok=True)
+    except OSError as error:
+        raise RuntimeError(
+            f"the folder '{path}' for the log files cannot be made: {error.strerror}; set "
+            'ROS_LOG_DIR to a folder in which you may write') from error
+    _point_latest_at(base, path)
+    return path
+
+
+def _point_latest_at(base: str, path: str) -> None:
+    """Replace the link in one step, so that it always leads somewhere."""
+    latest = os.path.join(base, 'latest')
+    if os.path.exists(latest) and not os.path.islink(latest):
+        from ._config import get_logger
+        get_logger('launch').warning(
+            "'%s' is not a symbolic link and stays as it is, so it does not lead to the log files "
+            'of this run', latest)
+        return
+    temporary = f'{latest}.{os.getpid()}'
+    try:
+        os.symlink(path, temporary)
+        os.replace(temporary, latest)
+    except OSError:
+        _remove_quietly(temporary)
+
+
+def _remove_quietly(path: str) -> None:
+    """Remove a file if it is there and may be removed."""
+    try:
+        os.unlink(path)
+    except OSError:
+        pass

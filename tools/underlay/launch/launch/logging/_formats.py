@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The formats of the log."""
+
+from __future__ import annotations
+
+import codecs
+import logging
+from typing import Optional
+
+_SCREEN_FORMATS = {
+    'default': '[{levelname}] [{name}]: {message}',
+    'default_with_timestamp': '{created:.7f} [{levelname}] [{name}]: {message}',
+}
+_LOG_FORMATS = {
+    'default': '{created:.7f} [{levelname}] [{name}]: {message}',
+}
+
+
+def screen_formatter(text: Optional[str]) -> logging.Formatter:
+    """Return the formatter of the screen, from a format or the name of a known one."""
+    return _formatter(_SCREEN_FORMATS.get(text or 'default', text or ''))
+
+
+def log_formatter(text: Optional[str]) -> logging.Formatter:
+    """Return the formatter of the main log file, from a format or the name of a known one."""
+    return _formatter(_LOG_FORMATS.get(text or 'default', text or ''))
+
+
+def bare_formatter() -> logging.Formatter:
+    """Return the formatter of a process's lines, which have their format already."""
+    return _formatter('{message}')
+
+
+def stamped_formatter() -> logging.Formatter:
+    """Return the formatter of a process's lines in the main log file."""
+    return _formatter('{created:.7f} {message}')
+
+
+def _formatter(text: str) -> logging.Formatter:
+    """Return a brace-style formatter; backslash escapes are interpreted."""
+    if '\\' in text:
+        text = codecs.decode(text, 'unicode_escape')
+    return logging.Formatter(text, style='{', validate=False)

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The handlers of log records."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import logging
+from typing import Optional, TextIO
+
+from ._screen import screen
+
+
+class ScreenHandler(logging.Handler):
+    """Writes records to the screen."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Write a record."""
+        screen.write_line(self.format(record))
+
+
+class LogFileHandler(logging.Handler):
+    """Writes records to a file, which is opened when the first one comes."""
+
+    def __init__(self, path: Callable[[], str]) -> None:
+        """Create the handler of the file at the path that a function returns."""
+        super().__init__()
+        self._path = path
+        self._file: Optional[TextIO] = None
+        self._failed = False
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Write a record."""
+        self.write_line(self.format(record))
+
+    def write_line(self, text: str) -> None:
+        """Write a line; after a failure nothing is written any more."""
+        if self._failed:
+            return
+        try:
+            if self._file is None:
+                self._file = open(
+                    self._path(), 'a', buffering=1, encoding='utf-8', errors='backslashreplace')
+            self._file.write(text + '\n')
+        except OSError as error:
+            self._failed = True
+            screen.write_line(
+                f'[WARNING] [launch]: the log file cannot be written any more: {error}')
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._file is not None:
+            try:
+                self._file.close()
+            except OSError:
+                self._failed = True
+            self._file = None
+        super().close()

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The loggers of the output of processes."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+import logging
+from typing import Dict, FrozenSet, Tuple, Union
+
+from ._config import launch_config
+from ._formats import bare_formatter, stamped_formatter
+from ._handlers import LogFileHandler, ScreenHandler
+
+OutputConfig = Union[str, Mapping[str, Union[str, Collection[str]]]]
+
+_PRESETS: Dict[str, Dict[str, Tuple[str, ...]]] = {
+    'screen': {'both': ('screen',)},
+    'log': {'both': ('log',), 'stderr': ('screen',)},
+    'both': {'both': ('screen', 'log')},
+    'own_log': {'both': ('own_log',), 'stdout': ('own_log',), 'stderr': ('own_log',)},
+    'full': {'both': ('screen', 'log', 'own_log'), 'stdout': ('own_log',),
+             'stderr': ('own_log',)},
+}
+_DESTINATIONS = frozenset(('screen', 'log', 'own_log'))
+_STREAMS = ('stdout', 'stderr', 'both')
+
+
+def normalize_output_config(config: OutputConfig) -> Dict[str, FrozenSet[str]]:
+    """Return where stdout, stderr and both of them go; a ValueError says what is wrong."""
+    if isinstance(config, str):
+        if config not in _PRESETS:
+            raise ValueError(
+                f'{config} is not a valid standard output config i.e. "screen", "log" or "both"')
+        config = _PRESETS[config]
+    unknown = sorted(set(config) - set(_STREAMS))
+    if unknown:
+        raise ValueError(
+            f"'{unknown[0]}' is not a stream of a process; the output can be set for stdout, "
+            'stderr and both')
+    return {stream: _destinations(config.get(stream, ())) for stream in _STREAMS}
+
+
+def _destinations(names: Union[str, Iterable[str]]) -> FrozenSet[str]:
+    result = frozenset([names] if isinstance(names, str) else names)
+    unknown = sorted(result - _DESTINATIONS)
+    if unknown:
+        raise ValueError(
+            f'{unknown[0]} is not a valid standard output config i.e. "screen", "log" or '
+            '"own_log" for a single stream')
+    return result
+
+
+def get_output_loggers(
+    process_name: str, output_config: OutputConfig,
+) -> Tuple[logging.Logger, logging.Logger]:
+    """Return the loggers of the standard output and the standard error of a process."""
+    config = normalize_output_config(output_config)
+    stdout, stderr = (_logger(process_name, stream, config) for stream in ('stdout', 'stderr'))
+    return stdout, stderr
+
+
+def _logger(
+    process_name: str, stream: str, config: Dict[str, FrozenSet[str]],
+) -> logging.Logger:
+    logger = logging.getLogger(f'{process_name}-{stream}')
+    logger.propagate = False
+    logger.setLevel(logging.INFO)
+    logger.handlers = []
+    wanted = config[stream] | config['both']
+    if 'screen' in wanted:
+        logger.addHandler(_with(ScreenHandler(), bare_formatter()))
+    if 'log' in wanted:
+        logger.addHandler(_file('launch.log', stamped_formatter()))
+    if 'own_log' in config[stream]:
+        logger.addHandler(_file(f'{process_name}-{stream}.log', bare_formatter()))
+    if 'own_log' in config['both']:
+        logger.addHandler(_file(f'{process_name}.log', bare_formatter()))
+    return logger
+
+
+def _file(file_name: str, formatter: logging.Formatter) -> logging.Handler:
+    """Return a handler with a format of its own that shares the file of the main one."""
+    return _with(_Forward(launch_config.get_log_file_handler(file_name)), formatter)
+
+
+def _with(handler: logging.Handler, formatter: logging.Formatter) -> logging.Handler:
+    handler.setFormatter(formatter)
+    return handler
+
+
+class _Forward(logging.Handler):
+    """Writes records in another format to the file of a handler."""
+
+    def __init__(self, target: LogFileHandler) -> None:
+        """Create the handler."""
+        super().__init__()
+        self._target = target
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Write a record."""
+        self._target.write_line(self.format(record))

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The one writer to the screen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import os
+import sys
+from typing import Optional
+
+
+class Screen:
+    """Writes whole lines to the standard output, until nobody reads it any more."""
+
+    def __init__(self) -> None:
+        """Create the writer."""
+        self.on_closed: Optional[Callable[[], None]] = None
+        self._broken_stream: Optional[object] = None
+
+    def write_line(self, text: str) -> None:
+        """Write a line at once; what cannot be encoded is escaped."""
+        stream = sys.stdout
+        if stream is None or stream is self._broken_stream:
+            return
+        try:
+            stream.write(_encodable(text, stream.encoding or 'utf-8') + '\n')
+            stream.flush()
+        except (OSError, ValueError) as error:
+            self._give_up(stream, error)
+
+    def _give_up(self, stream: object, error: Exception) -> None:
+        """Remember that the stream is closed, and tell who wants to know it."""
+        self._broken_stream = stream
+        if stream is sys.__stdout__ and isinstance(error, OSError):
+            _discard_standard_output()
+        if isinstance(error, BrokenPipeError) and self.on_closed is not None:
+            self.on_closed()
+
+
+def _encodable(text: str, encoding: str) -> str:
+    return text.encode(encoding, 'backslashreplace').decode(encoding)
+
+
+def _discard_standard_output() -> None:
+    """Lead the standard output nowhere, so that no later flush fails."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nowhere, 1)
+    finally:
+        os.close(nowhere)
+
+
+screen = Screen()

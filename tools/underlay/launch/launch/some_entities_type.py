@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What stands for one or more entities of a launch description."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Union
+
+from .launch_description_entity import LaunchDescriptionEntity
+
+SomeEntitiesType = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity]]
+
+SomeEntitiesType_types_tuple = (LaunchDescriptionEntity, Iterable)

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What stands for a text that is known only when the launch runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import os
+from typing import Union
+
+from .substitution import Substitution
+
+SomeSubstitutionsType = Union[
+    str,
+    'os.PathLike[str]',
+    Substitution,
+    Iterable[Union[str, 'os.PathLike[str]', Substitution]],
+]
+
+SomeSubstitutionsType_types_tuple = (str, os.PathLike, Substitution, Iterable)

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A name that nothing else has."""
+
+from __future__ import annotations
+
+import os
+from typing import List, TYPE_CHECKING
+
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+_FORBIDDEN = str.maketrans('.-:', '___')
+
+
+class AnonName(Substitution):
+    """Stands for a name made unique; the same name always gives the same result."""
+
+    def __init__(self, name: SomeSubstitutionsType) -> None:
+        """Create the substitution of a name."""
+        self.__name = normalize_to_list_of_substitutions(name)
+
+    @property
+    def name(self) -> List[Substitution]:
+        """Return the parts of the name."""
+        return self.__name
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return f"AnonName({' + '.join(sub.describe() for sub in self.__name)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the unique name, which a launch configuration remembers."""
+        name = perform_substitutions(context, self.__name)
+        remembered: str = context.launch_configurations.setdefault(
+            'anon' + name, unique_name(name))
+        return remembered
+
+
+def unique_name(name: str) -> str:
+    """Return a name with the host, the process and a random number behind it."""
+    number = int.from_bytes(os.urandom(4), 'little')
+    return f'{name}_{os.uname().nodename}_{os.getpid()}_{number}'.translate(_FORBIDDEN)

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Logic on truth values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import List, TYPE_CHECKING
+
+from .substitution_failure import SubstitutionFailure
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities._scalars import read_boolean
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class _BooleanSubstitution(Substitution):
+    """The base of the logic: performs operands that stand for truth values."""
+
+    def __init__(self, *operands: SomeSubstitutionsType) -> None:
+        """Create the substitution of some operands."""
+        self._operands = [normalize_to_list_of_substitutions(each) for each in operands]
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        operands = (' + '.join(sub.describe() for sub in each) for each in self._operands)
+        return f"{type(self).__name__}({', '.join(operands)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return `true` or `false`."""
+        return 'true' if self._decide(self._values(context)) else 'false'
+
+    def _values(self, context: LaunchContext) -> List[bool]:
+        texts = [perform_substitutions(context, each) for each in self._operands]
+        try:
+            return [read_boolean(text) for text in texts]
+        except ValueError as error:
+            raise SubstitutionFailure(f'{self.describe()}: {error}') from error
+
+    def _decide(self, values: List[bool]) -> bool:
+        raise NotImplementedError
+
+
+class NotSubstitution(_BooleanSubstitution):
+    """Stands for `true` if the operand is false, and the other way round."""
+
+    def __init__(self, value: SomeSubstitutionsType) -> None:
+        """Create the substitution of an operand."""
+        super().__init__(value)
+
+    @property
+    def value(self) -> List[Substitution]:
+        """Return the parts of the operand."""
+        return self._operands[0]
+
+    def _decide(self, values: List[bool]) -> bool:
+        return not values[0]
+
+
+class _BinarySubstitution(_BooleanSubstitution):
+    """The base of the logic with two operands."""
+
+    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
+        """Create the substitution of two operands."""
+        super().__init__(left, right)
+
+    @property
+    def left(self) -> List[Substitution]:
+        """Return the parts of the first operand."""
+        return self._operands[0]
+
+    @property
+    def right(self) -> List[Substitution]:
+        """Return the parts of the second operand."""
+        return self._operands[1]
+
+
+class AndSubstitution(_BinarySubstitution):
+    """Stands for `true` if both operands are true."""
+
+    def _decide(self, values: List[bool]) -> bool:
+        return all(values)
+
+
+class OrSubstitution(_BinarySubstitution):
+    """Stands for `true` if an operand is true."""
+
+    def _decide(self, values: List[bool]) -> bool:
+        return any(values)
+
+
+class AnySubstitution(_BooleanSubstitution):
+    """Stands for `true` if any of the operands is true."""
+
+    @property
+    def args(self) -> Iterable[List[Substitution]]:
+        """Return the operands."""
+        return self._operands
+
+    def _decide(self, values: List[bool]) -> bool:
+        return any(values)
+
+
+class AllSubstitution(_BooleanSubstitution):
+    """Stands for `true` if all operands are true."""
+
+    @property
+    def args(self) -> Iterable[List[Substitution]]:
+        """Return the operands."""
+        return self._operands
+
+    def _decide(self, values: List[bool]) -> bool:
+        return all(values)

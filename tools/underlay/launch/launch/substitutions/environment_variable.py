@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The value of an environment variable."""
+
+from __future__ import annotations
+
+from typing import List, Optional, TYPE_CHECKING
+
+from .substitution_failure import SubstitutionFailure
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class EnvironmentVariable(Substitution):
+    """Stands for the value that an environment variable has at run time."""
+
+    def __init__(
+        self,
+        name: SomeSubstitutionsType,
+        *,
+        default_value: Optional[SomeSubstitutionsType] = None,
+    ) -> None:
+        """Create the substitution; without a default an unset variable is a failure."""
+        self.__name = normalize_to_list_of_substitutions(name)
+        self.__default_value = (
+            None if default_value is None else normalize_to_list_of_substitutions(default_value))
+
+    @property
+    def name(self) -> List[Substitution]:
+        """Return the parts of the name."""
+        return self.__name
+
+    @property
+    def default_value(self) -> Optional[List[Substitution]]:
+        """Return the parts of the default, or None."""
+        return self.__default_value
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return f"EnvVar({' + '.join(sub.describe() for sub in self.__name)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the value, or else the default."""
+        name = perform_substitutions(context, self.__name)
+        value = context.environment.get(name)
+        if value is not None:
+            return value
+        if self.__default_value is None:
+            raise SubstitutionFailure(f"environment variable '{name}' does not exist")
+        return perform_substitutions(context, self.__default_value)

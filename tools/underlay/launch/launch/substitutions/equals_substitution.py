@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A comparison."""
+
+from __future__ import annotations
+
+from typing import Any, List, Optional, TYPE_CHECKING, Union
+
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+Comparable = Optional[Union[bool, int, float, SomeSubstitutionsType]]
+
+
+class EqualsSubstitution(Substitution):
+    """Stands for `true` if two values are equal, as truth values, numbers or texts."""
+
+    def __init__(self, left: Comparable, right: Comparable) -> None:
+        """Create the substitution of two values."""
+        self.__left = _normalize(left)
+        self.__right = _normalize(right)
+
+    @property
+    def left(self) -> List[Substitution]:
+        """Return the parts of the first value."""
+        return self.__left
+
+    @property
+    def right(self) -> List[Substitution]:
+        """Return the parts of the second value."""
+        return self.__right
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        left, right = (' + '.join(sub.describe() for sub in side)
+                       for side in (self.__left, self.__right))
+        return f'{type(self).__name__}({left} {right})'
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return `true` or `false`."""
+        return 'true' if self._equal(context) else 'false'
+
+    def _equal(self, context: LaunchContext) -> bool:
+        left = perform_substitutions(context, self.__left)
+        right = perform_substitutions(context, self.__right)
+        return same_value(left, right)
+
+
+def same_value(left: str, right: str) -> bool:
+    """Compare two texts as truth values if both are, else as numbers if both are."""
+    truths = [_truth(left), _truth(right)]
+    if None not in truths:
+        return truths[0] == truths[1]
+    try:
+        numbers = float(left), float(right)
+    except ValueError:
+        return left == right
+    import math
+    return math.isclose(*numbers)
+
+
+def _truth(text: str) -> Optional[bool]:
+    return {'true': True, '1': True, 'false': False, '0': False}.get(text.lower())
+
+
+def _normalize(value: Any) -> List[Substitution]:
+    if value is None:
+        value = ''
+    elif isinstance(value, bool):
+        value = str(value).lower()
+    elif isinstance(value, (int, float)):
+        value = str(value)
+    return normalize_to_list_of_substitutions(value)

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The content of a file."""
+
+from __future__ import annotations
+
+from typing import List, TYPE_CHECKING
+
+from .substitution_failure import SubstitutionFailure
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class FileContent(Substitution):
+    """Stands for the text in a file."""
+
+    def __init__(self, path: SomeSubstitutionsType) -> None:
+        """Create the substitution of the file at a path."""
+        self.__path = normalize_to_list_of_substitutions(path)
+
+    @property
+    def path(self) -> List[Substitution]:
+        """Return the parts of the path."""
+        return self.__path
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return f"FileContent({' + '.join(sub.describe() for sub in self.__path)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the whole text."""
+        path = perform_substitutions(context, self.__path)
+        try:
+            with open(path, encoding='utf-8') as file:
+                return file.read()
+        except FileNotFoundError as error:
+            raise SubstitutionFailure(f'File not found: {path}') from error
+        except (OSError, UnicodeDecodeError) as error:
+            raise SubstitutionFailure(f'File cannot be read: {path}: {error}') from error

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The path of a program."""
+
+from __future__ import annotations
+
+import shutil
+from typing import List, TYPE_CHECKING
+
+from .substitution_failure import SubstitutionFailure
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class FindExecutable(Substitution):
+    """Stands for the path of a program that the shell would find."""
+
+    def __init__(self, *, name: SomeSubstitutionsType) -> None:
+        """Create the substitution of the program with this name."""
+        self.__name = normalize_to_list_of_substitutions(name)
+
+    @property
+    def name(self) -> List[Substitution]:
+        """Return the parts of the name."""
+        return self.__name
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return f"FindExec({' + '.join(sub.describe() for sub in self.__name)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the path; a failure names the program."""
+        name = perform_substitutions(context, self.__name)
+        found = shutil.which(name)
+        if found is None:
+            raise SubstitutionFailure(
+                f"executable '{name}' not found on the PATH; install it, or source the "
+                'environment that has it')
+        return found

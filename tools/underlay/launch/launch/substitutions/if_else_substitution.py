@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A choice between two texts."""
+
+from __future__ import annotations
+
+from typing import List, TYPE_CHECKING
+
+from .substitution_failure import SubstitutionFailure
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities._scalars import read_boolean
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class IfElseSubstitution(Substitution):
+    """Stands for one of two texts; only the one that is chosen is performed."""
+
+    def __init__(
+        self,
+        condition: SomeSubstitutionsType,
+        if_value: SomeSubstitutionsType = '',
+        else_value: SomeSubstitutionsType = '',
+    ) -> None:
+        """Create the substitution; at least one of the texts must be given."""
+        if if_value == else_value == '':
+            raise RuntimeError(
+                'IfElseSubstitution needs an if_value or an else_value, but both are empty')
+        self.__condition = normalize_to_list_of_substitutions(condition)
+        self.__if_value = normalize_to_list_of_substitutions(if_value)
+        self.__else_value = normalize_to_list_of_substitutions(else_value)
+
+    @property
+    def condition(self) -> List[Substitution]:
+        """Return the parts of the condition."""
+        return self.__condition
+
+    @property
+    def if_value(self) -> List[Substitution]:
+        """Return the parts of the text for a true condition."""
+        return self.__if_value
+
+    @property
+    def else_value(self) -> List[Substitution]:
+        """Return the parts of the text for a false condition."""
+        return self.__else_value
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        parts = (' + '.join(sub.describe() for sub in each)
+                 for each in (self.__condition, self.__if_value, self.__else_value))
+        return f"IfElseSubstitution({', '.join(parts)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the text that the condition chooses."""
+        condition = perform_substitutions(context, self.__condition)
+        try:
+            chosen = self.__if_value if read_boolean(condition) else self.__else_value
+        except ValueError as error:
+            raise SubstitutionFailure(f'{self.describe()}: {error}') from error
+        return perform_substitutions(context, chosen)

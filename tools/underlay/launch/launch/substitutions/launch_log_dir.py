@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The folder of the log files of this launch."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ._path_operator import PathOperator
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class LaunchLogDir(PathOperator):
+    """Stands for the folder of the log files of this launch."""
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return 'LaunchLogDir()'
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the folder."""
+        from ..logging import launch_config
+        return str(launch_config.log_dir)

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The value of a local variable of the launch context."""
+
+from __future__ import annotations
+
+from typing import Optional, TYPE_CHECKING
+
+from .substitution_failure import SubstitutionFailure
+from ..substitution import Substitution
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class LocalSubstitution(Substitution):
+    """Stands for a local variable or something in it, such as `event.reason`."""
+
+    def __init__(self, expression: str, description: Optional[str] = None) -> None:
+        """Create the substitution of an expression on the locals of the context."""
+        self.__expression = expression
+        self.__description = description
+
+    @property
+    def expression(self) -> str:
+        """Return the expression."""
+        return self.__expression
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return f"LocalVar('{self.__description or self.__expression}')"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the value, which must be a text."""
+        value = eval(f'context.locals.{self.__expression}', {}, {'context': context})
+        if not isinstance(value, str):
+            raise SubstitutionFailure(
+                f"the local variable '{self.__expression}' must be a text to be used as a "
+                f"substitution, but it is {value!r} of type '{type(value).__name__}'")
+        return value

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A negated comparison."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .equals_substitution import EqualsSubstitution
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class NotEqualsSubstitution(EqualsSubstitution):
+    """Stands for `true` if two values differ."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return `true` or `false`."""
+        return 'false' if self._equal(context) else 'true'

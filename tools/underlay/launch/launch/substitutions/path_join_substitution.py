@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The parts of a path, joined."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import os
+from typing import List, TYPE_CHECKING
+
+from ._path_operator import PathOperator
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class PathJoinSubstitution(PathOperator):
+    """Stands for parts of a path joined by the separator of the system."""
+
+    def __init__(self, substitutions: Iterable[SomeSubstitutionsType]) -> None:
+        """Create the substitution; a part that is a list is put together to one part."""
+        if isinstance(substitutions, (str, os.PathLike, Substitution)):
+            substitutions = [substitutions]
+        self.__parts = [normalize_to_list_of_substitutions(part) for part in substitutions]
+
+    @property
+    def substitutions(self) -> List[List[Substitution]]:
+        """Return the parts, each as a list of substitutions."""
+        return self.__parts
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        parts = (' + '.join(sub.describe() for sub in part) for part in self.__parts)
+        return f"PathJoin('{' + '.join(parts)}')"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the path; an absolute part drops what stands before it."""
+        parts = [perform_substitutions(context, part) for part in self.__parts]
+        return os.path.join(*parts) if parts else ''

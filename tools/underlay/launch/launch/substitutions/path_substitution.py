@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A text that is used as a path."""
+
+from __future__ import annotations
+
+from typing import List, TYPE_CHECKING
+
+from ._path_operator import PathOperator
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class PathSubstitution(PathOperator):
+    """Stands for a path; `/` joins it with more, as it does for pathlib."""
+
+    def __init__(self, path: SomeSubstitutionsType) -> None:
+        """Create the substitution of a path."""
+        self.__path = normalize_to_list_of_substitutions(path)
+
+    @property
+    def path(self) -> List[Substitution]:
+        """Return the parts of the text."""
+        return self.__path
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return f"Path({' + '.join(sub.describe() for sub in self.__path)})"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the path."""
+        return perform_substitutions(context, self.__path)

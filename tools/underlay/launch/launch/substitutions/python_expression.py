@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The value of a Python expression."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any, Dict, List, TYPE_CHECKING
+
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from ..utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class PythonExpression(Substitution):
+    """Stands for the value of a Python expression, as a text."""
+
+    def __init__(
+        self,
+        expression: SomeSubstitutionsType,
+        python_modules: SomeSubstitutionsType = ('math',),
+    ) -> None:
+        """Create the substitution; the expression can use the modules named, no others."""
+        self.__expression = normalize_to_list_of_substitutions(expression)
+        self.__python_modules = normalize_to_list_of_substitutions(python_modules)
+
+    @property
+    def expression(self) -> List[Substitution]:
+        """Return the parts of the expression."""
+        return self.__expression
+
+    @property
+    def python_modules(self) -> List[Substitution]:
+        """Return the names of the modules."""
+        return self.__python_modules
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        expression = ' + '.join(sub.describe() for sub in self.__expression)
+        modules = ', '.join(sub.describe() for sub in self.__python_modules)
+        return f'PythonExpr({expression}, [{modules}])'
+
+    def perform(self, context: LaunchContext) -> str:
+        """Evaluate the expression, which comes from the launch file, and return its text."""
+        expression = perform_substitutions(context, self.__expression)
+        names = [context.perform_substitution(sub) for sub in self.__python_modules]
+        return str(eval(expression, {}, _namespace(names)))
+
+
+def _namespace(module_names: List[str]) -> Dict[str, Any]:
+    """Return the modules by name, and what is in `math` by itself."""
+    modules = {name: import_module(name) for name in module_names}
+    return {**vars(modules['math']), **modules} if 'math' in modules else dict(modules)

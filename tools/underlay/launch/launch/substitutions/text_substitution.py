@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A text that is known already."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..substitution import Substitution
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class TextSubstitution(Substitution):
+    """Stands for a text that is known already."""
+
+    def __init__(self, *, text: str) -> None:
+        """Create the substitution of a text."""
+        if not isinstance(text, str):
+            raise TypeError(
+                f"TextSubstitution expected the text to be a 'str', "
+                f"but got {text!r} of type '{type(text).__name__}'")
+        self.__text = text
+
+    @property
+    def text(self) -> str:
+        """Return the text."""
+        return self.__text
+
+    def describe(self) -> str:
+        """Return the text in quotes."""
+        return f"'{self.__text}'"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the text."""
+        return self.__text

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The path of the launch file that is being read."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ._path_operator import PathOperator
+from .substitution_failure import SubstitutionFailure
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+class ThisLaunchFile(PathOperator):
+    """Stands for the path of the launch file that is being read."""
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return 'ThisLaunchFile()'
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the path; a failure says that no file is being read."""
+        path = context.get_locals_as_dict().get('current_launch_file_path')
+        if path is None:
+            raise SubstitutionFailure(
+                'ThisLaunchFile cannot be used in a script: no launch file is being read')
+        return str(path)

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Helpers for actions, conditions and substitutions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from . import type_utils as type_utils
+    from .class_tools_impl import is_a as is_a
+    from .class_tools_impl import is_a_subclass as is_a_subclass
+    from .ensure_argument_type_impl import ensure_argument_type as ensure_argument_type
+    from .normalize_to_list_of_entities_impl import (
+        normalize_to_list_of_entities as normalize_to_list_of_entities,
+    )
+    from .normalize_to_list_of_substitutions_impl import (
+        normalize_to_list_of_substitutions as normalize_to_list_of_substitutions,
+    )
+    from .perform_substitutions_impl import perform_substitutions as perform_substitutions
+    from .visit_all_entities_and_collect_futures_impl import (
+        visit_all_entities_and_collect_futures as visit_all_entities_and_collect_futures,
+    )
+
+__all__ = [
+    'ensure_argument_type',
+    'is_a',
+    'is_a_subclass',
+    'normalize_to_list_of_entities',
+    'normalize_to_list_of_substitutions',
+    'perform_substitutions',
+    'type_utils',
+    'visit_all_entities_and_collect_futures',
+]
+
+_ELSEWHERE = {
+    'ensure_argument_type': 'ensure_argument_type_impl',
+    'is_a': 'class_tools_impl',
+    'is_a_subclass': 'class_tools_impl',
+    'normalize_to_list_of_entities': 'normalize_to_list_of_entities_impl',
+    'normalize_to_list_of_substitutions': 'normalize_to_list_of_substitutions_impl',
+    'perform_substitutions': 'perform_substitutions_impl',
+    'visit_all_entities_and_collect_futures': 'visit_all_entities_and_collect_futures_impl',
+    'type_utils': '',
+}
+
+__getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

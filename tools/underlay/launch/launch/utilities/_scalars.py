@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Read scalars by the rules of YAML 1.1, without loading a YAML parser where it can be avoided."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+_TRUE = frozenset(('true', 'True', 'TRUE', 'yes', 'Yes', 'YES', 'on', 'On', 'ON'))
+_FALSE = frozenset(('false', 'False', 'FALSE', 'no', 'No', 'NO', 'off', 'Off', 'OFF'))
+_NOTHING = frozenset(('null', 'Null', 'NULL'))
+_DECIMAL = re.compile(r'[-+]?(?:0|[1-9][0-9]*)')
+_POINT = re.compile(r'[-+]?[0-9]+\.[0-9]*(?:[eE][-+][0-9]+)?')
+_PLAIN_WORD = re.compile(r'[A-Za-z/_][A-Za-z0-9/_.-]*')
+
+
+def read_yaml(text: str) -> Any:
+    """Return what a YAML document says; the common scalars are read here."""
+    if text in _TRUE:
+        return True
+    if text in _FALSE:
+        return False
+    if _DECIMAL.fullmatch(text):
+        return int(text)
+    if _POINT.fullmatch(text):
+        return float(text)
+    if _PLAIN_WORD.fullmatch(text) and text not in _NOTHING:
+        return text
+    import yaml
+    return yaml.safe_load(text)
+
+
+def read_boolean(text: str) -> bool:
+    """Return the truth value that a text stands for: those of YAML, 1 and 0."""
+    word = text.strip()
+    if word in _TRUE or word == '1':
+        return True
+    if word in _FALSE or word == '0':
+        return False
+    raise ValueError(f"cannot read '{text}' as a boolean: expected true, false, yes, no, on, off, "
+                     '1 or 0')

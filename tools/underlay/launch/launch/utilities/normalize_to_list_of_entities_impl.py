@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Make a list of entities out of one, many or none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, List, Optional
+
+from ..launch_description_entity import LaunchDescriptionEntity
+from ..some_entities_type import SomeEntitiesType
+
+
+def normalize_to_list_of_entities(
+    entities: Optional[SomeEntitiesType],
+) -> List[LaunchDescriptionEntity]:
+    """Return the entities as a list, nested ones flattened and None dropped."""
+    flat: List[LaunchDescriptionEntity] = []
+    _flatten(entities, flat)
+    return flat
+
+
+def _flatten(item: Any, into: List[LaunchDescriptionEntity]) -> None:
+    if item is None:
+        return
+    if isinstance(item, LaunchDescriptionEntity):
+        into.append(item)
+    elif isinstance(item, Iterable) and not isinstance(item, str):
+        for each in item:
+            _flatten(each, into)
+    else:
+        raise RuntimeError(
+            'expected a LaunchDescriptionEntity, a list of them or None as the reaction to an '
+            f"event, but got '{item!r}' of type '{type(item).__name__}'")

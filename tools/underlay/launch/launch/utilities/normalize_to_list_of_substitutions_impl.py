@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Make a list of substitutions out of texts, paths and substitutions."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, List
+
+from ..some_substitutions_type import SomeSubstitutionsType
+from ..substitution import Substitution
+
+
+def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> List[Substitution]:
+    """Return the parts of a text that is known later, each as a substitution."""
+    if isinstance(subs, (str, os.PathLike, Substitution)):
+        return [_normalize(subs)]
+    return [_normalize(item) for item in subs]
+
+
+def _normalize(item: Any) -> Substitution:
+    from ..substitutions.text_substitution import TextSubstitution
+    if isinstance(item, Substitution):
+        return item
+    if isinstance(item, str):
+        return TextSubstitution(text=item)
+    if isinstance(item, os.PathLike):
+        return TextSubstitution(text=os.fspath(item))
+    raise TypeError(
+        f"Failed to normalize given item of type '{type(item)}', when only 'str' or "
+        "'launch.Substitution' were expected.")

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Perform a list of substitutions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from ..substitution import Substitution
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+
+def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
+    """Return the texts of all the substitutions, one behind the other."""
+    return ''.join([context.perform_substitution(sub) for sub in subs])

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Give performed texts the type that is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import os
+from typing import Any, get_args, get_origin, List, Optional, TYPE_CHECKING
+
+from ._scalars import read_boolean, read_yaml
+from .normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from .perform_substitutions_impl import perform_substitutions
+from ..substitution import Substitution
+
+if TYPE_CHECKING:
+    from ..launch_context import LaunchContext
+
+_SCALARS = (bool, int, float, str)
+
+
+def is_substitution(value: Any) -> bool:
+    """Return whether a value is a substitution, or a list with at least one in it."""
+    if isinstance(value, Substitution):
+        return True
+    if isinstance(value, Iterable) and not isinstance(value, (str, bytes)):
+        return any(isinstance(item, Substitution) for item in value)
+    return False
+
+
+def normalize_typed_substitution(value: Any, data_type: Optional[Any]) -> Any:
+    """Return a value of the type as it is, and anything like a text as substitutions."""
+    if isinstance(value, (str, os.PathLike)) or is_substitution(value):
+        return normalize_to_list_of_substitutions(value)
+    if data_type is not None and not _fits(value, data_type):
+        raise TypeError(f"value='{value!r}' is not of type '{_name(data_type)}'")
+    return value
+
+
+def perform_typed_substitution(
+    context: LaunchContext, value: Any, data_type: Optional[Any],
+) -> Any:
+    """Perform a value from `normalize_typed_substitution` and give it the type."""
+    if is_substitution(value):
+        value = perform_substitutions(context, normalize_to_list_of_substitutions(value))
+    if isinstance(value, str):
+        return coerce_to_type(value, data_type)
+    return value
+
+
+def coerce_to_type(value: str, data_type: Optional[Any] = None) -> Any:
+    """Return the value that a text stands for; without a type YAML rules decide."""
+    if data_type is None:
+        return _coerce_by_yaml(value)
+    if data_type is bool:
+        return read_boolean(value)
+    if data_type in (int, float, str):
+        return data_type(value)
+    if get_origin(data_type) in (list, List):
+        return _coerce_to_list(value, get_args(data_type)[0])
+    raise ValueError(f"cannot make a value of the type '{data_type}' out of '{value}'")
+
+
+def _coerce_by_yaml(text: str) -> Any:
+    value = read_yaml(text)
+    items = value if isinstance(value, list) else [value]
+    kinds = {type(item) for item in items}
+    if len(kinds) > 1 or not kinds.issubset(_SCALARS):
+        raise ValueError(
+            f"cannot read '{text}' as one of str, int, float, bool or a list of one of them")
+    return value
+
+
+def _coerce_to_list(text: str, item_type: Any) -> List[Any]:
+    value = read_yaml(text)
+    if not isinstance(value, list) or not all(_fits(item, item_type) for item in value):
+        raise ValueError(f"cannot read '{text}' as a list of {_name(item_type)}")
+    return [item_type(item) for item in value]
+
+
+def _fits(value: Any, data_type: Any) -> bool:
+    if get_origin(data_type) in (list, List):
+        return isinstance(value, (list, tuple)) and all(
+            _fits(item, get_args(data_type)[0]) for item in value)
+    if isinstance(value, bool):
+        return data_type is bool
+    return isinstance(value, (int, float) if data_type is float else data_type)
+
+
+def _name(data_type: Any) -> str:
+    return getattr(data_type, '__name__', str(data_type))

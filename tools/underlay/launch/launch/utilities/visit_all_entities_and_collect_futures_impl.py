@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Visit a tree of entities."""
+
+from __future__ import annotations
+
+from typing import Any, List, Tuple, TYPE_CHECKING
+
+from ..launch_description_entity import LaunchDescriptionEntity
+
+if TYPE_CHECKING:
+    import asyncio
+
+    from ..launch_context import LaunchContext
+
+    EntityFuturePairs = List[Tuple[LaunchDescriptionEntity, asyncio.Future[Any]]]
+
+
+def visit_all_entities_and_collect_futures(
+    entity: LaunchDescriptionEntity, context: LaunchContext,
+) -> EntityFuturePairs:
+    """Visit an entity and, depth-first, all that it returns; collect their futures."""
+    futures: EntityFuturePairs = []
+    visit_into(entity, context, futures)
+    return futures
+
+
+def visit_into(
+    entity: LaunchDescriptionEntity, context: LaunchContext, futures: EntityFuturePairs,
+) -> None:
+    """Visit likewise; what was collected before a failure stays in `futures`."""
+    try:
+        children = entity.visit(context)
+        future = entity.get_asyncio_future()
+        if future is not None:
+            futures.append((entity, future))
+        if children is not None:
+            for child in children:
+                visit_into(_checked(child, entity), context, futures)
+    except Exception as error:
+        _remember_place(error, entity)
+        raise
+
+
+def _checked(child: LaunchDescriptionEntity, parent: LaunchDescriptionEntity) -> Any:
+    """Return the child if it can be visited; say which list is wrong otherwise."""
+    if hasattr(child, 'visit'):
+        return child
+    raise AttributeError(
+        f"'{type(child).__name__}' object has no attribute 'visit': the entities of "
+        f"{type(parent).__name__} must be actions or launch descriptions, but one is {child!r}")
+
+
+def _remember_place(error: Exception, entity: LaunchDescriptionEntity) -> None:
+    """Note on the exception which line created the innermost action that failed."""
+    place = getattr(entity, 'call_site', None)
+    if place is not None and not hasattr(error, 'launch_call_site'):
+        error.launch_call_site = place  # type: ignore[attr-defined]
+        error.launch_action_name = type(entity).__name__  # type: ignore[attr-defined]

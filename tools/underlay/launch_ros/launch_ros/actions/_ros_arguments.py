@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The arguments that tell a node about its parameters and remappings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import os
+from typing import Any, List, Tuple
+
+from launch.launch_context import LaunchContext
+from launch.logging import get_logger
+
+from ._node_names import NodeNames
+from ..parameter_descriptions import Parameter
+from ..utilities.evaluate_parameters_impl import evaluate_parameters, EvaluatedParameters
+from ..utilities.normalize_parameters_impl import NormalizedParameters
+from ..utilities.normalize_remap_rules_impl import evaluate_remap_rule, RemapRule
+from ..utilities.parameter_files import write_parameter_file
+from ..utilities.yaml_text import flow_text
+
+
+def global_arguments(context: LaunchContext) -> List[str]:
+    """Return the parameters and files that are set for all nodes, in order."""
+    arguments = []
+    for item in context.launch_configurations.get('global_params', []):
+        if isinstance(item, tuple):
+            arguments += ['-p', f'{item[0]}:={_global_text(item[1])}']
+        else:
+            arguments += ['--params-file', os.fspath(item)]
+    return arguments
+
+
+def _global_text(value: Any) -> str:
+    """Return a scalar as Python writes it, which ROS understands, and a list as YAML."""
+    return flow_text(value) if isinstance(value, (list, tuple)) else str(value)
+
+
+def own_parameter_arguments(
+    context: LaunchContext, parameters: Iterable[NormalizedParameters], names: NodeNames,
+) -> List[str]:
+    """Return the parameters of one node, in order; dictionaries are written to files."""
+    arguments = []
+    for element in evaluate_parameters(context, parameters):
+        arguments += _parameter_argument(element, names)
+    return arguments
+
+
+def _parameter_argument(element: EvaluatedParameters, names: NodeNames) -> List[str]:
+    if isinstance(element, Parameter):
+        return ['-p', element.get_parameter_rule()]
+    if isinstance(element, dict):
+        return ['--params-file', write_parameter_file(names.parameter_key, element)]
+    if os.path.isfile(element):
+        return ['--params-file', element]
+    get_logger('launch_ros.actions.node').warning(
+        'Parameter file path is not a file: %s', element)
+    return []
+
+
+def remap_arguments(
+    context: LaunchContext, rules: Iterable[RemapRule],
+) -> Tuple[List[str], List[Tuple[str, str]]]:
+    """Return the remappings of all nodes and of this one as arguments, and as pairs."""
+    pairs: List[Tuple[str, str]] = list(context.launch_configurations.get('ros_remaps', []))
+    pairs += [evaluate_remap_rule(context, rule) for rule in rules]
+    arguments = [word for source, target in pairs for word in ('-r', f'{source}:={target}')]
+    return arguments, pairs

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that puts nodes below a namespace."""
+
+from __future__ import annotations
+
+from typing import Any, List
+
+from launch.action import Action
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+
+from ..utilities.namespace_utils import make_namespace_absolute, prefix_namespace
+from ..utilities.validate_names import InvalidNameError, validate_namespace
+
+
+class PushROSNamespace(Action):
+    """Puts the nodes that follow below a namespace, to the end of the group that it is in."""
+
+    def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
+        """Create the action."""
+        super().__init__(**kwargs)
+        self.__namespace = normalize_to_list_of_substitutions(namespace)
+
+    @property
+    def namespace(self) -> List[Substitution]:
+        """Return the parts of the namespace."""
+        return self.__namespace
+
+    def execute(self, context: LaunchContext) -> None:
+        """Combine the namespace with the one of now."""
+        pushed = perform_substitutions(context, self.__namespace)
+        previous = context.launch_configurations.get('ros_namespace')
+        namespace = make_namespace_absolute(prefix_namespace(previous, pushed)) or '/'
+        try:
+            validate_namespace(namespace)
+        except InvalidNameError as error:
+            raise RuntimeError(
+                'The resulting namespace is invalid: '
+                f"[previous_namespace='{previous}', pushed_namespace='{pushed}']. {error}",
+            ) from error
+        context.launch_configurations['ros_namespace'] = namespace
+
+
+PushRosNamespace = PushROSNamespace

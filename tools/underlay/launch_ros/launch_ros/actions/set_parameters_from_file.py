@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that sets parameters of all nodes from a file."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from launch.action import Action
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+
+
+class SetParametersFromFile(Action):
+    """Gives a parameter file to the nodes that follow, to the end of the group that it is in."""
+
+    def __init__(self, filename: SomeSubstitutionsType, **kwargs: Any) -> None:
+        """Create the action."""
+        super().__init__(**kwargs)
+        self.__filename = normalize_to_list_of_substitutions(filename)
+
+    def execute(self, context: LaunchContext) -> None:
+        """Set them."""
+        path = os.path.abspath(perform_substitutions(context, self.__filename))
+        if not os.path.isfile(path):
+            raise FileNotFoundError(f"the parameter file '{path}' does not exist")
+        known = context.launch_configurations.get('global_params', [])
+        context.launch_configurations['global_params'] = [*known, path]

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that remaps a name of all nodes."""
+
+from __future__ import annotations
+
+from typing import Any, List
+
+from launch.action import Action
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+
+
+class SetRemap(Action):
+    """Remaps a name of the nodes that follow, to the end of the group that it is in."""
+
+    def __init__(
+        self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **kwargs: Any,
+    ) -> None:
+        """Create the action."""
+        super().__init__(**kwargs)
+        self.__src = normalize_to_list_of_substitutions(src)
+        self.__dst = normalize_to_list_of_substitutions(dst)
+
+    @property
+    def src(self) -> List[Substitution]:
+        """Return the parts of the name that is remapped."""
+        return self.__src
+
+    @property
+    def dst(self) -> List[Substitution]:
+        """Return the parts of the name that it becomes."""
+        return self.__dst
+
+    def execute(self, context: LaunchContext) -> None:
+        """Add the rule; those of the nodes themselves come behind it."""
+        rule = perform_substitutions(context, self.__src), perform_substitutions(
+            context, self.__dst)
+        known = context.launch_configurations.get('ros_remaps', [])
+        context.launch_configurations['ros_remaps'] = [*known, rule]

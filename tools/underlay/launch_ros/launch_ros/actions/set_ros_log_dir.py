@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that chooses the folder of the log files of nodes."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, List
+
+from launch.action import Action
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+
+
+class SetROSLogDir(Action):
+    """Sets ROS_LOG_DIR for the nodes that follow; a relative path adds to the one of now."""
+
+    def __init__(self, new_log_dir: SomeSubstitutionsType, **kwargs: Any) -> None:
+        """Create the action."""
+        super().__init__(**kwargs)
+        self.__log_dir = normalize_to_list_of_substitutions(new_log_dir)
+
+    @property
+    def log_dir(self) -> List[Substitution]:
+        """Return the parts of the path."""
+        return self.__log_dir
+
+    def execute(self, context: LaunchContext) -> None:
+        """Set it."""
+        from launch.logging._directory import base_directory
+        path = os.path.expanduser(perform_substitutions(context, self.__log_dir))
+        context.environment['ROS_LOG_DIR'] = os.path.join(base_directory(), path)

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that chooses the clock of the launch itself."""
+
+from __future__ import annotations
+
+from typing import Any, Union
+
+from launch.action import Action
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+
+class SetUseSimTime(Action):
+    """
+    Chooses whether the launch's own ROS node follows the time of a simulation.
+
+    The nodes that are launched are not affected; SetParameter('use_sim_time', True) does that.
+    """
+
+    def __init__(self, value: Union[bool, SomeSubstitutionsType], **kwargs: Any) -> None:
+        """Create the action."""
+        super().__init__(**kwargs)
+        self.__value = normalize_typed_substitution(value, bool)
+
+    @property
+    def value(self) -> Any:
+        """Return the value, or the substitutions that stand for it."""
+        return self.__value
+
+    def execute(self, context: LaunchContext) -> None:
+        """Note it in the context, as the local variable `launch_use_sim_time`."""
+        value = perform_typed_substitution(context, self.__value, bool)
+        context.extend_globals({'launch_use_sim_time': value})

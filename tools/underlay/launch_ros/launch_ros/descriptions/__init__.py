@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Descriptions of parameters."""
+
+from __future__ import annotations
+
+from ..parameter_descriptions import Parameter, ParameterFile, ParameterValue
+
+__all__ = [
+    'Parameter',
+    'ParameterFile',
+    'ParameterValue',
+]

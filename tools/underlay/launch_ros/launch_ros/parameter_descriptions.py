@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Parameters, their values, and files of them."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Optional
+
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
+from launch.utilities.ensure_argument_type_impl import ensure_argument_type
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+
+class ParameterValue:
+    """A value with the type that it must have."""
+
+    def __init__(self, value: Any, *, value_type: Optional[Any] = None) -> None:
+        """Create the value; without a type YAML rules decide on that of a text."""
+        self.__value = normalize_typed_substitution(value, value_type)
+        self.__value_type = value_type
+
+    @property
+    def value(self) -> Any:
+        """Return the value, or the substitutions that stand for it."""
+        return self.__value
+
+    @property
+    def value_type(self) -> Optional[Any]:
+        """Return the type, None if YAML rules decide."""
+        return self.__value_type
+
+    def evaluate(self, context: LaunchContext) -> Any:
+        """Return the value now."""
+        return perform_typed_substitution(context, self.__value, self.__value_type)
+
+    def __repr__(self) -> str:
+        """Return the value as text for people."""
+        return f'{type(self).__name__}(value={self.__value!r}, value_type={self.__value_type!r})'
+
+
+class Parameter:
+    """A single parameter, which is given on the command line of the node."""
+
+    def __init__(
+        self,
+        name: SomeSubstitutionsType,
+        value: Any,
+        *,
+        value_type: Optional[Any] = None,
+    ) -> None:
+        """Create the parameter."""
+        ensure_argument_type(name, SomeSubstitutionsType_types_tuple, 'name', 'Parameter')
+        self.__name = normalize_to_list_of_substitutions(name)
+        self.__value = ParameterValue(value, value_type=value_type)
+        self.__rule: Optional[str] = None
+
+    def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
+        """Return the name and the value now."""
+        from .utilities.parameter_values import checked
+        from .utilities.yaml_text import flow_text
+        name = perform_substitutions(context, self.__name)
+        value = checked(self.__value.evaluate(context), name)
+        self.__rule = f'{name}:={flow_text(value)}'
+        return name, value
+
+    def get_parameter_rule(self) -> str:
+        """Return the rule `name:=value`; the parameter must have been evaluated."""
+        if self.__rule is None:
+            raise RuntimeError('a Parameter has no rule before it is evaluated')
+        return self.__rule
+
+
+class ParameterFile:
+    """A file of parameters."""
+
+    def __init__(self, param_file: SomeSubstitutionsType, *, allow_substs: bool = False) -> None:
+        """Create the description of the file at a path."""
+        ensure_argument_type(
+            param_file, SomeSubstitutionsType_types_tuple, 'param_file', 'ParameterFile')
+        ensure_argument_type(allow_substs, bool, 'allow_substs', 'ParameterFile')
+        self.__param_file = normalize_to_list_of_substitutions(param_file)
+        self.__allow_substs = allow_substs
+
+    @property
+    def allow_substs(self) -> bool:
+        """Return whether there may be substitutions in the file."""
+        return self.__allow_substs
+
+    def evaluate(self, context: LaunchContext) -> str:
+        """Return the path of the file."""
+        path = os.fspath(perform_substitutions(context, self.__param_file))
+        if self.__allow_substs:
+            raise NotImplementedError(
+                f"the parameter file '{path}' is to be read with allow_substs=True, which this "
+                'version does not support yet; write the values into the launch file instead')
+        return path

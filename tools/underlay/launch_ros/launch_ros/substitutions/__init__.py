@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The substitutions that know about ROS packages and parameters."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from .executable_in_package import ExecutableInPackage as ExecutableInPackage
+    from .find_package import FindPackage as FindPackage
+    from .find_package import FindPackagePrefix as FindPackagePrefix
+    from .find_package import FindPackageShare as FindPackageShare
+    from .parameter import Parameter as Parameter
+
+__all__ = [
+    'ExecutableInPackage',
+    'FindPackage',
+    'FindPackagePrefix',
+    'FindPackageShare',
+    'Parameter',
+]
+
+_ELSEWHERE = {
+    'FindPackagePrefix': 'find_package',
+    'FindPackageShare': 'find_package',
+}
+
+__getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

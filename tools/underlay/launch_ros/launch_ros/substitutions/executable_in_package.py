@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The path of an executable of a package."""
+
+from __future__ import annotations
+
+import os
+from typing import List
+
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+
+from .find_package import FindPackagePrefix
+
+
+class ExecutableInPackage(FindPackagePrefix):
+    """Stands for the path of an executable that a package has installed."""
+
+    def __init__(
+        self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType,
+    ) -> None:
+        """Create the substitution of an executable of a package."""
+        super().__init__(package)
+        self.__executable = normalize_to_list_of_substitutions(executable)
+
+    @property
+    def executable(self) -> List[Substitution]:
+        """Return the parts of the name of the executable."""
+        return self.__executable
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        package = ' + '.join(sub.describe() for sub in self.package)
+        executable = ' + '.join(sub.describe() for sub in self.__executable)
+        return f'ExecInPkg(pkg={package}, exec={executable})'
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the path; a failure says what is missing."""
+        executable = perform_substitutions(context, self.__executable)
+        package = perform_substitutions(context, self.package)
+        prefix = self.find(package)
+        folder = os.path.join(prefix, 'lib', package)
+        path = os.path.join(folder, executable)
+        if os.path.isfile(path) and os.access(path, os.X_OK):
+            return path
+        problem = (
+            f"executable '{executable}' not found on the libexec directory '{folder}' "
+            if os.path.isdir(folder) else
+            f"package '{package}' found at '{prefix}', but libexec directory '{folder}' does not "
+            'exist')
+        explanation = _explain(package, executable, prefix)
+        raise SubstitutionFailure('\n'.join(filter(None, [problem, explanation])))
+
+
+def _explain(package: str, executable: str, prefix: str) -> str:
+    """Return what the workspace around the current folder tells about an executable."""
+    try:
+        from ros_environment.workspace import explain_missing_executable
+    except ImportError:
+        return ''
+    return str(explain_missing_executable(package, executable, prefix))

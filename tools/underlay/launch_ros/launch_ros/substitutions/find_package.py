@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The folders of ROS packages."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, List
+
+from ament_index_python.packages import get_package_prefix, PackageNotFoundError
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.substitutions._path_operator import PathOperator
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+
+
+class _ExplainedPackageNotFoundError(PackageNotFoundError):  # type: ignore[misc]
+    """A package was not found; the text says why, as far as it is known."""
+
+    def __init__(self, error: KeyError, explanation: str) -> None:
+        super().__init__(*error.args)
+        self._text = '\n'.join(filter(None, [str(error), explanation]))
+
+    def __str__(self) -> str:
+        return self._text
+
+
+class FindPackage(PathOperator):
+    """The base of the substitutions that stand for a folder of a package."""
+
+    def __init__(self, package: SomeSubstitutionsType) -> None:
+        """Create the substitution of a package."""
+        super().__init__()
+        self.__package = normalize_to_list_of_substitutions(package)
+
+    @property
+    def package(self) -> List[Substitution]:
+        """Return the parts of the name of the package."""
+        return self.__package
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        package = ' + '.join(sub.describe() for sub in self.__package)
+        return f'{type(self).__name__}(pkg={package})'
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the folder; an error says that there is no such package."""
+        return self.find(perform_substitutions(context, self.__package))
+
+    def find(self, package_name: str) -> Any:
+        """Return the folder of the package of this name; subclasses override this."""
+        raise NotImplementedError
+
+
+class FindPackagePrefix(FindPackage):
+    """Stands for the folder that a package is installed to."""
+
+    def find(self, package_name: str) -> str:
+        """Return the folder."""
+        try:
+            return str(get_package_prefix(package_name))
+        except PackageNotFoundError as error:
+            raise _ExplainedPackageNotFoundError(error, _explain(package_name)) from None
+
+
+class FindPackageShare(FindPackagePrefix):
+    """Stands for the folder of the files that a package shares."""
+
+    def find(self, package_name: str) -> str:
+        """Return the folder."""
+        prefix: str = super().find(package_name)
+        return os.path.join(prefix, 'share', package_name)
+
+
+def _explain(package_name: str) -> str:
+    """Return what the workspace around the current folder tells about a package."""
+    try:
+        from ros_environment.workspace import explain_missing_package
+    except ImportError:
+        return ''
+    return str(explain_missing_package(package_name))

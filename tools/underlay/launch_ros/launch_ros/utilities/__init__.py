@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Helpers for the actions that know about ROS."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from .evaluate_parameters_impl import evaluate_parameters as evaluate_parameters
+    from .namespace_utils import is_namespace_absolute as is_namespace_absolute
+    from .namespace_utils import is_root_namespace as is_root_namespace
+    from .namespace_utils import make_namespace_absolute as make_namespace_absolute
+    from .namespace_utils import prefix_namespace as prefix_namespace
+    from .normalize_parameters_impl import normalize_parameters as normalize_parameters
+    from .normalize_remap_rules_impl import normalize_remap_rule as normalize_remap_rule
+    from .normalize_remap_rules_impl import normalize_remap_rules as normalize_remap_rules
+    from .track_node_names import add_node_name as add_node_name
+    from .track_node_names import get_node_name_count as get_node_name_count
+
+__all__ = [
+    'add_node_name',
+    'evaluate_parameters',
+    'get_node_name_count',
+    'is_namespace_absolute',
+    'is_root_namespace',
+    'make_namespace_absolute',
+    'normalize_parameters',
+    'normalize_remap_rule',
+    'normalize_remap_rules',
+    'prefix_namespace',
+]
+
+_ELSEWHERE = {
+    'add_node_name': 'track_node_names',
+    'evaluate_parameters': 'evaluate_parameters_impl',
+    'get_node_name_count': 'track_node_names',
+    'is_namespace_absolute': 'namespace_utils',
+    'is_root_namespace': 'namespace_utils',
+    'make_namespace_absolute': 'namespace_utils',
+    'normalize_parameters': 'normalize_parameters_impl',
+    'normalize_remap_rule': 'normalize_remap_rules_impl',
+    'normalize_remap_rules': 'normalize_remap_rules_impl',
+    'prefix_namespace': 'namespace_utils',
+}
+
+__getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find out the parameters of a node."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any, Dict, List, Union
+
+from launch.launch_context import LaunchContext
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+
+from .normalize_parameters_impl import NormalizedParameters
+from .parameter_values import evaluate_value
+from ..parameter_descriptions import Parameter, ParameterFile
+
+EvaluatedParameters = Union[Dict[str, Any], str, Parameter]
+
+
+def evaluate_parameter_dict(
+    context: LaunchContext, parameters: Mapping[Any, Any],
+) -> Dict[str, Any]:
+    """Return a normalized dictionary with texts as names and plain values."""
+    evaluated: Dict[str, Any] = {}
+    for key, value in parameters.items():
+        name = perform_substitutions(context, key)
+        evaluated[name] = evaluate_value(context, value, name)
+    return evaluated
+
+
+def evaluate_parameters(
+    context: LaunchContext, parameters: Iterable[NormalizedParameters],
+) -> List[EvaluatedParameters]:
+    """Return each element as a plain dictionary, the path of a file, or an evaluated parameter."""
+    return [_evaluate(context, element) for element in parameters]
+
+
+def _evaluate(context: LaunchContext, element: NormalizedParameters) -> EvaluatedParameters:
+    if isinstance(element, ParameterFile):
+        return element.evaluate(context)
+    if isinstance(element, Parameter):
+        element.evaluate(context)
+        return element
+    return evaluate_parameter_dict(context, element)

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Make substitutions out of remapping rules."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, List, Tuple
+
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+
+SomeRemapRule = Tuple[SomeSubstitutionsType, SomeSubstitutionsType]
+RemapRule = Tuple[List[Substitution], List[Substitution]]
+
+
+def normalize_remap_rule(remap_rule: Any) -> RemapRule:
+    """Return a rule with both sides as substitutions."""
+    if not isinstance(remap_rule, tuple) or len(remap_rule) != 2:
+        raise TypeError(
+            "a remapping must be a tuple such as ('from', 'to'), but got "
+            f"{remap_rule!r} of type '{type(remap_rule).__name__}'")
+    return (normalize_to_list_of_substitutions(remap_rule[0]),
+            normalize_to_list_of_substitutions(remap_rule[1]))
+
+
+def normalize_remap_rules(remap_rules: Iterable[Any]) -> List[RemapRule]:
+    """Return the rules with both sides as substitutions."""
+    return [normalize_remap_rule(rule) for rule in remap_rules]
+
+
+def evaluate_remap_rule(context: LaunchContext, rule: RemapRule) -> Tuple[str, str]:
+    """Return a rule with both sides as texts."""
+    return perform_substitutions(context, rule[0]), perform_substitutions(context, rule[1])

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The values of parameters: which ones there may be, and their types."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+import os
+import re
+from typing import Any, List
+
+from launch.launch_context import LaunchContext
+from launch.substitution import Substitution
+from launch.utilities._scalars import read_yaml
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+
+_SCALARS = (bool, int, float, str, bytes)
+_ALLOWED = ('bytes, bool, int, float, str, Sequence[bool], Sequence[int], Sequence[float], '
+            'Sequence[str]')
+_EXPONENT = re.compile(r'[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+')
+_ADVICE = (
+    'If the parameter is meant to be a string, try wrapping it in '
+    'launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)')
+
+
+class TypedText:
+    """A text that YAML rules give a type when it is known."""
+
+    def __init__(self, parts: Iterable[Any]) -> None:
+        """Create the value from the parts of the text."""
+        self.parts = normalize_to_list_of_substitutions(parts)
+
+    def evaluate(self, context: LaunchContext, name: str) -> Any:
+        """Return the value for the parameter of this name."""
+        return type_text(perform_substitutions(context, self.parts), name)
+
+
+def normalize_value(value: Any, name: str) -> Any:
+    """Return a value as it is, or a `TypedText`, or a list of one of them."""
+    if isinstance(value, Substitution):
+        return TypedText([value])
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, _SCALARS) or hasattr(value, 'evaluate'):
+        return value
+    if isinstance(value, Iterable) and not isinstance(value, Mapping):
+        return _normalize_list(list(value), name)
+    raise TypeError(
+        f"Unexpected type for parameter value {value!r} of the parameter '{name}'. Allowed value "
+        f'types are {_ALLOWED}')
+
+
+def _normalize_list(items: List[Any], name: str) -> Any:
+    if any(isinstance(item, Substitution) for item in items):
+        return TypedText(items)
+    if items and all(isinstance(item, (list, tuple)) for item in items):
+        return [TypedText(item) for item in items]
+    return uniform(items, name)
+
+
+def evaluate_value(context: LaunchContext, value: Any, name: str) -> Any:
+    """Return what a normalized value stands for now."""
+    if isinstance(value, TypedText):
+        return value.evaluate(context, name)
+    if isinstance(value, list) and any(isinstance(item, TypedText) for item in value):
+        return uniform([item.evaluate(context, name) for item in value], name)
+    if hasattr(value, 'evaluate'):
+        return checked(value.evaluate(context), name)
+    return value
+
+
+def type_text(text: str, name: str) -> Any:
+    """Return the value that YAML rules see in a text; an empty one stays a text."""
+    if not text:
+        return text
+    if _EXPONENT.fullmatch(text):
+        return float(text)
+    import yaml
+    try:
+        value = read_yaml(text)
+    except yaml.YAMLError as error:
+        raise TypeError(
+            f'Unable to parse the value of parameter {name} as yaml. {_ADVICE}') from error
+    return checked(value, name)
+
+
+def checked(value: Any, name: str) -> Any:
+    """Return a value if a parameter can have it."""
+    if isinstance(value, (list, tuple)):
+        return uniform(list(value), name)
+    if isinstance(value, _SCALARS):
+        return value
+    raise TypeError(
+        f'Allowed value types are {_ALLOWED}. Got {type(value)} for "{name}". {_ADVICE}')
+
+
+def uniform(items: List[Any], name: str) -> List[Any]:
+    """Return a list whose items have one type; whole numbers among others become floats."""
+    kinds = {type(item) for item in items}
+    if kinds == {int, float}:
+        return [float(item) for item in items]
+    if len(kinds) == 1 and kinds <= {bool, int, float, str}:
+        return items
+    raise TypeError(
+        'Expected a non-empty sequence, with items of uniform type. '
+        f'Allowed sequence item types are bool, int, float, str. Got inconsistent input for '
+        f'"{name}": {items!r}')

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Write values as YAML that every parser reads in the same way."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import json
+import math
+from typing import Any
+
+
+def flow_text(value: Any) -> str:
+    """Return a scalar or a list on one line; texts are always quoted."""
+    if isinstance(value, bool):
+        return 'true' if value else 'false'
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        return _float_text(value)
+    if isinstance(value, str):
+        return _quoted(value)
+    if isinstance(value, bytes):
+        import base64
+        return f"!!binary '{base64.b64encode(value).decode()}'"
+    return f"[{', '.join(flow_text(item) for item in value)}]"
+
+
+def parameter_file_text(node_name: str, parameters: Mapping[str, Any]) -> str:
+    """Return the text of a parameter file for the nodes of a name."""
+    lines = [f'{_quoted(node_name)}:', '  ros__parameters:']
+    lines += [f'    {_quoted(name)}: {flow_text(parameters[name])}' for name in sorted(parameters)]
+    return '\n'.join(lines) + '\n'
+
+
+def _float_text(value: float) -> str:
+    if math.isnan(value):
+        return '.nan'
+    if math.isinf(value):
+        return '.inf' if value > 0 else '-.inf'
+    mantissa, exponent_mark, exponent = repr(value).partition('e')
+    point = '' if '.' in mantissa else '.0'
+    sign = '+' if exponent_mark and exponent[0].isdigit() else ''
+    return f'{mantissa}{point}{exponent_mark}{sign}{exponent}'
+
+
+def _quoted(text: str) -> str:
+    """Return a text in single quotes, or with escapes if it has special characters."""
+    if text.isprintable():
+        return "'" + text.replace("'", "''") + "'"
+    return json.dumps(text, ensure_ascii=False).replace('\x7f', '\\x7f').replace(
+        '\x85', '\\x85').replace('\u2028', '\\u2028').replace('\u2029', '\\u2029')

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The entry of the `ros2` command line."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+import io
+import sys
+
+from ros2cli.command_table import COMMANDS
+from ros2cli.exit_status import run_to_status
+from ros2cli.subparsers import add_lazy_subparsers
+
+COMMAND_GROUP = 'ros2cli.command'
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one `ros2` command and return its exit status."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    return run_to_status(lambda: _run_command(words))
+
+
+def _run_command(argv: list[str]) -> int | str | None:
+    parser = create_parser(argv)
+    args = parser.parse_args(argv)
+    if not args.use_python_default_buffering and isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(line_buffering=True)
+    command = getattr(args, '_command', None)
+    if command is None:
+        parser.print_help()
+        return 0
+    status: int | str | None = command.main(parser=parser, args=args)
+    return status
+
+
+def create_parser(argv: Sequence[str]) -> argparse.ArgumentParser:
+    """Return the root parser, complete for the command that `argv` names."""
+    parser = argparse.ArgumentParser(
+        prog='ros2', description='ros2 is an extensible command-line tool for ROS 2.',
+        formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument(
+        '--use-python-default-buffering', action='store_true',
+        help='leave the buffering of the output to Python, instead of line by line')
+    add_lazy_subparsers(
+        parser, 'ros2', entries=COMMANDS, group=COMMAND_GROUP, kind='command',
+        dest='_command', argv=argv)
+    return parser

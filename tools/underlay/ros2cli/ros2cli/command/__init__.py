@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The base classes of all commands."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping, Sequence
+
+from ros2cli.entry import Entry
+from ros2cli.subparsers import add_lazy_subparsers
+from ros2cli.subparsers import add_subparsers_on_demand
+
+__all__ = ['add_subparsers_on_demand', 'CommandExtension', 'VerbCommand']
+
+
+class CommandExtension:
+    """A command of `ros2`; the first line of a subclass's docstring is its help."""
+
+    NAME: str | None = None
+    EXTENSION_POINT_VERSION = '0.1'
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str, *,
+                      argv: Sequence[str] | None = None) -> None:
+        """Add the command's own arguments to its parser."""
+
+    def main(self, *, parser: argparse.ArgumentParser,
+             args: argparse.Namespace) -> int | str | None:
+        """Do the work; an int is the exit status, a str is an error text."""
+        raise NotImplementedError(f'{type(self).__name__} does not implement main()')
+
+
+class VerbCommand(CommandExtension):
+    """A command that consists of verbs, named in a static table."""
+
+    VERBS: Mapping[str, Entry] = {}
+    VERB_GROUP = ''
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str, *,
+                      argv: Sequence[str] | None = None) -> None:
+        """Add a parser for each verb, with arguments only for the one that is called."""
+        self._parser = parser
+        add_lazy_subparsers(
+            parser, cli_name, entries=self.VERBS, group=self.VERB_GROUP, kind='verb',
+            dest='_verb', argv=argv)
+
+    def main(self, *, parser: argparse.ArgumentParser,
+             args: argparse.Namespace) -> int | str | None:
+        """Call the chosen verb, or print the help if there is none."""
+        verb = getattr(args, '_verb', None)
+        if verb is None:
+            self._parser.print_help()
+            return 0
+        status: int | str | None = verb.main(args=args)
+        return status

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Fill a message from plain values."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from ros2cli.messages.lookup import get_message
+from ros2cli.messages.plain import element_type
+
+HEADER, TIME = 'std_msgs/Header', 'builtin_interfaces/Time'
+SCALARS: dict[str, Callable[[Any], Any]] = {
+    'boolean': bool, 'float': float, 'double': float, 'octet': lambda value: bytes([value])}
+
+Stamp = Callable[[Any], None]
+
+
+def fill(message: Any, values: dict[str, Any]) -> list[Stamp]:
+    """
+    Set the fields of a message.
+
+    Return functions that set those fields to the present time which have the value `auto`, in
+    a header, or `now`. AttributeError, TypeError or ValueError say what is wrong.
+    """
+    stamps: list[Stamp] = []
+    types = message.get_fields_and_field_types()
+    for name, value in values.items():
+        current = getattr(message, name)
+        stamp = _stamp(message, name, types[name], value)
+        if stamp:
+            stamps.append(stamp)
+        elif hasattr(current, 'get_fields_and_field_types'):
+            stamps += fill(current, _mapping(name, value))
+        else:
+            setattr(message, name, _cast(name, types[name], value))
+    return stamps
+
+
+def _stamp(message: Any, name: str, field_type: str, value: Any) -> Stamp | None:
+    if (field_type, value) == (HEADER, 'auto'):
+        return lambda now: setattr(getattr(message, name), 'stamp', now)
+    if (field_type, value) == (TIME, 'now'):
+        return lambda now: setattr(message, name, now)
+    return None
+
+
+def _cast(name: str, field_type: str, value: Any) -> Any:
+    if not field_type.startswith('sequence<') and not field_type.endswith(']'):
+        return _scalar(field_type, value)
+    if not isinstance(value, list):
+        raise TypeError(f"'{name}' needs a list, for example [1, 2], but got {value!r}")
+    return [_element(name, element_type(field_type), item) for item in value]
+
+
+def _element(name: str, type_name: str, value: Any) -> Any:
+    if '/' not in type_name:
+        return _scalar(type_name, value)
+    element = get_message(type_name)()
+    fill(element, _mapping(name, value))
+    return element
+
+
+def _scalar(type_name: str, value: Any) -> Any:
+    if type_name.startswith(('string', 'wstring')):
+        return str(value)
+    if type_name in SCALARS:
+        return SCALARS[type_name](value)
+    return _integer(type_name, value)
+
+
+def _integer(type_name: str, value: Any) -> int:
+    """Return a whole number that fits a type such as `int8` or `uint64`."""
+    number = int(value)
+    bits = int(type_name.rpartition('int')[2])
+    lowest, count = (0, 2 ** bits) if type_name.startswith('u') else (-2 ** (bits - 1), 2 ** bits)
+    is_whole = not isinstance(value, float) or value.is_integer()
+    if not is_whole or not lowest <= number < lowest + count:
+        raise ValueError(
+            f'{value!r} is no {type_name}, a whole number from {lowest} to {lowest + count - 1}')
+    return number
+
+
+def _mapping(name: str, value: Any) -> dict[str, Any]:
+    if isinstance(value, dict):
+        return value
+    raise TypeError(f"'{name}' needs a mapping, for example {{x: 1}}, but got {value!r}")

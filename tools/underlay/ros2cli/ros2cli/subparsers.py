@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Argument parsers for many commands of which only the one that is called is imported."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ros2cli.entry import Entry
+from ros2cli.entry_points import entries_of_group, find_entry
+from ros2cli.suggest import did_you_mean
+
+
+def add_lazy_subparsers(
+    parser: argparse.ArgumentParser, cli_name: str, *, entries: Mapping[str, Entry],
+    group: str, kind: str, dest: str, argv: Sequence[str] | None,
+) -> None:
+    """Add one subparser an entry; the chosen entry is imported and adds its arguments."""
+    name, rest = _split(argv or ())
+    entries = _with_extension(entries, group, name)
+    metavar = f'Call `{cli_name} <{kind}> -h` for more detailed usage.'
+    subparsers = parser.add_subparsers(
+        title=f'{kind.capitalize()}s', description=_listing(entries), metavar=metavar)
+    for entry_name, entry in entries.items():
+        subparser = subparsers.add_parser(
+            entry_name, description=entry.help,
+            formatter_class=argparse.RawDescriptionHelpFormatter)
+        if entry_name == name:
+            _add_chosen(subparser, entry, f'{cli_name} {entry_name}', dest, rest)
+    if name is not None and name not in entries:
+        parser.error(_unknown_text(metavar, name, entries))
+
+
+def add_subparsers_on_demand(
+    parser: argparse.ArgumentParser, cli_name: str, dest: str, group_name: str,
+    hide_extensions: Sequence[str] | None = None, required: bool = True,
+    argv: Sequence[str] | None = None,
+) -> None:
+    """Add a subparser for each entry point of a group, for commands of other packages."""
+    hidden = hide_extensions or ()
+    entries = {name: entry._replace(hidden=name in hidden)
+               for name, entry in sorted(entries_of_group(group_name).items())}
+    add_lazy_subparsers(
+        parser, cli_name, entries=entries, group=group_name, kind='verb', dest=dest, argv=argv)
+
+
+def _split(argv: Sequence[str]) -> tuple[str | None, Sequence[str]]:
+    """Return the first word that is no option and what follows; None if help is asked for."""
+    for index, word in enumerate(argv):
+        if word in ('-h', '--help'):
+            break
+        if not word.startswith('-'):
+            return word, argv[index + 1:]
+    return None, ()
+
+
+def _with_extension(
+    entries: Mapping[str, Entry], group: str, name: str | None,
+) -> Mapping[str, Entry]:
+    if name is None or name in entries:
+        return entries
+    extension = find_entry(group, name)
+    return entries if extension is None else {**entries, name: extension}
+
+
+def _add_chosen(
+    subparser: argparse.ArgumentParser, entry: Entry, cli_name: str, dest: str,
+    argv: Sequence[str],
+) -> None:
+    import inspect
+
+    extension: Any = entry.create()
+    subparser.set_defaults(**{dest: extension})
+    if not subparser.description:
+        subparser.description = inspect.getdoc(type(extension))
+    if 'argv' in inspect.signature(extension.add_arguments).parameters:
+        extension.add_arguments(subparser, cli_name, argv=argv)
+    else:
+        extension.add_arguments(subparser, cli_name)
+
+
+def _listing(entries: Mapping[str, Entry]) -> str:
+    shown = {name: entry for name, entry in entries.items() if not entry.hidden}
+    width = max((len(name) for name in shown), default=0)
+    return '\n'.join(f'{name:<{width}}  {entry.help}' for name, entry in shown.items())
+
+
+def _unknown_text(metavar: str, name: str, entries: Mapping[str, Entry]) -> str:
+    choices = ', '.join(repr(choice) for choice in entries)
+    text = f'argument {metavar}: invalid choice: {name!r} (choose from {choices})'
+    return ' '.join(part for part in (text, did_you_mean(name, entries)) if part)

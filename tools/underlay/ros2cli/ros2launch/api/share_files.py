@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find a launch file in the share directory of a package."""
+
+from __future__ import annotations
+
+import os
+
+from ros2pkg.api import get_share_directory
+
+
+class MultipleLaunchFilesError(Exception):
+    """Several files of a package have the same name."""
+
+    def __init__(self, message: str, paths: list[str]) -> None:
+        """Keep the paths that were found."""
+        super().__init__(message)
+        self.paths = paths
+
+
+def get_share_file_path_from_package(*, package_name: str, file_name: str | None) -> str:
+    """Return the path of a file anywhere below a package's share directory."""
+    share = get_share_directory(package_name)
+    paths = [
+        os.path.join(root, file_name)
+        for root, _, names in os.walk(share) if file_name is not None and file_name in names]
+    if not paths:
+        raise FileNotFoundError(
+            f"file '{file_name}' was not found in the share directory of package "
+            f"'{package_name}' which is at '{share}'")
+    if len(paths) > 1:
+        raise MultipleLaunchFilesError(
+            f"file '{file_name}' was found more than once in the share directory of package "
+            f"'{package_name}': {paths}", paths)
+    return paths[0]

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Show the arguments that a launch file declares."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+HEADER = "Arguments (pass arguments as '<name>:=<value>'):"
+FOOTNOTE = '* argument(s) which are only used if specific conditions occur'
+
+
+def print_arguments_of_launch_file(*, launch_file_path: str) -> None:
+    """Load a launch file and print its arguments, and those of the files that it includes."""
+    from launch import LaunchContext
+    from launch.launch_description_sources import AnyLaunchDescriptionSource
+
+    source = AnyLaunchDescriptionSource(launch_file_path)
+    description = source.get_launch_description(LaunchContext())
+    print('\n'.join(argument_lines(description.get_launch_arguments())))
+
+
+def argument_lines(arguments: list[Any]) -> Iterator[str]:
+    """Yield the lines that describe all arguments."""
+    yield HEADER
+    if not arguments:
+        yield from ('', '  No arguments.')
+    for argument in arguments:
+        yield from _lines_of(argument)
+    if any(map(_is_conditional, arguments)):
+        yield from ('', FOOTNOTE)
+
+
+def _lines_of(argument: Any) -> Iterator[str]:
+    mark = '*' if _is_conditional(argument) else ''
+    yield ''
+    yield f"    '{argument.name}':{mark}"
+    yield f'        {argument.description}'
+    if argument.default_value is not None:
+        parts = ' + '.join(part.describe() for part in argument.default_value)
+        yield f'        (default: {parts})'
+
+
+def _is_conditional(argument: Any) -> bool:
+    return bool(getattr(argument, '_conditionally_included', False))

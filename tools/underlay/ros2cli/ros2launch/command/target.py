@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The launch file that the words of the command line stand for."""
+
+from __future__ import annotations
+
+import os
+
+from ros2launch.api.share_files import get_share_file_path_from_package
+from ros2launch.api.share_files import MultipleLaunchFilesError
+from ros2pkg.api import get_share_directory, PackageNotFoundError
+from ros2pkg.api.missing import missing_package_by_name
+
+
+def find_target(
+    package_or_path: str, file_name: str | None, arguments: list[str],
+) -> tuple[str, list[str]]:
+    """Return the path of the launch file and its arguments, or raise a RuntimeError."""
+    if os.path.isfile(package_or_path):
+        first = [file_name] if file_name is not None else []
+        return package_or_path, first + arguments
+    if os.sep in package_or_path:
+        raise RuntimeError(_no_path_text(package_or_path))
+    return _find_in_package(package_or_path, file_name), list(arguments)
+
+
+def _find_in_package(package: str, file_name: str | None) -> str:
+    try:
+        return get_share_file_path_from_package(package_name=package, file_name=file_name)
+    except PackageNotFoundError as error:
+        raise RuntimeError(missing_package_by_name(package, str(error))) from error
+    except FileNotFoundError as error:
+        raise RuntimeError(_with_advice(str(error), package, file_name)) from error
+    except MultipleLaunchFilesError as error:
+        raise RuntimeError(str(error)) from error
+
+
+def _with_advice(text: str, package: str, file_name: str | None) -> str:
+    from ros_environment.workspace import explain_missing_share_file
+
+    share = get_share_directory(package)
+    return f'{text}\n{explain_missing_share_file(package, file_name or "", share)}'.rstrip()
+
+
+def _no_path_text(path: str) -> str:
+    """Return the error text for a path that does not exist, with a file that comes close."""
+    from ros2cli.suggest import did_you_mean
+
+    folder, name = os.path.split(path)
+    if not os.path.isdir(folder):
+        return f"the launch file '{path}' does not exist: there is no folder '{folder}'"
+    text = f"the launch file '{path}' does not exist"
+    return '. '.join(part for part in (text, did_you_mean(name, os.listdir(folder))) if part)

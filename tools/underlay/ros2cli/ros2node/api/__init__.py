@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The nodes of the graph and what they offer."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any, NamedTuple
+
+from ros2cli.node import HIDDEN_NODE_PREFIX
+
+__all__ = [
+    'get_node_names', 'node_sections', 'NodeName', 'shared_names', 'TopicInfo',
+]
+
+
+class NodeName(NamedTuple):
+    """The name of a node in its parts and as a whole."""
+
+    name: str
+    namespace: str
+    full_name: str
+
+
+class TopicInfo(NamedTuple):
+    """The name of a topic, service or action and its types."""
+
+    name: str
+    types: list[str]
+
+
+def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[NodeName]:
+    """Return the names of all nodes, sorted, except for the one that asks."""
+    found = node.get_node_names_and_namespaces()
+    names = (
+        NodeName(name, namespace, f'{namespace.rstrip("/")}/{name}')
+        for name, namespace in found if name != node.get_name())
+    return sorted(
+        (name for name in names if include_hidden_nodes or not _is_hidden(name)),
+        key=lambda name: name.full_name)
+
+
+def shared_names(names: list[NodeName]) -> list[str]:
+    """Return the full names that several nodes have."""
+    counts = Counter(name.full_name for name in names)
+    return sorted(name for name, count in counts.items() if count > 1)
+
+
+def node_sections(
+    node: Any, remote: NodeName, include_hidden: bool = False,
+) -> list[tuple[str, list[TopicInfo]]]:
+    """Return the headings of `node info`, each with what a node has under it."""
+    of_node = (remote.name, remote.namespace)
+    subscribers = node.get_subscriber_names_and_types_by_node(*of_node)
+    publishers = node.get_publisher_names_and_types_by_node(*of_node)
+    servers = node.get_service_names_and_types_by_node(*of_node)
+    clients = node.get_client_names_and_types_by_node(*of_node)
+    sections = [
+        ('Subscribers', subscribers), ('Publishers', publishers),
+        ('Service Servers', servers), ('Service Clients', clients),
+        ('Action Servers', _actions(servers)), ('Action Clients', _actions(clients))]
+    return [(title, _visible(found, include_hidden)) for title, found in sections]
+
+
+def _is_hidden(name: NodeName) -> bool:
+    return any(part.startswith(HIDDEN_NODE_PREFIX) for part in name.full_name.split('/'))
+
+
+def _visible(found: list[tuple[str, list[str]]], include_hidden: bool) -> list[TopicInfo]:
+    infos = (TopicInfo(name, types) for name, types in sorted(found))
+    return [info for info in infos if include_hidden or '/_' not in info.name]
+
+
+def _actions(services: list[tuple[str, list[str]]]) -> list[tuple[str, list[str]]]:
+    """Return the actions behind the hidden services that each action consists of."""
+    suffix = '/_action/send_goal'
+    return [
+        (name[:-len(suffix)], [text.replace('_SendGoal', '') for text in types])
+        for name, types in services if name.endswith(suffix)]

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 node info`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2cli.node.arguments import add_strategy_arguments
+from ros2node.verb import VerbExtension
+
+
+class InfoVerb(VerbExtension):
+    """Output information about a node."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the node's name and the choice of hidden names."""
+        add_strategy_arguments(parser)
+        parser.add_argument('node_name', help='Fully qualified node name to request information')
+        parser.add_argument(
+            '--include-hidden', action='store_true',
+            help='Display hidden topics, services, and actions as well')
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print what the node publishes, subscribes to, serves and calls."""
+        from ros2cli.node.strategy import NodeStrategy
+        from ros2node.api import get_node_names, node_sections
+
+        with NodeStrategy(args) as node:
+            names = get_node_names(node=node, include_hidden_nodes=True)
+            chosen = [name for name in names if name.full_name == args.node_name]
+            if not chosen:
+                return _unknown_node(args.node_name, [name.full_name for name in names])
+            sections = node_sections(node, chosen[0], args.include_hidden)
+        print(args.node_name)
+        for title, infos in sections:
+            print(f'  {title}:')
+            print('\n'.join(f'    {info.name}: {", ".join(info.types)}' for info in infos))
+        return None
+
+
+def _unknown_node(name: str, known: list[str]) -> str:
+    from ros2cli.suggest import did_you_mean
+
+    with_slash = f'/{name}'
+    hint = f'Did you mean {with_slash!r}?' if with_slash in known else did_you_mean(name, known)
+    return '\n'.join([f"Unable to find node '{name}'", hint]).rstrip()

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The files of a Python package."""
+
+from __future__ import annotations
+
+from ros2pkg.create.description import PackageDescription
+from ros2pkg.create.python_tests import TESTS
+from ros2pkg.create.writer import Writer
+
+SETUP_PY = """\
+from setuptools import find_packages, setup
+
+package_name = {name!r}
+
+setup(
+    name=package_name,
+    version={version!r},
+    packages=find_packages(exclude=['test']),
+    data_files=[
+        ('share/ament_index/resource_index/packages',
+            ['resource/' + package_name]),
+        ('share/' + package_name, ['package.xml']),
+    ],
+    install_requires=['setuptools'],
+    zip_safe=True,
+    maintainer={maintainer_name!r},
+    maintainer_email={maintainer_email!r},
+    description={description!r},
+    license={license_id!r},
+    extras_require={{
+        'test': ['pytest'],
+    }},
+    entry_points={{
+        'console_scripts': [{entries}
+        ],
+    }},
+)
+"""
+
+SETUP_CFG = """\
+[develop]
+script_dir=$base/lib/{name}
+[install]
+install_scripts=$base/lib/{name}
+"""
+
+NODE = """\
+def main():
+    print('Hi from {name}.')
+
+
+if __name__ == '__main__':
+    main()
+"""
+
+
+def write_sources(description: PackageDescription, writer: Writer) -> None:
+    """Write everything but the manifest."""
+    name = description.name
+    print('creating source folder')
+    writer.folder(name)
+    writer.file('setup.py', _setup_py(description))
+    writer.file('setup.cfg', SETUP_CFG.format(name=name))
+    writer.folder('resource')
+    writer.file(f'resource/{name}')
+    writer.file(f'{name}/__init__.py')
+    writer.folder('test')
+    for test, text in TESTS.items():
+        writer.file(f'test/{test}', text)
+    if description.library_name:
+        writer.folder(f'{name}/{description.library_name}')
+        writer.file(f'{name}/{description.library_name}/__init__.py')
+    if description.node_name:
+        writer.file(f'{name}/{description.node_name}.py', NODE.format(name=name))
+
+
+def _setup_py(description: PackageDescription) -> str:
+    node = description.node_name
+    entry = f"\n            '{node} = {description.name}.{node}:main'," if node else ''
+    text = SETUP_PY.format(**description._asdict(), entries=entry)
+    return '\n'.join(_excused(line) for line in text.split('\n'))
+
+
+def _excused(line: str) -> str:
+    """Mark a line that a long name or description makes longer than the linter allows."""
+    return f'{line}  # noqa: E501' if len(line) > 99 else line

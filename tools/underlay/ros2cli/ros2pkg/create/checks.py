@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reasons not to create a package, each with the way out."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import sys
+
+
+def refusal(args: argparse.Namespace, package_folder: str) -> str:
+    """Return why the package cannot be created, or ''."""
+    if os.path.isdir(package_folder):
+        return (
+            f'\nAborted!\nThe directory already exists: {package_folder}\nEither remove the '
+            'directory or choose a different destination directory or package name')
+    if args.build_type == 'cmake':
+        return (
+            "The build type 'cmake' is not supported here. Choose --build-type ament_python "
+            'for a Python package, or --build-type ament_cmake for a C++ package.')
+    return _python_refusal(args) if args.build_type == 'ament_python' else _cmake_refusal(args)
+
+
+def _cmake_refusal(args: argparse.Namespace) -> str:
+    if args.library_name:
+        return (
+            '--library-name is supported only for Python packages here. Add '
+            '--build-type ament_python, or leave --library-name out.')
+    return ''
+
+
+def _python_refusal(args: argparse.Namespace) -> str:
+    if args.package_name == 'test':
+        return (
+            "A package of the build type 'ament_python' cannot be named 'test', because its "
+            'folder of tests has this name already. Please choose a different package name.')
+    names = {
+        'package': args.package_name, '--node-name': args.node_name,
+        '--library-name': args.library_name}
+    problems = (_module_problem(what, name) for what, name in names.items() if name)
+    return next(filter(None, problems), '')
+
+
+def _module_problem(what: str, name: str) -> str:
+    """Return why a name cannot be that of a Python module, or ''."""
+    if name.isidentifier():
+        return ''
+    better = re.sub(r'^(?=\d)', 'n', re.sub(r'\W', '_', name))
+    return (
+        f"{what} '{name}' is no name of a Python module: use letters, digits and underscores "
+        f"only, for example '{better}'.")
+
+
+def renamed_node(node_name: str | None, library_name: str | None) -> str | None:
+    """Return the node's name, made different from the library's, with a warning if it was."""
+    if not node_name or node_name != library_name:
+        return node_name
+    print(
+        '[WARNING] node name can not be equal to the library name\n'
+        f'[WARNING] renaming node to {node_name}_node', file=sys.stderr)
+    return f'{node_name}_node'

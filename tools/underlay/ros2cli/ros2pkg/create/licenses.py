@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The licences whose texts this package knows."""
+
+from __future__ import annotations
+
+from datetime import date
+from pathlib import Path
+
+TEXTS = Path(__file__).parent / 'license_texts'
+
+
+def known_licenses() -> list[str]:
+    """Return the SPDX identifiers of all licences with a text, sorted."""
+    return sorted(path.stem for path in TEXTS.glob('*.txt'))
+
+
+def license_text(identifier: str, holder: str) -> str | None:
+    """Return a licence's text with year and holder filled in, or None if it is unknown."""
+    if identifier not in known_licenses():
+        return None
+    text = (TEXTS / f'{identifier}.txt').read_text(encoding='utf-8')
+    if identifier.startswith(('MIT', 'BSD')):
+        text = text.replace('<year>', str(date.today().year)).replace('<holder>', holder)
+    return text
+
+
+def unknown_license_warning(identifier: str) -> str:
+    """Return the warning about a licence without a text."""
+    choices = '\n'.join(known_licenses())
+    return (
+        f"\n[WARNING]: Unknown license '{identifier}'.  This has been set in the package.xml, "
+        'but no LICENSE file has been created.\n'
+        f'It is recommended to use one of the ament license identifiers:\n{choices}')

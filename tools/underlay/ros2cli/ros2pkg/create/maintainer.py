@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The maintainer's address when none is given."""
+
+from __future__ import annotations
+
+import subprocess
+
+
+def default_email(name: str) -> str:
+    """Return the address that git knows, else one that is obviously to be replaced."""
+    try:
+        result = subprocess.run(
+            ['git', 'config', '--get', 'user.email'], capture_output=True, text=True,
+            check=False)
+    except OSError:
+        return f'{name}@todo.todo'
+    return result.stdout.strip() or f'{name}@todo.todo'

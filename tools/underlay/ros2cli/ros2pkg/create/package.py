@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Create a package of any supported build type."""
+
+from __future__ import annotations
+
+from ros2pkg.create import ament_cmake, ament_python
+from ros2pkg.create.description import PackageDescription
+from ros2pkg.create.licenses import license_text
+from ros2pkg.create.manifest import manifest_text
+from ros2pkg.create.writer import Writer
+
+LAYOUTS = {
+    'ament_cmake': ament_cmake.write_sources,
+    'ament_python': ament_python.write_sources,
+}
+
+
+def create_package(description: PackageDescription, package_folder: str) -> None:
+    """Create all files of a package in a folder that does not exist yet."""
+    writer = Writer(package_folder)
+    writer.file('package.xml', manifest_text(description))
+    LAYOUTS[description.build_type](description, writer)
+    text = license_text(description.license_id, description.maintainer_name)
+    if text is not None:
+        writer.file('LICENSE', text)

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 pkg list`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2pkg.api import get_package_names
+from ros2pkg.verb import VerbExtension
+
+
+class ListVerb(VerbExtension):
+    """Output a list of available packages."""
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print one name a line."""
+        for name in get_package_names():
+            print(name)
+        return None

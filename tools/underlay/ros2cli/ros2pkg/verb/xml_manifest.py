@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 pkg xml`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from xml.etree import ElementTree
+
+from ros2pkg.api import get_share_directory, PackageNotFoundError
+from ros2pkg.api.missing import missing_package
+from ros2pkg.verb import VerbExtension
+
+
+class XmlVerb(VerbExtension):
+    """Output the XML of the package manifest or a specific tag."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the package's name and the choice of one tag."""
+        parser.add_argument('package_name', help='The package name')
+        parser.add_argument('-t', '--tag', help='The XML tag to output')
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print the manifest, or the texts of all elements with the tag."""
+        try:
+            manifest = Path(get_share_directory(args.package_name), 'package.xml')
+        except PackageNotFoundError:
+            return missing_package(args.package_name)
+        if not manifest.is_file():
+            return 'Package XML manifest not found'
+        root = ElementTree.parse(manifest).getroot()
+        if args.tag is None:
+            print(ElementTree.tostring(root, encoding='unicode'))
+            return None
+        texts = [element.text or '' for element in root.findall(args.tag)]
+        if not texts:
+            return 'XML tag not found'
+        print('\n'.join(texts))
+        return None

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find executables of packages and run them as children that never outlive the command."""
+
+from __future__ import annotations
+
+import os
+
+from ros2run.api.child import run_child
+
+__all__ = ['get_executable_path', 'MultipleExecutables', 'run_executable']
+
+
+class MultipleExecutables(Exception):
+    """Several executables of a package have the same name."""
+
+    def __init__(self, paths: list[str]) -> None:
+        """Keep the paths that were found."""
+        super().__init__(', '.join(paths))
+        self.paths = paths
+
+
+def get_executable_path(*, package_name: str, executable_name: str) -> str | None:
+    """Return the path of an executable, or None; PackageNotFoundError for no such package."""
+    from ros2pkg.api import get_executable_paths
+
+    paths = [
+        path for path in get_executable_paths(package_name=package_name)
+        if os.path.basename(path) == executable_name]
+    if len(paths) > 1:
+        raise MultipleExecutables(paths)
+    return paths[0] if paths else None
+
+
+def run_executable(*, path: str, argv: list[str], prefix: list[str] | None = None) -> int:
+    """Run an executable and return its exit status, negative after a signal."""
+    return run_child([*(prefix or ()), path, *argv])

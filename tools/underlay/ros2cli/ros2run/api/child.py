@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run one child in the foreground and pass signals on to it."""
+
+from __future__ import annotations
+
+import errno
+import os
+import signal
+import sys
+
+FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
+SENT_BY_KERNEL = 0x80
+
+
+def run_child(command: list[str]) -> int:
+    """
+    Run a command until it ends; return its exit status, or minus the signal's number.
+
+    The child stays in the terminal's foreground group, so that it can read the keyboard. A
+    Ctrl-C reaches it from the terminal, and is therefore not passed on a second time.
+    """
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+    waited = {*FORWARDED, signal.SIGCHLD}
+    previous = signal.pthread_sigmask(signal.SIG_BLOCK, waited)
+    sys.stdout.flush()
+    try:
+        pid = os.posix_spawnp(command[0], command, os.environ, setsigmask=previous)
+        return _wait(pid, waited)
+    except OSError as error:
+        raise RuntimeError(_why_not(command[0], error)) from error
+    finally:
+        _drop_pending(waited)
+        signal.pthread_sigmask(signal.SIG_SETMASK, previous)
+
+
+def _why_not(program: str, error: OSError) -> str:
+    text = f"cannot run '{program}': {error.strerror}"
+    if error.errno == errno.ENOEXEC:
+        return f'{text}. Is it a script without an interpreter in its first line (#!)?'
+    if error.errno == errno.ENOENT and os.path.exists(program):
+        return f'{text}. Its first line (#!) names an interpreter that does not exist.'
+    return text
+
+
+def _wait(pid: int, waited: set[signal.Signals]) -> int:
+    """Forward signals until the child has ended."""
+    while True:
+        ended, status = os.waitpid(pid, os.WNOHANG)
+        if ended:
+            return os.waitstatus_to_exitcode(status)
+        received = signal.sigwaitinfo(waited)
+        if received.si_signo != signal.SIGCHLD and received.si_code != SENT_BY_KERNEL:
+            os.kill(pid, received.si_signo)
+
+
+def _drop_pending(waited: set[signal.Signals]) -> None:
+    """Take signals off the queue which came after the child's end; they were meant for it."""
+    while signal.sigtimedwait(waited, 0):
+        continue

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Quality of service that fits the publishers of a topic."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from rclpy.duration import Duration
+from rclpy.qos import (
+    DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSPresetProfiles, QoSProfile,
+    ReliabilityPolicy)
+
+POLICY_TYPES: dict[str, Any] = {
+    'history': HistoryPolicy, 'reliability': ReliabilityPolicy,
+    'durability': DurabilityPolicy, 'liveliness': LivelinessPolicy}
+
+
+def choose_qos(args: argparse.Namespace, publishers: list[Any]) -> tuple[QoSProfile, list[str]]:
+    """Return the profile for a subscription, and notices about publishers that differ."""
+    notices: list[str] = []
+    if args.qos_profile:
+        profile = copy_profile(QoSPresetProfiles.get_from_short_key(args.qos_profile))
+    else:
+        profile, notices = matching_qos(publishers)
+    override(profile, args)
+    return profile, notices
+
+
+def matching_qos(publishers: list[Any]) -> tuple[QoSProfile, list[str]]:
+    """Return the strongest profile that still connects to all publishers, with notices."""
+    profile = copy_profile(QoSPresetProfiles.get_from_short_key('sensor_data'))
+    profiles = [info.qos_profile for info in publishers]
+    profile.reliability, first = _common(
+        [each.reliability for each in profiles],
+        ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT)
+    profile.durability, second = _common(
+        [each.durability for each in profiles],
+        DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE)
+    return profile, [notice for notice in (first, second) if notice]
+
+
+def override(profile: QoSProfile, args: argparse.Namespace) -> None:
+    """Apply the single policies of the command line to a profile."""
+    for name, policy_type in POLICY_TYPES.items():
+        short_key = getattr(args, f'qos_{name}')
+        if short_key:
+            setattr(profile, name, policy_type.get_from_short_key(short_key))
+    if args.qos_depth is not None:
+        profile.depth = args.qos_depth
+    lease_s = args.qos_liveliness_lease_duration_seconds
+    if lease_s is not None:
+        profile.liveliness_lease_duration = Duration(nanoseconds=int(lease_s * 1e9))
+
+
+def _common(offered: list[Any], strong: Any, weak: Any) -> tuple[Any, str]:
+    """Return the strong policy if all publishers offer it, else the weak one."""
+    count = sum(policy == strong for policy in offered)
+    if count == 0 or count == len(offered):
+        return (strong if count else weak), ''
+    return weak, (
+        f'Some, but not all, publishers are offering {strong}. Falling back to {weak} as it '
+        'will connect to all publishers')
+
+
+def copy_profile(profile: Any) -> QoSProfile:
+    """Return a profile of one's own, since the presets are shared."""
+    names = (
+        'history', 'depth', 'reliability', 'durability', 'lifespan', 'deadline', 'liveliness',
+        'liveliness_lease_duration', 'avoid_ros_namespace_conventions')
+    return QoSProfile(**{name: getattr(profile, name) for name in names})

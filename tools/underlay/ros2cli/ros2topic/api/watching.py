@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Subscribe to a topic as soon as it is published, for verbs that measure it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from ros2topic.api import get_topic_types
+from ros2topic.api.qos import matching_qos
+from ros2topic.api.subscription_type import resolve_type
+from ros2topic.api.waiting import find_types, Patience, settled_publishers
+
+PERIOD_S = 0.02
+QUEUE_DEPTH = 1000
+
+
+def subscribe_when_published(
+    node: Any, topic: str, callback: Callable[[Any], None], *, raw: bool = True,
+) -> Any:
+    """Wait for a topic as long as it takes and return a subscription that fits it."""
+    _wait_until_published(node, topic)
+    message_type = resolve_type(node, topic, None)
+    profile, _ = matching_qos(settled_publishers(node, topic))
+    profile.depth = QUEUE_DEPTH
+    return node.create_subscription(message_type, topic, callback, profile, raw=raw)
+
+
+def _wait_until_published(node: Any, topic: str) -> None:
+    if find_types(node, topic):
+        return
+    print(f'WARNING: topic [{topic}] does not appear to be published yet')
+    patience = Patience(f"a publisher of '{topic}'")
+    while not get_topic_types(node, topic):
+        patience.check()
+        node.spin_once(PERIOD_S)

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 topic bw`."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from typing import Any
+
+from ros2cli.node.arguments import add_strategy_arguments
+from ros2topic.api.argument_types import positive_int
+from ros2topic.api.bandwidth import BandwidthMeter
+from ros2topic.verb import VerbExtension
+
+DEFAULT_WINDOW = 100
+
+
+class BwVerb(VerbExtension):
+    """Display bandwidth used by topic."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the topic and the number of messages to look at."""
+        add_strategy_arguments(parser)
+        parser.add_argument('topic_name', help='Topic name to monitor for bandwidth utilization')
+        parser.add_argument(
+            '-w', '--window', type=positive_int, default=DEFAULT_WINDOW, metavar='WINDOW',
+            help='maximum window size, in number of messages, for calculating rate '
+            '(default: %(default)s)')
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print a report every second until the user stops it."""
+        from ros2cli.node.direct import DirectNode
+        from ros2topic.api.reporting import report_for_ever
+        from ros2topic.api.waiting import absolute
+        from ros2topic.api.watching import subscribe_when_published
+
+        topic = absolute(args.topic_name)
+        meter = BandwidthMeter(args.window)
+
+        def count(data: Any) -> None:
+            meter.add(time.monotonic(), len(data))
+
+        with DirectNode(args, wait=False) as node:
+            subscribe_when_published(node, topic, count)
+            print(f'Subscribed to [{topic}]')
+            report_for_ever(node, topic, lambda: meter.report(time.monotonic()))
+        return None

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 topic echo`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2cli.node.arguments import add_strategy_arguments
+from ros2topic.api.echo_arguments import add_echo_arguments
+from ros2topic.api.qos_arguments import add_qos_arguments
+from ros2topic.verb import VerbExtension
+
+
+class EchoVerb(VerbExtension):
+    """Output messages from a topic."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the topic, the quality of service and the form of the output."""
+        add_strategy_arguments(parser)
+        parser.add_argument(
+            'topic_name', help="Name of the ROS topic to listen to (e.g. '/chatter')")
+        parser.add_argument(
+            'message_type', nargs='?',
+            help="Type of the ROS message (e.g. 'std_msgs/msg/String')")
+        add_qos_arguments(parser, 'subscription')
+        add_echo_arguments(parser)
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print messages until enough have come or the user stops it."""
+        from ros2cli.node.direct import DirectNode
+        from ros2topic.api.echo import echo
+        from ros2topic.api.subscription_type import resolve_type
+        from ros2topic.api.waiting import absolute
+
+        topic = absolute(args.topic_name)
+        with DirectNode(args, wait=False) as node:
+            echo(node, topic, resolve_type(node, topic, args.message_type), args)
+        return None

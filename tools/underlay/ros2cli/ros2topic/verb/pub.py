@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 topic pub`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from ros2cli.node.arguments import add_node_arguments
+from ros2topic.api.pub_arguments import add_pub_arguments
+from ros2topic.api.qos_arguments import add_qos_arguments
+from ros2topic.verb import VerbExtension
+
+
+class PubVerb(VerbExtension):
+    """Publish a message to a topic."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the message, the rate and the quality of service."""
+        add_pub_arguments(parser)
+        add_qos_arguments(parser, 'publisher')
+        add_node_arguments(parser)
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Publish until enough is published or the user stops it."""
+        from ros2cli.node.direct import DirectNode
+        from ros2topic.api.outgoing import OutgoingMessage
+        from ros2topic.api.pub import publish
+
+        text = sys.stdin.read() if args.stdin else args.values
+        message = OutgoingMessage(args.message_type, text)
+        with DirectNode(args, node_name=args.node_name, wait=False) as node:
+            publish(node, message, args)
+        return None

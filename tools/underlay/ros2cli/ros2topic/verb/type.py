@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 topic type`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2cli.node.arguments import add_strategy_arguments
+from ros2topic.verb import VerbExtension
+
+
+class TypeVerb(VerbExtension):
+    """Print a topic's type."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the topic's name."""
+        add_strategy_arguments(parser)
+        parser.add_argument(
+            'topic_name', help="Name of the ROS topic to get type (e.g. '/chatter')")
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print all types of the topic; without one the status is 1."""
+        from ros2cli.node.strategy import NodeStrategy
+        from ros2topic.api import get_topic_types
+
+        with NodeStrategy(args) as node:
+            types = get_topic_types(node, args.topic_name)
+        for name in types:
+            print(name)
+        return 0 if types else 1

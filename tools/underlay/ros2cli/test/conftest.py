@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Fixtures: a domain of one's own, a talker, and the command line as a process."""
+
+from collections.abc import Callable, Iterator
+import os
+from pathlib import Path
+import subprocess
+import sys
+from typing import Any
+
+from domain_coordinator import domain_id
+import pytest
+from ros2cli.cli import main
+
+ROOT = Path(__file__).parents[1]
+TIMEOUT_S = 30.0
+
+
+@pytest.fixture(scope='session')
+def ros_environment_variables() -> Iterator[dict[str, str]]:
+    """Reserve a domain and return the environment for processes in it."""
+    with domain_id() as domain:
+        path = os.pathsep.join([str(ROOT), os.environ.get('PYTHONPATH', '')]).rstrip(os.pathsep)
+        yield {
+            **os.environ, 'ROS_DOMAIN_ID': str(domain), 'PYTHONPATH': path,
+            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'PYTHONUNBUFFERED': '1'}
+
+
+@pytest.fixture(scope='session')
+def talker(ros_environment_variables: dict[str, str]) -> Iterator[None]:
+    """Run the talker for all tests that look at the graph."""
+    process = subprocess.Popen(
+        [sys.executable, str(Path(__file__).with_name('talker.py'))],
+        env=ros_environment_variables, stdout=subprocess.PIPE, text=True)
+    try:
+        assert process.stdout is not None
+        assert process.stdout.readline() == 'ready\n'
+        yield
+    finally:
+        process.kill()
+        process.communicate()
+
+
+@pytest.fixture
+def start_ros2(
+    ros_environment_variables: dict[str, str],
+) -> Iterator[Callable[..., subprocess.Popen[str]]]:
+    """Return a function that starts a command; what still runs is ended after the test."""
+    started: list[subprocess.Popen[str]] = []
+
+    def start(*words: str, **options: Any) -> subprocess.Popen[str]:
+        environment = {**ros_environment_variables, **options.pop('extra', {})}
+        process = subprocess.Popen(
+            [sys.executable, '-m', 'ros2cli', *words], env=environment, text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
+        started.append(process)
+        return process
+
+    yield start
+    for process in started:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+
+
+@pytest.fixture
+def ros2(start_ros2: Callable[..., Any]) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Return a function that runs a command to its end."""
+
+    def run(*words: str, **options: Any) -> subprocess.CompletedProcess[str]:
+        process = start_ros2(*words, **options)
+        output, errors = process.communicate(timeout=TIMEOUT_S)
+        return subprocess.CompletedProcess(words, process.returncode, output, errors)
+
+    return run
+
+
+@pytest.fixture
+def ros2_here(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch,
+    ros_environment_variables: dict[str, str],
+) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Return a function that runs a command in this process, which saves its start-up."""
+
+    def run(*words: str, **extra: str) -> subprocess.CompletedProcess[str]:
+        for name in ('ROS_DOMAIN_ID', 'ROS_AUTOMATIC_DISCOVERY_RANGE'):
+            monkeypatch.setenv(name, extra.get(name, ros_environment_variables[name]))
+        status = main(words)
+        captured = capsys.readouterr()
+        return subprocess.CompletedProcess(words, status, captured.out, captured.err)
+
+    return run

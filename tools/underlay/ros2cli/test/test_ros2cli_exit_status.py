@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of the translation from results and exceptions to exit statuses."""
+
+from collections.abc import Callable
+import signal
+import sys
+
+import pytest
+from ros2cli.exit_status import run_to_status
+
+
+def raising(error: BaseException) -> Callable[[], int]:
+    """Return a function that raises an exception."""
+
+    def call() -> int:
+        raise error
+
+    return call
+
+
+@pytest.mark.parametrize(('result', 'status'), [(None, 0), (0, 0), (3, 3), (-9, -9)])
+def test_number_is_status(result: int | None, status: int) -> None:
+    """A number is the status, and nothing is success."""
+    assert run_to_status(lambda: result) == status
+
+
+@pytest.mark.parametrize('call', [lambda: 'no luck', raising(RuntimeError('no luck'))])
+def test_text_is_error(
+    call: Callable[[], str], capsys: pytest.CaptureFixture[str],
+) -> None:
+    """A text that is returned, or carried by a RuntimeError, goes to stderr with status 1."""
+    assert run_to_status(call) == 1
+    captured = capsys.readouterr()
+    assert (captured.out, captured.err) == ('', 'no luck\n')
+
+
+def test_interrupt_is_silent(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Ctrl-C has the status of its signal, prints nothing, and a second one does no harm."""
+    handlers = []
+    monkeypatch.setattr('signal.signal', lambda *words: handlers.append(words))
+    assert run_to_status(raising(KeyboardInterrupt())) == 2
+    assert capsys.readouterr() == ('', '')
+    assert handlers == [(signal.SIGINT, signal.SIG_IGN)]
+
+
+def test_exit_of_parser_is_status() -> None:
+    """The exit of the argument parser keeps its status."""
+    assert run_to_status(raising(SystemExit(2))) == 2
+
+
+def test_unexpected_error_is_raised() -> None:
+    """An error that nobody foresaw keeps its traceback."""
+    with pytest.raises(ZeroDivisionError):
+        run_to_status(raising(ZeroDivisionError()))
+
+
+def test_external_shutdown_has_status_of_sigterm() -> None:
+    """The exception by which rclpy reports SIGTERM has the status of that signal."""
+    from rclpy.executors import ExternalShutdownException
+
+    assert 'rclpy.executors' in sys.modules
+    assert run_to_status(raising(ExternalShutdownException())) == 15

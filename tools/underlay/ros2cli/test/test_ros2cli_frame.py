@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of the frame: help, unknown commands and what is imported."""
+
+import subprocess
+import sys
+
+import pytest
+from ros2cli.cli import main
+from ros2cli.command_table import COMMANDS
+from ros2cli.entry import Entry
+from ros2pkg.command.pkg import PkgCommand
+
+VERB_COMMANDS = [
+    command for command in (entry.create() for entry in COMMANDS.values())
+    if hasattr(command, 'VERBS')]
+ENTRIES = [
+    *COMMANDS.values(), *(entry for command in VERB_COMMANDS for entry in command.VERBS.values())]
+
+
+@pytest.mark.parametrize('words', [[], ['-h'], ['--help']])
+def test_help_lists_commands(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    """The help goes to stdout, names all commands and is no error."""
+    assert main(words) == 0
+    output = capsys.readouterr().out
+    assert output.startswith('usage: ros2 [-h]')
+    assert '  pkg     Various package related sub-commands\n' in output
+    assert output.endswith('Call `ros2 <command> -h` for more detailed usage.\n')
+
+
+def test_command_without_verb_prints_help(capsys: pytest.CaptureFixture[str]) -> None:
+    """A command without a verb prints its help."""
+    assert main(['topic']) == 0
+    assert capsys.readouterr().out.startswith('usage: ros2 topic [-h]')
+
+
+def test_unknown_command_suggests(capsys: pytest.CaptureFixture[str]) -> None:
+    """A misspelt command is a usage error which names the choices and the closest one."""
+    assert main(['topc']) == 2
+    error = capsys.readouterr().err
+    assert (
+        'ros2: error: argument Call `ros2 <command> -h` for more detailed usage.: '
+        "invalid choice: 'topc' (choose from 'launch', ") in error
+    assert "Did you mean 'topic'?" in error
+
+
+def test_unknown_verb_names_command(capsys: pytest.CaptureFixture[str]) -> None:
+    """A misspelt verb is an error of its command."""
+    assert main(['pkg', 'lst']) == 2
+    error = capsys.readouterr().err
+    assert 'ros2 pkg: error: argument Call `ros2 pkg <verb> -h`' in error
+    assert "Did you mean 'list'?" in error
+
+
+def test_unknown_option_is_error_of_root(capsys: pytest.CaptureFixture[str]) -> None:
+    """An unknown option anywhere is reported by the root parser."""
+    assert main(['pkg', 'list', '--nope']) == 2
+    assert 'ros2: error: unrecognized arguments: --nope' in capsys.readouterr().err
+
+
+def test_missing_argument_is_error_of_verb(capsys: pytest.CaptureFixture[str]) -> None:
+    """A missing argument is reported by the parser of the verb."""
+    assert main(['topic', 'echo']) == 2
+    expected = 'ros2 topic echo: error: the following arguments are required: topic_name'
+    assert expected in capsys.readouterr().err
+
+
+@pytest.mark.parametrize('entry', ENTRIES, ids=lambda entry: str(entry.target))
+def test_table_agrees_with_docstring(entry: Entry) -> None:
+    """The help in the static table is the first line of the class's docstring."""
+    first_line = (type(entry.create()).__doc__ or '').strip().split('\n')[0]
+    assert first_line == f'{entry.help}.'
+
+
+def test_verbs_of_other_packages_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A verb which is not in the table is looked up among the entry points."""
+    asked = []
+
+    def find(group: str, name: str) -> None:
+        asked.append((group, name))
+
+    monkeypatch.setattr('ros2cli.subparsers.find_entry', find)
+    assert main(['pkg', 'extra']) == 2
+    assert asked == [(PkgCommand.VERB_GROUP, 'extra')]
+
+
+@pytest.mark.parametrize('words', [
+    ['--help'], ['pkg', 'list'], ['pkg', 'prefix', 'rclpy'], ['topic', 'echo', '--help'],
+    ['launch', '--help'], ['run', 'nope', 'nope']])
+def test_heavy_modules_are_not_imported(
+    words: list[str], ros_environment_variables: dict[str, str],
+) -> None:
+    """Commands without a node import neither rclpy nor the scanner of entry points."""
+    code = (
+        'import sys\nfrom ros2cli.cli import main\nmain(sys.argv[1:])\n'
+        "heavy = {'rclpy', 'importlib.metadata', 'asyncio', 'yaml'}\n"
+        "print('heavy:', sorted(heavy & set(sys.modules) - early))\n")
+    code = f'import sys\nearly = set(sys.modules)\n{code}'
+    result = subprocess.run(
+        [sys.executable, '-c', code, *words], env=ros_environment_variables, check=True,
+        capture_output=True, text=True)
+    assert result.stdout.splitlines()[-1] == 'heavy: []'

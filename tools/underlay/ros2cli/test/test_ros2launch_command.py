@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of `ros2 launch` with real launch files."""
+
+from collections.abc import Callable
+import os
+from pathlib import Path
+import signal
+from subprocess import CompletedProcess
+from typing import Any
+
+import pytest
+
+Ros2 = Callable[..., CompletedProcess[str]]
+Start = Callable[..., Any]
+
+LAUNCH_FILE = """\
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, ExecuteProcess
+from launch.substitutions import LaunchConfiguration
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument('word', default_value='hello', description='what to say'),
+        ExecuteProcess(cmd=['echo', 'said', LaunchConfiguration('word')], output='screen'),
+    ])
+"""
+SLEEPER = """\
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess
+
+
+def generate_launch_description():
+    cmd = ['sh', '-c', 'echo pid $$; exec sleep 60']
+    return LaunchDescription([ExecuteProcess(cmd=cmd, output='screen')])
+"""
+
+
+@pytest.fixture
+def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
+    """Install a package with launch files and return the environment that finds it."""
+    index = tmp_path / 'share' / 'ament_index' / 'resource_index' / 'packages'
+    index.mkdir(parents=True)
+    (index / 'arm').touch()
+    for name, text in {
+        'launch/say.launch.py': LAUNCH_FILE, 'launch/sleep.launch.py': SLEEPER,
+        'launch/broken.launch.py': 'import nope_nope\n', 'launch/twice.launch.py': '',
+        'other/twice.launch.py': '',
+    }.items():
+        path = tmp_path / 'share' / 'arm' / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    monkeypatch.chdir(tmp_path)
+    return {
+        'AMENT_PREFIX_PATH': str(tmp_path), 'COLCON_PREFIX_PATH': '',
+        'ROS_LOG_DIR': str(tmp_path / 'log')}
+
+
+def test_package_and_file(ros2: Ros2, arm: dict[str, str]) -> None:
+    """A launch file of a package runs with the arguments of the command line."""
+    result = ros2('launch', 'arm', 'say.launch.py', 'word:=bye', extra=arm)
+    lines = result.stdout.splitlines()
+    assert lines[0].startswith('[INFO] [launch]: All log files can be found below ')
+    assert lines[1] == '[INFO] [launch]: Default logging verbosity is set to INFO'
+    assert '[echo-1] said bye' in lines
+    assert (result.returncode, result.stderr) == (0, '')
+
+
+def test_path_instead_of_package(ros2: Ros2, arm: dict[str, str]) -> None:
+    """A launch file can be named by its path; what follows are its arguments."""
+    path = 'share/arm/launch/say.launch.py'
+    result = ros2('launch', path, 'word:=bye', extra=arm)
+    assert '[echo-1] said bye' in result.stdout.splitlines()
+
+
+def test_show_args(ros2: Ros2, arm: dict[str, str]) -> None:
+    """The arguments are shown and nothing is started."""
+    result = ros2('launch', 'arm', 'say.launch.py', '--show-args', extra=arm)
+    assert result.stdout == (
+        "Arguments (pass arguments as '<name>:=<value>'):\n\n"
+        "    'word':\n        what to say\n        (default: 'hello')\n")
+    assert (result.returncode, result.stderr) == (0, '')
+
+
+def test_prefix(ros2: Ros2, arm: dict[str, str]) -> None:
+    """A prefix stands before the command of each process."""
+    result = ros2('launch', '--launch-prefix', 'echo before', 'arm', 'say.launch.py', extra=arm)
+    assert '[echo-1] before echo said hello' in result.stdout.splitlines()
+
+
+@pytest.mark.parametrize(('words', 'error'), [
+    (['nopkg', 'x'], "Package 'nopkg' not found: \"package 'nopkg' not found, searching: ['"),
+    (['arm', 'sai.launch.py'],
+     "file 'sai.launch.py' was not found in the share directory of package 'arm' which is at '"),
+    (['arm', 'twice.launch.py'],
+     "file 'twice.launch.py' was found more than once in the share directory of package 'arm'"),
+    (['arm'], "file 'None' was not found in the share directory of package 'arm'"),
+    (['/some/x.launch.py'], "the launch file '/some/x.launch.py' does not exist"),
+    (['arm', 'say.launch.py', 'word:='], "malformed launch argument 'word:='"),
+    (['arm', 'say.launch.py', 'wrd:=1'], "the launch file does not declare an argument 'wrd'"),
+    (['arm', 'say.launch.py', '--launch-prefix-filter', 'x'],
+     '--launch-prefix must be specified if --launch-prefix-filter is provided'),
+    (['-s', 'arm', 'broken.launch.py'], "the launch file '")])
+def test_errors(words: list[str], error: str, ros2: Ros2, arm: dict[str, str]) -> None:
+    """What cannot be launched is an error on stderr, before anything starts."""
+    result = ros2('launch', *words, extra=arm)
+    assert (result.returncode, result.stdout) == (1, '')
+    assert result.stderr.startswith(error)
+
+
+def test_missing_file_lists_those_that_exist(ros2: Ros2, arm: dict[str, str]) -> None:
+    """The error about a missing file ends with the installed ones and the closest."""
+    error = ros2('launch', 'arm', 'sai.launch.py', extra=arm).stderr
+    assert 'say.launch.py, sleep.launch.py' in error
+    assert "Did you mean 'say.launch.py'?" in error
+
+
+def test_undeclared_arguments_can_be_allowed(ros2: Ros2, arm: dict[str, str]) -> None:
+    """A name that looks misspelt is accepted on demand."""
+    words = ['--allow-undeclared-arguments', 'arm', 'say.launch.py', 'wrd:=1']
+    assert ros2('launch', *words, extra=arm).returncode == 0
+
+
+@pytest.mark.parametrize('sent', [signal.SIGINT, signal.SIGTERM])
+def test_signal_ends_all(sent: signal.Signals, start_ros2: Start, arm: dict[str, str]) -> None:
+    """A signal ends the launch and its children; the status is 0."""
+    process = start_ros2('launch', 'arm', 'sleep.launch.py', extra=arm)
+    line = ''
+    while '] pid ' not in line:
+        line = process.stdout.readline()
+        assert line
+    child = int(line.split()[-1])
+    process.send_signal(sent)
+    output, errors = process.communicate(timeout=20.0)
+    assert (process.returncode, errors) == (0, ''), output
+    with pytest.raises(ProcessLookupError):
+        os.kill(child, 0)
