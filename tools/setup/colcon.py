@@ -6,11 +6,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 import os
 from pathlib import Path
-import subprocess
 
 from console import SetupError, Steps
 from locations import Locations
-from processes import environment_variables, last_words, run_logged, without_inherited
+from processes import environment_variables, last_words, run, run_logged, without_inherited
 from stamp import files_below
 
 FIRST = 'ros_environment'
@@ -71,7 +70,7 @@ def build_workspace(locations: Locations, arguments: list[str]) -> int:
     """Run `colcon build` as a user would in the sourced environment; return its exit status."""
     runner = os.fspath(locations.root / 'tools' / 'in_environment')
     command = [runner, '--underlay', 'colcon', 'build', *arguments]
-    return subprocess.call(command, cwd=locations.root, env=without_inherited())
+    return run(command, cwd=locations.root, variables=without_inherited())
 
 
 def is_built(root: Path) -> bool:

@@ -10,6 +10,7 @@ import fcntl
 import os
 from pathlib import Path
 import shutil
+import signal
 import sys
 import sysconfig
 
@@ -27,6 +28,8 @@ BUILT = ('build', 'install', 'log')
 def main(argv: list[str]) -> int:
     """Run a command; return the exit status."""
     options, rest = parse(argv)
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.default_int_handler)
     try:
         locations = find_locations(ROOT, options.venv)
         with only_one_at_a_time(ROOT):

@@ -3,13 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 import os
 from pathlib import Path
+import signal
 import subprocess
+from typing import Any
 
 from console import SetupError
 
+GRACE_S = 5.0
 INHERITED = {
     'AMENT_PREFIX_PATH',
     'CMAKE_PREFIX_PATH',
@@ -43,6 +47,37 @@ def without_inherited() -> dict[str, str]:
     return {name: value for name, value in os.environ.items() if name not in INHERITED}
 
 
+@contextmanager
+def started(command: Sequence[str | Path], **options: Any) -> Iterator[subprocess.Popen[str]]:
+    """Start a program in a session of its own; an exception ends it with all that it started."""
+    process = subprocess.Popen(
+        [str(part) for part in command],
+        stdin=subprocess.DEVNULL,
+        start_new_session=True,
+        encoding='utf-8',
+        errors='replace',
+        **options,
+    )
+    try:
+        yield process
+    except BaseException:
+        _end_session(process)
+        raise
+    finally:
+        if process.stdout:
+            process.stdout.close()
+
+
+def _end_session(process: subprocess.Popen[str]) -> None:
+    """Ask all of a session to end, and make it end."""
+    with suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGTERM)
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(timeout=GRACE_S)
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+
+
 def run_logged(
     command: Sequence[str | Path],
     *,
@@ -53,31 +88,22 @@ def run_logged(
 ) -> int:
     """Run a program, keep what it prints in a file, and show each line to a function.
 
-    Returns the exit status. An exception, as of Ctrl-C, ends the program too.
+    Returns the exit status.
     """
     log.parent.mkdir(parents=True, exist_ok=True)
-    with (
-        log.open('w', encoding='utf-8') as record,
-        subprocess.Popen(
-            [str(part) for part in command],
-            cwd=cwd,
-            env=variables,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            encoding='utf-8',
-            errors='replace',
-        ) as process,
-    ):
-        try:
-            assert process.stdout is not None
-            for line in process.stdout:
+    output = {'stdout': subprocess.PIPE, 'stderr': subprocess.STDOUT}
+    with log.open('w', encoding='utf-8') as record:
+        with started(command, cwd=cwd, env=variables, **output) as process:
+            for line in process.stdout or ():
                 record.write(line)
                 each_line(line.rstrip('\n'))
             return process.wait()
-        except BaseException:
-            process.terminate()
-            raise
+
+
+def run(command: Sequence[str | Path], *, cwd: Path, variables: dict[str, str]) -> int:
+    """Run a program that prints to the terminal; return the exit status."""
+    with started(command, cwd=cwd, env=variables) as process:
+        return process.wait()
 
 
 def last_words(log: Path, mark: str, count: int = 3) -> str:

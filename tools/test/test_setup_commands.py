@@ -10,6 +10,7 @@ import sys
 import commands
 from console import SetupError
 from locations import Locations
+import processes
 import pytest
 from stamp import Stamp
 
@@ -75,3 +76,16 @@ def test_a_command_that_the_environment_lacks_is_named(root: Path) -> None:
     )
     assert done.returncode == 1
     assert "no 'no-such-program': run 'make setup'" in done.stderr
+
+
+def test_an_interruption_ends_what_was_started(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An exception ends the program with its children, even one that does not want to."""
+    monkeypatch.setattr(processes, 'GRACE_S', 0.2)
+    script = 'trap "" TERM; sleep 1000 & echo $!; wait; wait'
+    pids = []
+    with pytest.raises(KeyboardInterrupt):
+        with processes.started(['sh', '-c', script], stdout=subprocess.PIPE) as process:
+            pids = [process.pid, int(process.stdout.readline())]
+            raise KeyboardInterrupt
+    assert len(pids) == 2
+    assert not any(Path(f'/proc/{pid}/cwd').exists() for pid in pids)

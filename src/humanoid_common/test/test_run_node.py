@@ -60,7 +60,7 @@ def run(tmp_path: Path, code: str, *arguments: str) -> ExitReport:
 
 def repeat(program: RunningProgram) -> None:
     """Press Ctrl-C, and give the node a moment."""
-    program.signal(signal.SIGINT)
+    program.send(signal.SIGINT)
     time.sleep(0.3)
 
 
@@ -81,7 +81,7 @@ def test_repeated_signals(tmp_path: Path) -> None:
     with ros_sandbox(), running_program([sys.executable, str(script)]) as program:
         program.wait_for_output('ready')
         for number in (signal.SIGINT, signal.SIGINT, signal.SIGTERM):
-            program.signal(number)
+            program.send(number)
         assert_clean_exit(program.wait_for_exit())
 
 

@@ -99,3 +99,25 @@ def test_total_mass(robot: ElementTree.Element) -> None:
     """The humanoid weighs what it is meant to."""
     masses = [float(mass.attrib['value']) for mass in robot.iter('mass')]
     assert sum(masses) == pytest.approx(42.8)
+
+
+def height_above_root(robot: ElementTree.Element, link: str) -> float:
+    """Return how high a link is above base_link while all joints are at zero."""
+    above = {}
+    for joint in robot.findall('joint'):
+        parent, child, origin = (joint.find(tag) for tag in ('parent', 'child', 'origin'))
+        assert parent is not None and child is not None and origin is not None
+        height_m = float(origin.attrib['xyz'].split()[2])
+        above[child.attrib['link']] = (parent.attrib['link'], height_m)
+    total_m = 0.0
+    while link in above:
+        link, height_m = above[link]
+        total_m += height_m
+    return total_m
+
+
+def test_height(robot: ElementTree.Element) -> None:
+    """Stretched, the humanoid stands as tall as it is meant to, on both soles."""
+    crown_m = height_above_root(robot, 'head') + 0.18
+    soles_m = [height_above_root(robot, sole) for sole in ('l_sole', 'r_sole')]
+    assert [crown_m - sole_m for sole_m in soles_m] == pytest.approx([1.42, 1.42])

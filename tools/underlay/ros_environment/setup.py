@@ -24,4 +24,9 @@ setup(
     description='Sets the environment of ROS 2 Jazzy in a virtual environment',
     license='Apache-2.0',
     extras_require={'test': ['pytest']},
+    entry_points={
+        'setuptools.finalize_distribution_options': [
+            'missing_data_files = ros_environment.missing_data_files:leave_out',
+        ],
+    },
 )

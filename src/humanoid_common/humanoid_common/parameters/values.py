@@ -5,7 +5,7 @@ from __future__ import annotations
 from array import array
 from collections.abc import Sequence
 import math
-from typing import Any, Union
+from typing import Any, cast, Union
 
 from humanoid_common.naming import did_you_mean
 from humanoid_common.parameters.errors import ParameterError
@@ -48,8 +48,7 @@ def _checked_element(spec: ParameterSpec, value: Any) -> Scalar:
         allowed = ', '.join(repr(choice) for choice in spec.rules.choices)
         hint = did_you_mean(value, spec.rules.choices)
         raise _refusal(spec, value, f'must be one of {allowed}', hint)
-    checked: Scalar = value
-    return checked
+    return cast(Scalar, value)
 
 
 def _check_limits(spec: ParameterSpec, value: float) -> None:

@@ -13,7 +13,7 @@ from launch.launch_description_sources import AnyLaunchDescriptionSource
 def main(arguments: Sequence[str]) -> int:
     """Launch the file that the first argument names, and return the exit status."""
     path, *settings = arguments
-    pairs = [tuple(setting.split(':=', 1)) for setting in settings]
+    pairs = [(name, value) for name, _, value in (text.partition(':=') for text in settings)]
     service = LaunchService(argv=settings, noninteractive=True)
     service.include_launch_description(LaunchDescription([
         IncludeLaunchDescription(AnyLaunchDescriptionSource(path), launch_arguments=pairs)]))

@@ -60,7 +60,7 @@ class RunningProgram:
             lambda: text in self.output, 1.0,
             lambda: f'{text!r} from {self._command}, which ended; it wrote: {self.output}')
 
-    def signal(self, number: signal.Signals) -> None:
+    def send(self, number: signal.Signals) -> None:
         """Send a signal to the program itself, as `kill` does."""
         self._process.send_signal(number)
 
@@ -75,7 +75,7 @@ class RunningProgram:
 
     def stop(self, number: signal.Signals, timeout_s: float = 15.0) -> ExitReport:
         """Send the signal and wait for the end."""
-        self.signal(number)
+        self.send(number)
         return self.wait_for_exit(timeout_s)
 
     def close(self) -> None:

@@ -8,35 +8,33 @@ from typing import TYPE_CHECKING
 from ._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from . import actions as actions
-    from . import conditions as conditions
-    from . import descriptions as descriptions
-    from . import event_handlers as event_handlers
-    from . import events as events
-    from . import frontend as frontend
-    from . import launch_description_sources as launch_description_sources
-    from . import logging as logging
-    from . import substitutions as substitutions
-    from . import utilities as utilities
-    from .action import Action as Action
-    from .condition import Condition as Condition
-    from .event import Event as Event
-    from .event_handler import EventHandler as EventHandler
-    from .invalid_launch_file_error import InvalidLaunchFileError as InvalidLaunchFileError
-    from .launch_context import LaunchContext as LaunchContext
-    from .launch_description import LaunchDescription as LaunchDescription
-    from .launch_description_entity import LaunchDescriptionEntity as LaunchDescriptionEntity
-    from .launch_description_source import LaunchDescriptionSource as LaunchDescriptionSource
-    from .launch_service import LaunchService as LaunchService
-    from .some_actions_type import SomeActionsType as SomeActionsType
-    from .some_actions_type import SomeActionsType_types_tuple as SomeActionsType_types_tuple
-    from .some_entities_type import SomeEntitiesType as SomeEntitiesType
-    from .some_entities_type import SomeEntitiesType_types_tuple as SomeEntitiesType_types_tuple
-    from .some_substitutions_type import SomeSubstitutionsType as SomeSubstitutionsType
-    from .some_substitutions_type import (
-        SomeSubstitutionsType_types_tuple as SomeSubstitutionsType_types_tuple,
-    )
-    from .substitution import Substitution as Substitution
+    from . import actions
+    from . import conditions
+    from . import descriptions
+    from . import event_handlers
+    from . import events
+    from . import frontend
+    from . import launch_description_sources
+    from . import logging
+    from . import substitutions
+    from . import utilities
+    from .action import Action
+    from .condition import Condition
+    from .event import Event
+    from .event_handler import EventHandler
+    from .invalid_launch_file_error import InvalidLaunchFileError
+    from .launch_context import LaunchContext
+    from .launch_description import LaunchDescription
+    from .launch_description_entity import LaunchDescriptionEntity
+    from .launch_description_source import LaunchDescriptionSource
+    from .launch_service import LaunchService
+    from .some_actions_type import SomeActionsType
+    from .some_actions_type import SomeActionsType_types_tuple
+    from .some_entities_type import SomeEntitiesType
+    from .some_entities_type import SomeEntitiesType_types_tuple
+    from .some_substitutions_type import SomeSubstitutionsType
+    from .some_substitutions_type import SomeSubstitutionsType_types_tuple
+    from .substitution import Substitution
 
 __all__ = [
     'Action',

@@ -115,7 +115,7 @@ class LaunchContext:
     # Locals.
 
     @property
-    def locals(self) -> LocalsView:
+    def locals(self) -> LocalsView:  # noqa: A003
         """Return the local variables, each as an attribute."""
         return self.__locals.view
 

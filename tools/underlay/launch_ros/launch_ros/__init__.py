@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from . import actions as actions
-    from . import descriptions as descriptions
-    from . import parameter_descriptions as parameter_descriptions
-    from . import substitutions as substitutions
-    from . import utilities as utilities
+    from . import actions
+    from . import descriptions
+    from . import parameter_descriptions
+    from . import substitutions
+    from . import utilities
 
 __all__ = [
     'actions',

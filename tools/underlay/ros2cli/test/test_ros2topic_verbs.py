@@ -94,8 +94,8 @@ def test_echo_field_and_csv(ros2_here: Ros2) -> None:
 
 def test_echo_with_message_info(ros2_here: Ros2) -> None:
     """The info about the message stands before it."""
-    output = ros2_here('topic', 'echo', '--once', '-i', '/joint_commands', '--field', 'name').stdout
-    names = [line.partition(':')[0] for line in output.splitlines()]
+    result = ros2_here('topic', 'echo', '--once', '-i', '/joint_commands', '--field', 'name')
+    names = [line.partition(':')[0] for line in result.stdout.splitlines()]
     assert names == [
         'publication_sequence_number', 'received_timestamp', 'reception_sequence_number',
         'source_timestamp', '- left', '- right', '---']

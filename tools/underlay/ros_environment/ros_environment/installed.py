@@ -7,8 +7,7 @@ from collections.abc import Iterator
 import os
 from pathlib import Path
 
-LAUNCH_SUFFIXES = (
-    'launch.py', 'launch.xml', 'launch.yaml', 'launch.yml', '.launch')
+LAUNCH_SUFFIXES = ('launch.py', 'launch.xml', 'launch.yaml', 'launch.yml', '.launch')
 
 
 def prefixes(variable: str = 'AMENT_PREFIX_PATH') -> list[Path]:

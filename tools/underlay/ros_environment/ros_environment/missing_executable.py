@@ -18,7 +18,8 @@ def explain_source_executable(source: SourcePackage, executable: str, rebuild: s
     if executable in script.scripts:
         return (
             f"'{setup_py}' declares '{executable}', but the installed package does not have "
-            f'it yet. Rebuild: {rebuild}')
+            f'it yet. Rebuild: {rebuild}'
+        )
     stem = executable[:-3] if executable.endswith('.py') else executable
     if not (source.folder / source.name / f'{stem}.py').is_file():
         return ''
@@ -33,7 +34,8 @@ def misplaced_script(package: str, executable: str, prefix: Path) -> str:
         f"'{executable}' was installed to '{prefix / 'bin'}' instead of "
         f"'{prefix / 'lib' / package}', because setup.cfg lacks these lines:\n"
         f'    [develop]\n    script_dir=$base/lib/{package}\n'
-        f'    [install]\n    install_scripts=$base/lib/{package}')
+        f'    [install]\n    install_scripts=$base/lib/{package}'
+    )
 
 
 def _other_name(script: SetupScript, source: SourcePackage, stem: str) -> str:
@@ -54,7 +56,8 @@ def _missing_entry(script: SetupScript, source: SourcePackage, stem: str, rebuil
     text = (
         f"The module '{module}' exists, but setup.py has no entry point for it. "
         f"Add this line to {place} '{source.folder / 'setup.py'}':\n    {entry}\n"
-        f'Then rebuild: {rebuild}')
+        f'Then rebuild: {rebuild}'
+    )
     if defines_main(module):
         return text
     return f"{text}\nThe module also needs a function 'main()', which it does not define."

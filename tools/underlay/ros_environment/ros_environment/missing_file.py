@@ -24,12 +24,17 @@ def explain_source_file(source: SourcePackage, file_name: str, rebuild: str) -> 
     if script.data_is_computed:
         return (
             f"'{path}' exists, but it is not installed. If 'data_files' in setup.py covers it, "
-            f'a rebuild is enough: {rebuild}')
+            f'a rebuild is enough: {rebuild}'
+        )
     return _missing_data_file(source, script, path, relative, rebuild)
 
 
 def _missing_data_file(
-    source: SourcePackage, script: SetupScript, path: Path, relative: Path, rebuild: str,
+    source: SourcePackage,
+    script: SetupScript,
+    path: Path,
+    relative: Path,
+    rebuild: str,
 ) -> str:
     folder = '' if relative.parent == Path('.') else f'/{relative.parent.as_posix()}'
     share = f"'share/{source.name}{folder}'"
@@ -38,7 +43,8 @@ def _missing_data_file(
     return (
         f"'{path}' exists, but setup.py does not install it. Add this line to the list "
         f"'data_files' of '{source.folder / 'setup.py'}':\n"
-        f"    ({share}, ['{relative.as_posix()}']),\nThen rebuild: {rebuild}")
+        f"    ({share}, ['{relative.as_posix()}']),\nThen rebuild: {rebuild}"
+    )
 
 
 def _explain_cmake(source: SourcePackage, path: Path, relative: Path, rebuild: str) -> str:
@@ -48,7 +54,8 @@ def _explain_cmake(source: SourcePackage, path: Path, relative: Path, rebuild: s
     return (
         f"'{path}' exists, but it is not installed. '{lists}' needs this line before "
         f'ament_package():\n    install(DIRECTORY {relative.parts[0]} DESTINATION '
-        f'share/${{PROJECT_NAME}})\nThen rebuild: {rebuild}')
+        f'share/${{PROJECT_NAME}})\nThen rebuild: {rebuild}'
+    )
 
 
 def _find_file(folder: Path, file_name: str) -> Path | None:

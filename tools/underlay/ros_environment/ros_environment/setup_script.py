@@ -35,8 +35,12 @@ def read_setup_script(path: Path) -> SetupScript | None:
     data = keywords.get('data_files')
     names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
     return SetupScript(
-        scripts or {}, scripts is not None, tuple(_texts(data)) if data else (),
-        data is not None and _is_computed(data), 'package_name' in names)
+        scripts or {},
+        scripts is not None,
+        tuple(_texts(data)) if data else (),
+        data is not None and _is_computed(data),
+        'package_name' in names,
+    )
 
 
 def defines_main(module: Path) -> bool:
@@ -46,9 +50,12 @@ def defines_main(module: Path) -> bool:
     except (OSError, SyntaxError, ValueError):
         return False
     return any(
-        isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)) and node.name == 'main'
-        or isinstance(node, ast.ImportFrom) and 'main' in [item.name for item in node.names]
-        for node in tree.body)
+        isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
+        and node.name == 'main'
+        or isinstance(node, ast.ImportFrom)
+        and 'main' in [item.name for item in node.names]
+        for node in tree.body
+    )
 
 
 def _setup_keywords(tree: ast.Module) -> dict[str, ast.expr]:

@@ -26,12 +26,14 @@ def explain_missing_package(package: str) -> str:
         if installed.is_installed_in(workspace / 'install', package):
             return (
                 f"'{package}' is built in '{workspace}', but this shell does not know it. "
-                f'Run: {advice.source_command(workspace)}')
+                f'Run: {advice.source_command(workspace)}'
+            )
         source = source_packages(workspace).get(package)
         if source:
             return (
                 f"The source of '{package}' is in '{source.folder}', but it has not been "
-                f'built. Run: {advice.build_command(workspace, package)}')
+                f'built. Run: {advice.build_command(workspace, package)}'
+            )
     return _explain_unknown_package(package)
 
 
@@ -69,7 +71,8 @@ def _explain_unknown_package(package: str) -> str:
     if not installed.prefixes():
         return (
             'AMENT_PREFIX_PATH names no folder: neither a ROS 2 installation nor a workspace '
-            'has been sourced. Run: source install/setup.bash')
+            'has been sourced. Run: source install/setup.bash'
+        )
     known = installed.known_packages()
     for workspace in workspaces():
         known.update(source_packages(workspace))

@@ -30,14 +30,20 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def make_package(workspace: Path) -> Callable[..., Path]:
     """Return a function that makes a Python package in the source tree."""
 
-    def make(name: str, *, below: str = 'src', data_files: str = '',
-             entry_points: str = "entry_points={'console_scripts': []}") -> Path:
+    def make(
+        name: str,
+        *,
+        below: str = 'src',
+        data_files: str = '',
+        entry_points: str = "entry_points={'console_scripts': []}",
+    ) -> Path:
         folder = workspace / below / name
         (folder / name).mkdir(parents=True)
         (folder / name / '__init__.py').touch()
         (folder / 'package.xml').write_text(f'<package><name>{name}</name></package>')
-        (folder / 'setup.py').write_text(SETUP_PY.format(
-            name=name, data_files=data_files, entry_points=entry_points))
+        (folder / 'setup.py').write_text(
+            SETUP_PY.format(name=name, data_files=data_files, entry_points=entry_points)
+        )
         return folder
 
     return make

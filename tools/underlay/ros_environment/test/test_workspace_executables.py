@@ -78,7 +78,8 @@ def test_misspelt_name(make_package: MakePackage, prefix: Path) -> None:
     """A misspelt name is answered with the closest one."""
     make_package('arm')
     assert explain_missing_executable('arm', 'bent', str(prefix)) == (
-        "The executables of 'arm': bend. Did you mean 'bend'?")
+        "The executables of 'arm': bend. Did you mean 'bend'?"
+    )
 
 
 def test_installed_to_the_wrong_folder(make_package: MakePackage, tmp_path: Path) -> None:

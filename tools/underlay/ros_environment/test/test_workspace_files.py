@@ -36,18 +36,25 @@ def test_missing_from_data_files(make_package: MakePackage, share: str) -> None:
     lines = explain_missing_share_file('arm', NAME, share).splitlines()
     assert 'exists, but setup.py does not install it' in lines[0]
     assert lines[1] == (
-        "    ('share/' + package_name + '/launch', ['launch/robot_bringup.launch.py']),")
+        "    ('share/' + package_name + '/launch', ['launch/robot_bringup.launch.py']),"
+    )
     assert lines[2] == f'Then rebuild: {REBUILD}'
     assert lines[3] == "The installed launch files of 'arm': sensors.launch.py."
 
 
-@pytest.mark.parametrize('data_files', [
-    "('share/arm/launch', ['launch/robot_bringup.launch.py'])",
-    "('share/arm/launch', glob('launch/*.launch.py'))",
-    "('share/arm/launch', glob(os.path.join('launch', '*launch.[pxy][yma]*')))",
-    "('share/arm/launch', glob('launch/**/*.py', recursive=True))"])
+@pytest.mark.parametrize(
+    'data_files',
+    [
+        "('share/arm/launch', ['launch/robot_bringup.launch.py'])",
+        "('share/arm/launch', glob('launch/*.launch.py'))",
+        "('share/arm/launch', glob(os.path.join('launch', '*launch.[pxy][yma]*')))",
+        "('share/arm/launch', glob('launch/**/*.py', recursive=True))",
+    ],
+)
 def test_covered_by_data_files(
-    data_files: str, make_package: MakePackage, share: str,
+    data_files: str,
+    make_package: MakePackage,
+    share: str,
 ) -> None:
     """A file that a name or pattern covers needs only a rebuild."""
     with_launch_file(make_package('arm', data_files=data_files))
@@ -84,8 +91,8 @@ def test_misspelt_name(make_package: MakePackage, share: str) -> None:
     """A misspelt name is answered with the closest installed file."""
     make_package('arm')
     assert explain_missing_share_file('arm', 'sensor.launch.py', share) == (
-        "The installed launch files of 'arm': sensors.launch.py. "
-        "Did you mean 'sensors.launch.py'?")
+        "The installed launch files of 'arm': sensors.launch.py. Did you mean 'sensors.launch.py'?"
+    )
 
 
 def test_no_launch_files(workspace: Path, tmp_path: Path) -> None:

@@ -22,7 +22,9 @@ def install(workspace: Path, package: str, *, merged: bool = False) -> Path:
 
 @pytest.mark.parametrize('merged', [False, True])
 def test_built_but_not_sourced(
-    merged: bool, workspace: Path, make_package: MakePackage,
+    merged: bool,
+    workspace: Path,
+    make_package: MakePackage,
 ) -> None:
     """A package that is built is made known by sourcing the workspace."""
     make_package('arm')
@@ -37,12 +39,13 @@ def test_in_source_tree_but_not_built(workspace: Path, make_package: MakePackage
     folder = make_package('arm')
     text = explain_missing_package('arm')
     assert str(folder) in text
-    assert text.endswith(
-        'Run: colcon build --packages-select arm && source install/setup.bash')
+    assert text.endswith('Run: colcon build --packages-select arm && source install/setup.bash')
 
 
 def test_command_leads_to_the_workspace(
-    make_package: MakePackage, workspace: Path, monkeypatch: pytest.MonkeyPatch,
+    make_package: MakePackage,
+    workspace: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Inside a package the command changes to the workspace first."""
     monkeypatch.chdir(make_package('arm'))
@@ -50,7 +53,9 @@ def test_command_leads_to_the_workspace(
 
 
 def test_sourced_workspace_is_known_from_elsewhere(
-    make_package: MakePackage, workspace: Path, tmp_path: Path,
+    make_package: MakePackage,
+    workspace: Path,
+    tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """A workspace that has been sourced is searched from every folder."""
@@ -70,7 +75,9 @@ def test_nothing_sourced(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_misspelt_name(
-    workspace: Path, make_package: MakePackage, monkeypatch: pytest.MonkeyPatch,
+    workspace: Path,
+    make_package: MakePackage,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """A misspelt name is answered with the closest one, installed or in the source tree."""
     make_package('humanoid_control')
@@ -98,7 +105,9 @@ def test_broken_manifest_is_skipped(workspace: Path, make_package: MakePackage) 
 
 
 def test_workspace_is_nearest_folder_with_packages(
-    workspace: Path, make_package: MakePackage, tmp_path: Path,
+    workspace: Path,
+    make_package: MakePackage,
+    tmp_path: Path,
 ) -> None:
     """A `src` folder without packages does not make a workspace."""
     folder = make_package('arm')

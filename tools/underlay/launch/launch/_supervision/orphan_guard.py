@@ -29,8 +29,8 @@ for signal in INT TERM KILL; do
     kill -s $signal -- "-$group" 2>/dev/null
   done
   tries=0
-  while [ $tries -lt 10 ] && left; do
-    sleep 0.1
+  while [ $tries -lt 5 ] && left; do
+    sleep 0.2
     tries=$((tries + 1))
   done
 done

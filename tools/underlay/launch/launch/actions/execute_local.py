@@ -195,7 +195,8 @@ class ExecuteLocal(Action):
         from .._supervision.supervisor import Supervisor
         loop = context.asyncio_loop
         if loop is None:
-            raise RuntimeError(f"the process '{self.name}' can only be started by a running launch")
+            raise RuntimeError(
+                f"the process '{self.name}' can only be started by a running launch")
         self.__supervisor = Supervisor(self, self.__options, context, loop)
         context.register_event_handler(ProcessControl(self, self.__supervisor))
         if self.__on_exit is not None:

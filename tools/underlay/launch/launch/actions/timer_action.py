@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Dict, List, Optional, Tuple, TYPE_CHECKING, Union
 
+from ._captured_scope import EnterScope, LeaveScope
 from ..action import Action
 from ..event_handler import EventHandler
 from ..event_handlers.on_shutdown import OnShutdown
@@ -13,7 +14,6 @@ from ..events.timer_event import TimerEvent
 from ..launch_description_entity import LaunchDescriptionEntity
 from ..some_substitutions_type import SomeSubstitutionsType
 from ..utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
-from ._captured_scope import EnterScope, LeaveScope
 
 if TYPE_CHECKING:
     import asyncio
@@ -108,6 +108,6 @@ def _checked_period(period: Any) -> Any:
     """Return the period as a float or as substitutions; whole numbers are refused."""
     if isinstance(period, int):
         raise TypeError(
-            f'the period of a TimerAction must be a float or a substitution, but it is the '
-            f"{type(period).__name__} {period}: write {float(period)} instead")
+            'the period of a TimerAction must be a float or a substitution, but it is the '
+            f'{type(period).__name__} {period}: write {float(period)} instead')
     return normalize_typed_substitution(period, float)

@@ -8,17 +8,11 @@ from typing import TYPE_CHECKING
 from .._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .evaluate_condition_expression_impl import (
-        evaluate_condition_expression as evaluate_condition_expression,
-    )
-    from .if_condition import IfCondition as IfCondition
-    from .launch_configuration_equals import (
-        LaunchConfigurationEquals as LaunchConfigurationEquals,
-    )
-    from .launch_configuration_not_equals import (
-        LaunchConfigurationNotEquals as LaunchConfigurationNotEquals,
-    )
-    from .unless_condition import UnlessCondition as UnlessCondition
+    from .evaluate_condition_expression_impl import evaluate_condition_expression
+    from .if_condition import IfCondition
+    from .launch_configuration_equals import LaunchConfigurationEquals
+    from .launch_configuration_not_equals import LaunchConfigurationNotEquals
+    from .unless_condition import UnlessCondition
 
 __all__ = [
     'IfCondition',

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from .._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .executable import Executable as Executable
+    from .executable import Executable
 
 __all__ = [
     'Executable',

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 from .._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .event_named import event_named as event_named
-    from .on_action_event_base import OnActionEventBase as OnActionEventBase
-    from .on_execution_complete import OnExecutionComplete as OnExecutionComplete
-    from .on_process_exit import OnProcessExit as OnProcessExit
-    from .on_process_io import OnProcessIO as OnProcessIO
-    from .on_process_start import OnProcessStart as OnProcessStart
-    from .on_shutdown import OnShutdown as OnShutdown
+    from .event_named import event_named
+    from .on_action_event_base import OnActionEventBase
+    from .on_execution_complete import OnExecutionComplete
+    from .on_process_exit import OnProcessExit
+    from .on_process_io import OnProcessIO
+    from .on_process_start import OnProcessStart
+    from .on_shutdown import OnShutdown
 
 __all__ = [
     'OnActionEventBase',

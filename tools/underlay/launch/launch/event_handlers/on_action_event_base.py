@@ -34,7 +34,7 @@ class OnActionEventBase(BaseEventHandler):
         if not (action_matcher is None or isinstance(action_matcher, target_action_cls)
                 or callable(action_matcher)):
             raise TypeError(
-                f"expected the target_action of {type(self).__name__} to be a "
+                f'expected the target_action of {type(self).__name__} to be a '
                 f"'{target_action_cls.__name__}', a callable or None, "
                 f"but got '{action_matcher!r}'")
         self.__target = action_matcher

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 from .._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from . import process as process
-    from .execution_complete import ExecutionComplete as ExecutionComplete
-    from .include_launch_description import IncludeLaunchDescription as IncludeLaunchDescription
-    from .matchers import matches_action as matches_action
-    from .shutdown import Shutdown as Shutdown
-    from .timer_event import TimerEvent as TimerEvent
+    from . import process
+    from .execution_complete import ExecutionComplete
+    from .include_launch_description import IncludeLaunchDescription
+    from .matchers import matches_action
+    from .shutdown import Shutdown
+    from .timer_event import TimerEvent
 
 __all__ = [
     'ExecutionComplete',

@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING
 from .._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .invalid_frontend_launch_file_error import (
-        InvalidFrontendLaunchFileError as InvalidFrontendLaunchFileError,
-    )
+    from .invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
 
 __all__ = [
     'InvalidFrontendLaunchFileError',

@@ -8,24 +8,12 @@ from typing import TYPE_CHECKING
 from .._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .any_launch_description_source import (
-        AnyLaunchDescriptionSource as AnyLaunchDescriptionSource,
-    )
-    from .any_launch_file_utilities import (
-        get_launch_description_from_any_launch_file as get_launch_description_from_any_launch_file,
-    )
-    from .python_launch_description_source import (
-        PythonLaunchDescriptionSource as PythonLaunchDescriptionSource,
-    )
-    from .python_launch_file_utilities import (
-        InvalidPythonLaunchFileError as InvalidPythonLaunchFileError,
-    )
-    from .python_launch_file_utilities import (
-        get_launch_description_from_python_launch_file as get_launch_description_from_python_launch_file,
-    )
-    from .python_launch_file_utilities import (
-        load_python_launch_file_as_module as load_python_launch_file_as_module,
-    )
+    from .any_launch_description_source import AnyLaunchDescriptionSource
+    from .any_launch_file_utilities import get_launch_description_from_any_launch_file
+    from .python_launch_description_source import PythonLaunchDescriptionSource
+    from .python_launch_file_utilities import get_launch_description_from_python_launch_file
+    from .python_launch_file_utilities import InvalidPythonLaunchFileError
+    from .python_launch_file_utilities import load_python_launch_file_as_module
 
 __all__ = [
     'AnyLaunchDescriptionSource',

@@ -1,5 +1,5 @@
-# SPDX-License-Identifier: Apache-2.0
-"""The log of the launch: the screen, and files in a folder of their own for each run."""
+# SPDX-License-Identifier: Apache-2.0  # noqa: A005
+"""The log of a launch: the screen, and files in a folder for each run."""  # noqa: A005
 
 from __future__ import annotations
 

@@ -8,20 +8,14 @@ from typing import TYPE_CHECKING
 from .._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from . import type_utils as type_utils
-    from .class_tools_impl import is_a as is_a
-    from .class_tools_impl import is_a_subclass as is_a_subclass
-    from .ensure_argument_type_impl import ensure_argument_type as ensure_argument_type
-    from .normalize_to_list_of_entities_impl import (
-        normalize_to_list_of_entities as normalize_to_list_of_entities,
-    )
-    from .normalize_to_list_of_substitutions_impl import (
-        normalize_to_list_of_substitutions as normalize_to_list_of_substitutions,
-    )
-    from .perform_substitutions_impl import perform_substitutions as perform_substitutions
-    from .visit_all_entities_and_collect_futures_impl import (
-        visit_all_entities_and_collect_futures as visit_all_entities_and_collect_futures,
-    )
+    from . import type_utils
+    from .class_tools_impl import is_a
+    from .class_tools_impl import is_a_subclass
+    from .ensure_argument_type_impl import ensure_argument_type
+    from .normalize_to_list_of_entities_impl import normalize_to_list_of_entities
+    from .normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+    from .perform_substitutions_impl import perform_substitutions
+    from .visit_all_entities_and_collect_futures_impl import visit_all_entities_and_collect_futures
 
 __all__ = [
     'ensure_argument_type',

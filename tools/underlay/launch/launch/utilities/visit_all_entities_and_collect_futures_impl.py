@@ -47,7 +47,7 @@ def _checked(child: LaunchDescriptionEntity, parent: LaunchDescriptionEntity) ->
         return child
     raise AttributeError(
         f"'{type(child).__name__}' object has no attribute 'visit': the entities of "
-        f"{type(parent).__name__} must be actions or launch descriptions, but one is {child!r}")
+        f'{type(parent).__name__} must be actions or launch descriptions, but one is {child!r}')
 
 
 def _remember_place(error: Exception, entity: LaunchDescriptionEntity) -> None:

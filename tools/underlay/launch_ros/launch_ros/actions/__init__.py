@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .node import Node as Node
-    from .push_ros_namespace import PushROSNamespace as PushROSNamespace
-    from .push_ros_namespace import PushRosNamespace as PushRosNamespace
-    from .set_parameter import SetParameter as SetParameter
-    from .set_parameters_from_file import SetParametersFromFile as SetParametersFromFile
-    from .set_remap import SetRemap as SetRemap
-    from .set_ros_log_dir import SetROSLogDir as SetROSLogDir
-    from .set_use_sim_time import SetUseSimTime as SetUseSimTime
+    from .node import Node
+    from .push_ros_namespace import PushROSNamespace
+    from .push_ros_namespace import PushRosNamespace
+    from .set_parameter import SetParameter
+    from .set_parameters_from_file import SetParametersFromFile
+    from .set_remap import SetRemap
+    from .set_ros_log_dir import SetROSLogDir
+    from .set_use_sim_time import SetUseSimTime
 
 __all__ = [
     'Node',

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .executable_in_package import ExecutableInPackage as ExecutableInPackage
-    from .find_package import FindPackage as FindPackage
-    from .find_package import FindPackagePrefix as FindPackagePrefix
-    from .find_package import FindPackageShare as FindPackageShare
-    from .parameter import Parameter as Parameter
+    from .executable_in_package import ExecutableInPackage
+    from .find_package import FindPackage
+    from .find_package import FindPackagePrefix
+    from .find_package import FindPackageShare
+    from .parameter import Parameter
 
 __all__ = [
     'ExecutableInPackage',

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, List
+from typing import List
 
 from ament_index_python.packages import get_package_prefix, PackageNotFoundError
 from launch.launch_context import LaunchContext
@@ -50,7 +50,7 @@ class FindPackage(PathOperator):
         """Return the folder; an error says that there is no such package."""
         return self.find(perform_substitutions(context, self.__package))
 
-    def find(self, package_name: str) -> Any:
+    def find(self, package_name: str) -> str:
         """Return the folder of the package of this name; subclasses override this."""
         raise NotImplementedError
 

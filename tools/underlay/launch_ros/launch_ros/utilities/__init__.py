@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .evaluate_parameters_impl import evaluate_parameters as evaluate_parameters
-    from .namespace_utils import is_namespace_absolute as is_namespace_absolute
-    from .namespace_utils import is_root_namespace as is_root_namespace
-    from .namespace_utils import make_namespace_absolute as make_namespace_absolute
-    from .namespace_utils import prefix_namespace as prefix_namespace
-    from .normalize_parameters_impl import normalize_parameters as normalize_parameters
-    from .normalize_remap_rules_impl import normalize_remap_rule as normalize_remap_rule
-    from .normalize_remap_rules_impl import normalize_remap_rules as normalize_remap_rules
-    from .track_node_names import add_node_name as add_node_name
-    from .track_node_names import get_node_name_count as get_node_name_count
+    from .evaluate_parameters_impl import evaluate_parameters
+    from .namespace_utils import is_namespace_absolute
+    from .namespace_utils import is_root_namespace
+    from .namespace_utils import make_namespace_absolute
+    from .namespace_utils import prefix_namespace
+    from .normalize_parameters_impl import normalize_parameters
+    from .normalize_remap_rules_impl import normalize_remap_rule
+    from .normalize_remap_rules_impl import normalize_remap_rules
+    from .track_node_names import add_node_name
+    from .track_node_names import get_node_name_count
 
 __all__ = [
     'add_node_name',

@@ -14,6 +14,7 @@ from ros2topic.api.qos import copy_profile, override
 
 ANNOUNCE_S = 1.0
 PERIOD_S = 0.02
+SETTLE_S = 0.25
 
 
 def publish(node: Any, message: OutgoingMessage, args: argparse.Namespace) -> None:
@@ -43,6 +44,7 @@ def _publish_one(node: Any, publisher: Any, message: OutgoingMessage, count: int
 
 
 def _wait_for_subscriptions(node: Any, publisher: Any, args: argparse.Namespace) -> None:
+    """Wait until subscriptions are known, and a moment more until they know us as well."""
     wanted = args.wait_matching_subscriptions
     if wanted is None:
         wanted = 1 if args.once or args.times else 0
@@ -57,6 +59,8 @@ def _wait_for_subscriptions(node: Any, publisher: Any, args: argparse.Namespace)
             print(f'Waiting for at least {wanted} matching subscription(s)...')
             announced = now + ANNOUNCE_S
         node.spin_once(PERIOD_S)
+    if wanted:
+        _spin_until(node, time.monotonic() + SETTLE_S)
 
 
 def _spin_until(node: Any, end_s: float) -> None:

@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING
 from ..._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .process_exited import ProcessExited as ProcessExited
-    from .process_io import ProcessIO as ProcessIO
-    from .process_matchers import matches_executable as matches_executable
-    from .process_matchers import matches_name as matches_name
-    from .process_matchers import matches_pid as matches_pid
-    from .process_started import ProcessStarted as ProcessStarted
-    from .process_stderr import ProcessStderr as ProcessStderr
-    from .process_stdin import ProcessStdin as ProcessStdin
-    from .process_stdout import ProcessStdout as ProcessStdout
-    from .process_targeted_event import ProcessTargetedEvent as ProcessTargetedEvent
-    from .running_process_event import RunningProcessEvent as RunningProcessEvent
-    from .shutdown_process import ShutdownProcess as ShutdownProcess
-    from .signal_process import SignalProcess as SignalProcess
+    from .process_exited import ProcessExited
+    from .process_io import ProcessIO
+    from .process_matchers import matches_executable
+    from .process_matchers import matches_name
+    from .process_matchers import matches_pid
+    from .process_started import ProcessStarted
+    from .process_stderr import ProcessStderr
+    from .process_stdin import ProcessStdin
+    from .process_stdout import ProcessStdout
+    from .process_targeted_event import ProcessTargetedEvent
+    from .running_process_event import RunningProcessEvent
+    from .shutdown_process import ShutdownProcess
+    from .signal_process import SignalProcess
 
 __all__ = [
     'ProcessExited',

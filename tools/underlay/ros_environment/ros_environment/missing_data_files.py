@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Builds a package whose setup.py names files that do not exist yet, and says which.
+
+A beginner writes the `data_files` of a package before its launch files. setuptools would stop there
+with a traceback; it calls this function, an extension of its own kind, for each package.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import os
+import sys
+from typing import Any
+
+COMMANDS = {'develop', 'install'}
+
+
+def leave_out(distribution: Any) -> None:
+    """Take the files that do not exist out of a setuptools distribution's `data_files`."""
+    kept, missing = split(distribution.data_files or [])
+    if not missing:
+        return
+    distribution.data_files = kept
+    if COMMANDS & set(sys.argv):
+        names = ', '.join(missing)
+        print(
+            f'The data_files of setup.py name what does not exist, so it is not installed: {names}.'
+            ' Create it and build again, or take it out of setup.py.',
+            file=sys.stderr,
+        )
+
+
+def split(data_files: Iterable[Any]) -> tuple[list[Any], list[str]]:
+    """Return the data files without those that do not exist, and the names of these.
+
+    An element is a file, or a pair of a folder to install to and a list of files.
+    """
+    kept: list[Any] = []
+    missing: list[str] = []
+    for element in data_files:
+        files = [element] if isinstance(element, str) else list(element[1])
+        absent = [name for name in files if not os.path.exists(name)]
+        missing += absent
+        present = [name for name in files if name not in absent]
+        if isinstance(element, str):
+            kept += present
+        else:
+            kept.append((element[0], present))
+    return kept, missing
+
+
+leave_out.order = 100  # type: ignore[attr-defined]  # after what setuptools itself settles
