@@ -6,6 +6,8 @@ from __future__ import annotations
 from datetime import datetime
 import os
 
+from ._screen import screen
+
 
 def base_directory() -> str:
     """Return the folder below which each run has one of its own."""
@@ -35,10 +37,9 @@ def _point_latest_at(base: str, path: str) -> None:
     """Replace the link in one step, so that it always leads somewhere."""
     latest = os.path.join(base, 'latest')
     if os.path.exists(latest) and not os.path.islink(latest):
-        from ._config import get_logger
-        get_logger('launch').warning(
-            "'%s' is not a symbolic link and stays as it is, so it does not lead to the log files "
-            'of this run', latest)
+        screen.write_line(
+            f"[WARNING] [launch]: '{latest}' is not a symbolic link and stays as it is, so it does "
+            'not lead to the log files of this run')
         return
     temporary = f'{latest}.{os.getpid()}'
     try:

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The end of a launch: nothing may outlive it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import os
+from pathlib import Path
+import re
+import signal
+import subprocess
+import time
+from typing import Any, List
+
+from launch._supervision.process_group import living_members
+import pytest
+
+Start = Callable[[str], Any]
+Wait = Callable[..., None]
+
+READY = "ExecuteProcess(cmd=['sh', '-c', 'echo ready; {script}'], output='screen', {kwargs})"
+
+
+def _process(script: str, kwargs: str = '') -> str:
+    return READY.format(script=script.replace("'", "\\'"), kwargs=kwargs)
+
+
+def _group(text: str) -> int:
+    """Return the process id, and so the group, of the first process that was started."""
+    found = re.search(r'process started with pid \[(\d+)\]', text)
+    assert found is not None, text
+    return int(found.group(1))
+
+
+@pytest.mark.parametrize('number, text', [
+    (signal.SIGINT, 'user interrupted with ctrl-c (SIGINT)'),
+    (signal.SIGTERM, 'asked to end by a signal (SIGTERM)'),
+    (signal.SIGHUP, 'asked to end by a signal (SIGHUP)')])
+def test_signals(launcher: Start, number: signal.Signals, text: str) -> None:
+    """A signal ends the launch and its processes at once, with status 0."""
+    launch = launcher(_process('exec sleep 60'))
+    launch.wait_for('] ready')
+    began = time.monotonic()
+    launch.process.send_signal(number)
+    assert launch.end() == 0
+    assert time.monotonic() - began < 2.0
+    assert f'[WARNING] [launch]: {text}' in launch.text
+    assert 'exit code -2' in launch.text and 'Traceback' not in launch.text
+    assert living_members(_group(launch.text)) == []
+
+
+def test_second_interrupt_is_ignored(launcher: Start) -> None:
+    """Who interrupts twice is told that the launch is ending."""
+    launch = launcher(_process('trap "" INT; sleep 60', 'sigterm_timeout=0.7'))
+    launch.wait_for('] ready')
+    launch.process.send_signal(signal.SIGINT)
+    launch.wait_for('sending signal')
+    launch.process.send_signal(signal.SIGINT)
+    assert launch.end() == 0
+    assert 'ctrl-c (SIGINT) again, ignoring...' in launch.text
+
+
+def test_escalation(launcher: Start) -> None:
+    """A process that ignores signals is killed when both timeouts are over."""
+    launch = launcher(_process(
+        'trap "" INT TERM; while :; do sleep 0.1; done',
+        "sigterm_timeout='0.3', sigkill_timeout='0.2'"))
+    launch.wait_for('] ready')
+    launch.process.send_signal(signal.SIGINT)
+    assert launch.end() == 0
+    text = launch.text
+    assert ("failed to terminate '0.3' seconds after receiving 'SIGINT', escalating to 'SIGTERM'"
+            in text)
+    assert ("failed to terminate '0.5' seconds after receiving 'SIGTERM', escalating to 'SIGKILL'"
+            in text)
+    assert 'exit code -9' in text and living_members(_group(text)) == []
+
+
+def test_whole_group_is_interrupted(launcher: Start) -> None:
+    """What a process has started ends with it."""
+    launch = launcher(_process('sleep 60 & sleep 61 & sleep 62; :'))
+    launch.wait_for('] ready')
+    launch.process.send_signal(signal.SIGTERM)
+    assert launch.end() == 0
+    assert living_members(_group(launch.text)) == []
+
+
+def test_leftovers_of_a_process(launcher: Start) -> None:
+    """What a process leaves behind at its end is ended, even if it ignores signals."""
+    launch = launcher(_process('trap "" INT TERM; sleep 60 & exit 0'))
+    assert launch.end() == 0
+    assert 'finished cleanly' in launch.text
+    assert living_members(_group(launch.text)) == []
+
+
+def test_killed_launch(launcher: Start, wait_until: Wait) -> None:
+    """Even if the launch is killed, its processes end."""
+    launch = launcher(_process('exec sleep 60') + ', ' + _process('trap "" INT TERM; sleep 60'))
+    launch.wait_for('] ready')
+    wait_until(lambda: launch.text.count('] ready') == 2)
+    groups = [int(pid) for pid in re.findall(r'started with pid \[(\d+)\]', launch.text)]
+    launch.process.kill()
+    launch.process.wait()
+    wait_until(lambda: not any(living_members(group) for group in groups))
+
+
+def test_closed_output(
+    tmp_path: Path, write: Callable[[str, str], str], launch_command: List[str],
+) -> None:
+    """A launch whose output nobody reads any more ends quietly."""
+    path = write('it.launch.py', (
+        'from launch import LaunchDescription\nfrom launch.actions import *\n'
+        'def generate_launch_description():\n    return LaunchDescription([ExecuteProcess('
+        "cmd=['sh', '-c', 'while :; do echo x; sleep 0.05; done'], output='screen')])\n"))
+    with open(tmp_path / 'errors', 'wb') as errors:
+        process = subprocess.Popen(
+            [*launch_command, path], stdout=subprocess.PIPE, stderr=errors)
+    assert process.stdout is not None
+    process.stdout.readline()
+    process.stdout.close()
+    try:
+        assert process.wait(10) == 0
+    finally:
+        process.kill()
+    assert (tmp_path / 'errors').read_text() == ''
+
+
+def test_sigint_that_was_ignored_reaches_the_processes(
+    tmp_path: Path, write: Callable[[str, str], str], launch_command: List[str],
+    wait_until: Wait,
+) -> None:
+    """A launch that a script has put into the background can be interrupted all the same."""
+    path = write('it.launch.py', (
+        'from launch import LaunchDescription\nfrom launch.actions import *\n'
+        'def generate_launch_description():\n    return LaunchDescription(['
+        f"{_process('exec sleep 60')}])\n"))
+    output = tmp_path / 'output'
+    with open(output, 'wb') as file:
+        process = subprocess.Popen(
+            ['sh', '-c', 'trap "" INT; exec "$@"', 'sh', *launch_command, path],
+            stdout=file, stderr=subprocess.STDOUT)
+    try:
+        wait_until(lambda: '] ready' in output.read_text())
+        process.send_signal(signal.SIGINT)
+        assert process.wait(4) == 0
+    finally:
+        process.kill()
+        process.wait()
+    assert 'exit code -2' in output.read_text()
+
+
+def test_no_child_is_left(run: Callable[..., Any]) -> None:
+    """When a run is over, this process has no child, not even a dead one."""
+    from launch.actions import ExecuteProcess, Shutdown
+    run(ExecuteProcess(cmd=['true'], on_exit=Shutdown()), ExecuteProcess(cmd=['sleep', '60']))
+    with pytest.raises(ChildProcessError):
+        os.waitpid(-1, os.WNOHANG)
+
+
+def test_no_descriptor_is_left(run: Callable[..., Any]) -> None:
+    """A run closes all that it has opened."""
+    from launch.actions import ExecuteProcess
+    run(ExecuteProcess(cmd=['true'], emulate_tty=True))
+    before = len(os.listdir('/proc/self/fd'))
+    run(ExecuteProcess(cmd=['true'], emulate_tty=True), ExecuteProcess(cmd=['true']))
+    assert len(os.listdir('/proc/self/fd')) == before

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The parts that watch over processes."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import subprocess
+from typing import Any
+
+from launch._supervision.escalation import Escalation
+from launch._supervision.exit_watch import watch_exit
+from launch._supervision.leftovers import end_leftovers
+from launch._supervision.line_splitter import LineSplitter
+from launch._supervision.orphan_guard import OrphanGuard
+from launch._supervision.process_group import is_empty, living_members, send_signal
+from launch.logging import get_logger
+import pytest
+
+
+def test_line_splitter() -> None:
+    """Lines are returned when they are complete; a character may be cut in two."""
+    splitter = LineSplitter()
+    assert splitter.feed(b'a') == []
+    assert splitter.feed(b'b\n\nc\xc3') == ['ab', '']
+    assert splitter.feed(b'\xa9\r\nd') == ['c\u00e9']
+    assert (splitter.flush(), splitter.flush()) == (['d'], [])
+
+
+@pytest.mark.parametrize('with_descriptor', [True, False])
+def test_exit_watch(monkeypatch: pytest.MonkeyPatch, with_descriptor: bool) -> None:
+    """The end of a child is noticed, also where the system has no descriptors for processes."""
+    if not with_descriptor:
+        def unsupported(pid: int) -> int:
+            raise OSError('not supported')
+        monkeypatch.setattr(os, 'pidfd_open', unsupported)
+
+    async def watch() -> int:
+        child = subprocess.Popen(['sh', '-c', 'exit 7'])
+        return await asyncio.wait_for(watch_exit(child, asyncio.get_running_loop()), 10)
+    assert asyncio.run(watch()) == 7
+
+
+def _group_leader(script: str) -> 'subprocess.Popen[bytes]':
+    child = subprocess.Popen(
+        ['sh', '-c', f'{script}\necho ready\nwait'], stdout=subprocess.PIPE,
+        start_new_session=True)
+    assert child.stdout is not None
+    child.stdout.readline()
+    child.stdout.close()
+    return child
+
+
+def test_process_group() -> None:
+    """A group is empty when all its members are dead."""
+    leader = _group_leader('sleep 60 &')
+    try:
+        assert len(living_members(leader.pid)) == 2 and not is_empty(leader.pid)
+        os.kill(leader.pid, signal.SIGKILL)
+        leader.wait()
+        assert len(living_members(leader.pid)) == 1 and not is_empty(leader.pid)
+        asyncio.run(end_leftovers(leader.pid, was_interrupted=False))
+        assert is_empty(leader.pid)
+    finally:
+        send_signal(leader.pid, signal.SIGKILL)
+        leader.wait()
+
+
+def test_signals_that_do_not_end_go_to_the_leader_alone() -> None:
+    """A signal such as SIGUSR1 does not surprise what the process has started."""
+    leader = _group_leader('trap "" USR1; sleep 60 & trap : USR1')
+    try:
+        send_signal(leader.pid, signal.SIGUSR1)
+        leader.wait(10)
+        assert len(living_members(leader.pid)) == 1
+    finally:
+        send_signal(leader.pid, signal.SIGKILL)
+        leader.wait()
+
+
+def test_signal_to_what_has_ended() -> None:
+    """A group that is gone is no error."""
+    child = subprocess.Popen(['true'], start_new_session=True)
+    child.wait()
+    send_signal(child.pid, signal.SIGINT)
+    assert is_empty(child.pid)
+
+
+def test_guard_spares_what_was_removed() -> None:
+    """When the pipe closes, the guard ends the groups that it still has, and no others."""
+    kept, ended = _group_leader('sleep 60 &'), _group_leader('sleep 60 &')
+    guard = OrphanGuard()
+    try:
+        for leader in (kept, ended):
+            guard.add(leader.pid)
+        guard.remove(kept.pid)
+        guard.close()
+        assert guard.pid is None
+        assert ended.wait(10) and kept.poll() is None
+    finally:
+        for leader in (kept, ended):
+            send_signal(leader.pid, signal.SIGKILL)
+            leader.wait()
+
+
+def test_guard_that_was_killed() -> None:
+    """Losing the guard does not disturb the launch."""
+    guard = OrphanGuard()
+    guard.add(2 ** 22 + 1)
+    assert guard.pid is not None
+    os.kill(guard.pid, signal.SIGKILL)
+    os.waitid(os.P_PID, guard.pid, os.WEXITED | os.WNOWAIT)
+    guard.remove(2 ** 22 + 1)
+    guard.close()
+
+
+def test_timeout_must_be_a_number() -> None:
+    """A timeout that is no number is an error that names it."""
+    arguments: Any = {'label': 'x', 'logger': get_logger('x'), 'send': lambda number: None}
+    with pytest.raises(ValueError, match="the sigkill_timeout .* but it is 'soon'"):
+        Escalation(sigterm_timeout='1', sigkill_timeout='soon', **arguments)
