@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Install humanoid_common."""
+
 from __future__ import annotations
 
 from setuptools import find_packages, setup
@@ -22,6 +23,7 @@ setup(
     maintainer_email='maintainers@humanoid-workspace.dev',
     description=(
         'What every node of the humanoid shares: running, parameters, quality of service '
-        'and test helpers'),
+        'and test helpers'
+    ),
     license='Apache-2.0',
 )

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Install humanoid_control."""
+
 from __future__ import annotations
 
 from glob import glob

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Install humanoid_description."""
+
 from __future__ import annotations
 
 from glob import glob
@@ -16,8 +17,10 @@ setup(
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
         ('share/' + package_name, ['package.xml']),
-        *((f'share/{package_name}/{folder}', glob(f'{folder}/*.xacro'))
-          for folder in model_folders),
+        *(
+            (f'share/{package_name}/{folder}', glob(f'{folder}/*.xacro'))
+            for folder in model_folders
+        ),
     ],
     install_requires=['setuptools'],
     extras_require={'test': ['pytest']},

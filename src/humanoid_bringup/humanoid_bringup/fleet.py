@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Name the robots of a fleet."""
+
 from __future__ import annotations
 
 MOST_ROBOTS = 50
@@ -20,4 +21,5 @@ def _refusal(count: str) -> str:
     """Build the sentence that refuses a count."""
     return (
         f"Launch argument 'robots' is '{count}', but must be a whole number "
-        f"from 1 to {MOST_ROBOTS}. Pass for example 'robots:=3'.")
+        f"from 1 to {MOST_ROBOTS}. Pass for example 'robots:=3'."
+    )

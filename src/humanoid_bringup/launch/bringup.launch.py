@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Start the humanoid: everything that there is."""
+
 from __future__ import annotations
 
 from launch import LaunchDescription
@@ -11,19 +12,30 @@ from launch_ros.substitutions import FindPackageShare
 
 def generate_launch_description() -> LaunchDescription:
     """Compose the launch files of the other packages."""
-    return LaunchDescription([
-        DeclareLaunchArgument(
-            'use_controller', default_value='true', choices=['true', 'false'],
-            description='Start the joint controller.'),
-        DeclareLaunchArgument(
-            'use_sim_time', default_value='false', choices=['true', 'false'],
-            description='Take the time from the topic /clock instead of the computer.'),
-        IncludeLaunchDescription(
-            PythonLaunchDescriptionSource(PathJoinSubstitution([
-                FindPackageShare('humanoid_control'), 'launch', 'robot_bringup.launch.py'])),
-            launch_arguments={
-                'use_controller': LaunchConfiguration('use_controller'),
-                'use_sim_time': LaunchConfiguration('use_sim_time'),
-            }.items(),
-        ),
-    ])
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument(
+                'use_controller',
+                default_value='true',
+                choices=['true', 'false'],
+                description='Start the joint controller.',
+            ),
+            DeclareLaunchArgument(
+                'use_sim_time',
+                default_value='false',
+                choices=['true', 'false'],
+                description='Take the time from the topic /clock instead of the computer.',
+            ),
+            IncludeLaunchDescription(
+                PythonLaunchDescriptionSource(
+                    PathJoinSubstitution(
+                        [FindPackageShare('humanoid_control'), 'launch', 'robot_bringup.launch.py']
+                    )
+                ),
+                launch_arguments={
+                    'use_controller': LaunchConfiguration('use_controller'),
+                    'use_sim_time': LaunchConfiguration('use_sim_time'),
+                }.items(),
+            ),
+        ]
+    )

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Start several joint controllers, each in a namespace of its own."""
+
 from __future__ import annotations
 
 from humanoid_bringup.fleet import robot_namespaces
@@ -12,12 +13,16 @@ from launch_ros.substitutions import FindPackageShare
 
 def generate_launch_description() -> LaunchDescription:
     """Describe as many controllers as the argument `robots` says."""
-    return LaunchDescription([
-        DeclareLaunchArgument(
-            'robots', default_value='3',
-            description='How many robots: they are named robot1, robot2 and so on.'),
-        OpaqueFunction(function=_controllers),
-    ])
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument(
+                'robots',
+                default_value='3',
+                description='How many robots: they are named robot1, robot2 and so on.',
+            ),
+            OpaqueFunction(function=_controllers),
+        ]
+    )
 
 
 def _controllers(context: LaunchContext) -> list[Node]:
@@ -33,6 +38,9 @@ def _controller(namespace: str) -> Node:
         executable='joint_controller',
         namespace=namespace,
         output='screen',
-        parameters=[PathJoinSubstitution([
-            FindPackageShare('humanoid_control'), 'config', 'joint_controller.yaml'])],
+        parameters=[
+            PathJoinSubstitution(
+                [FindPackageShare('humanoid_control'), 'config', 'joint_controller.yaml']
+            )
+        ],
     )

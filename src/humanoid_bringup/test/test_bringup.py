@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the launch file of the whole humanoid."""
+
 from __future__ import annotations
 
 from pathlib import Path
 import signal
 
 from humanoid_common.testing.launching import (
-    argument_defaults, load_launch_file, running_launch_file, undescribed_arguments)
+    argument_defaults,
+    load_launch_file,
+    running_launch_file,
+    undescribed_arguments,
+)
 from humanoid_common.testing.ros import ros_sandbox
 import pytest
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check that the controller asks for what the humanoid can do."""
+
 from __future__ import annotations
 
 from pathlib import Path

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the names of the robots."""
+
 from __future__ import annotations
 
 from humanoid_bringup.fleet import robot_namespaces

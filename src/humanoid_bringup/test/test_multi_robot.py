@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the launch file of several robots."""
+
 from __future__ import annotations
 
 from pathlib import Path
 import signal
 
 from humanoid_common.testing.launching import (
-    argument_defaults, load_launch_file, running_launch_file, undescribed_arguments)
+    argument_defaults,
+    load_launch_file,
+    running_launch_file,
+    undescribed_arguments,
+)
 from humanoid_common.testing.ros import ros_sandbox
 import pytest
 from sensor_msgs.msg import JointState
@@ -29,7 +34,8 @@ def test_each_robot_publishes_by_itself() -> None:
         observer = ros.observer()
         for topic in topics:
             observer.create_subscription(
-                JointState, topic, lambda _, topic=topic: received.add(topic), 10)
+                JointState, topic, lambda _, topic=topic: received.add(topic), 10
+            )
         ros.wait_until(lambda: received == set(topics), 20.0, 'commands of all robots')
         assert [observer.count_publishers(topic) for topic in topics] == [1, 1, 1]
         assert observer.count_publishers('/joint_commands') == 0

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Describe parameters to ROS, so that `ros2 param describe` shows meaning and limits."""
+
 from __future__ import annotations
 
 import sys
 
-from humanoid_common.parameters import ParameterSpec
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+
+from humanoid_common.parameters import ParameterSpec
 
 _LARGEST_INTEGER = 2**63 - 1
 
@@ -13,7 +15,8 @@ _LARGEST_INTEGER = 2**63 - 1
 def descriptor_of(spec: ParameterSpec) -> ParameterDescriptor:
     """Translate the rules of a parameter into its ROS descriptor."""
     descriptor = ParameterDescriptor(
-        name=spec.name, description=spec.rules.description, read_only=spec.rules.read_only)
+        name=spec.name, description=spec.rules.description, read_only=spec.rules.read_only
+    )
     if spec.rules.choices:
         descriptor.additional_constraints = 'One of: ' + ', '.join(spec.rules.choices)
     if spec.rules.at_least is not None or spec.rules.at_most is not None:
@@ -27,10 +30,16 @@ def _add_range(descriptor: ParameterDescriptor, spec: ParameterSpec) -> None:
     if spec.is_list:
         descriptor.additional_constraints = f'Each element between {low} and {high}'
     elif spec.element is float:
-        descriptor.floating_point_range = [FloatingPointRange(
-            from_value=-sys.float_info.max if low is None else float(low),
-            to_value=sys.float_info.max if high is None else float(high))]
+        descriptor.floating_point_range = [
+            FloatingPointRange(
+                from_value=-sys.float_info.max if low is None else float(low),
+                to_value=sys.float_info.max if high is None else float(high),
+            )
+        ]
     else:
-        descriptor.integer_range = [IntegerRange(
-            from_value=-_LARGEST_INTEGER if low is None else int(low),
-            to_value=_LARGEST_INTEGER if high is None else int(high))]
+        descriptor.integer_range = [
+            IntegerRange(
+                from_value=-_LARGEST_INTEGER if low is None else int(low),
+                to_value=_LARGEST_INTEGER if high is None else int(high),
+            )
+        ]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The errors that end a node at its start."""
+
 from __future__ import annotations
 
 

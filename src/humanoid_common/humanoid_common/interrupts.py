@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What SIGINT and SIGTERM do to a node."""
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
@@ -25,7 +26,9 @@ class PatientInterrupt:
     """
 
     def __init__(
-        self, patience_s: float = 1.0, clock: Callable[[], float] = time.monotonic,
+        self,
+        patience_s: float = 1.0,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """Set how long the node may take to end by itself."""
         self._patience_s = patience_s

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Find the name that was meant."""
+
 from __future__ import annotations
 
 from collections.abc import Iterable

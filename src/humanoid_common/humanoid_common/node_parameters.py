@@ -1,17 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of a node, as an immutable snapshot that follows every accepted change."""
+
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import asdict
 from typing import Any, Generic, TypeVar
 
-from humanoid_common.descriptors import descriptor_of
-from humanoid_common.parameters import (
-    build, ParameterError, specs_of, unknown_parameter_warnings, widened)
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+
+from humanoid_common.descriptors import descriptor_of
+from humanoid_common.parameters import (
+    build,
+    ParameterError,
+    specs_of,
+    unknown_parameter_warnings,
+    widened,
+)
 
 T = TypeVar('T')
 _WIDER = {
@@ -29,7 +36,10 @@ class NodeParameters(Generic[T]):
     """
 
     def __init__(
-        self, node: Node, kind: type[T], on_change: Callable[[T], None] | None = None,
+        self,
+        node: Node,
+        kind: type[T],
+        on_change: Callable[[T], None] | None = None,
     ) -> None:
         """Declare the parameters, with the values that were given to the node at its start."""
         self._node = node
@@ -51,9 +61,10 @@ class NodeParameters(Generic[T]):
         given = _given_values(self._node)
         known = {name: value for name, value in given.items() if name in self._specs}
         snapshot = self._build_at_start(known)
-        for name, value in asdict(snapshot).items():
+        for name, value in _values(snapshot).items():
             self._node.declare_parameter(
-                name, value, descriptor_of(self._specs[name]), ignore_override=True)
+                name, value, descriptor_of(self._specs[name]), ignore_override=True
+            )
         self._warn_of_unknown(given)
         return snapshot
 
@@ -65,12 +76,16 @@ class NodeParameters(Generic[T]):
             raise ParameterError(
                 f"Node '{self._node.get_fully_qualified_name()}' cannot start. {error.reason} "
                 "Correct the parameter file or the '-p' argument that sets it.",
-                *error.names) from error
+                *error.names,
+            ) from error
 
     def _warn_of_unknown(self, given: dict[str, Any]) -> None:
         """Log a warning for each given value that no parameter takes."""
-        others = [name for name in given
-                  if not self._node.has_parameter(name) and not name.startswith('qos_overrides.')]
+        others = [
+            name
+            for name in given
+            if not self._node.has_parameter(name) and not name.startswith('qos_overrides.')
+        ]
         for warning in unknown_parameter_warnings(others, self._specs):
             self._node.get_logger().warning(warning)
 
@@ -105,7 +120,12 @@ class NodeParameters(Generic[T]):
     def _changed(self, changes: list[Parameter]) -> T:
         """Build the snapshot that the changes lead to."""
         new = {change.name: change.value for change in changes if change.name in self._specs}
-        return build(self._kind, {**asdict(self._current), **new})
+        return build(self._kind, {**_values(self._current), **new})
+
+
+def _values(snapshot: Any) -> dict[str, Any]:
+    """Return the values of a dataclass by name."""
+    return asdict(snapshot)
 
 
 def _given_values(node: Node) -> dict[str, Any]:

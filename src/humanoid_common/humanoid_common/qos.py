@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Quality of service by name, so that both ends of a topic choose the same."""
+
 from __future__ import annotations
 
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
@@ -8,13 +9,17 @@ __all__ = ['COMMAND', 'EVENT', 'LATCHED', 'SENSOR', 'STATE']
 
 
 def _keep_last(
-    depth: int, reliability: ReliabilityPolicy,
+    depth: int,
+    reliability: ReliabilityPolicy,
     durability: DurabilityPolicy = DurabilityPolicy.VOLATILE,
 ) -> QoSProfile:
     """Build a profile that keeps the newest messages."""
     return QoSProfile(
-        history=HistoryPolicy.KEEP_LAST, depth=depth,
-        reliability=reliability, durability=durability)
+        history=HistoryPolicy.KEEP_LAST,
+        depth=depth,
+        reliability=reliability,
+        durability=durability,
+    )
 
 
 SENSOR = _keep_last(5, ReliabilityPolicy.BEST_EFFORT)

@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """The body of every `main`: run a node until it is told to stop."""
+
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 import sys
 
-from humanoid_common.errors import NodeStartError
-from humanoid_common.interrupts import stop_on_signals
-from humanoid_common.stop_request import StopRequest
 import rclpy
 from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+
+from humanoid_common.errors import NodeStartError
+from humanoid_common.interrupts import stop_on_signals
+from humanoid_common.stop_request import StopRequest
 
 NodeFactory = Callable[[], Node]
 
@@ -46,12 +48,15 @@ def _initialize(args: Sequence[str] | None) -> None:
     that is running.
     """
     try:
-        rclpy.init(args=None if args is None else list(args),
-                   signal_handler_options=SignalHandlerOptions.NO)
+        rclpy.init(
+            args=None if args is None else list(args),
+            signal_handler_options=SignalHandlerOptions.NO,
+        )
     except RuntimeError as error:
         raise NodeStartError(
             f'The ROS arguments of this node cannot be used: {error}. '
-            'Correct what follows --ros-args, or the parameter file that it names.') from error
+            'Correct what follows --ros-args, or the parameter file that it names.'
+        ) from error
 
 
 def _run(factory: NodeFactory, stop: StopRequest) -> None:

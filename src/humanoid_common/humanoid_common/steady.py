@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """A timer for control loops, on a clock that nobody sets."""
+
 from __future__ import annotations
 
 from collections.abc import Callable
 
-from humanoid_common.ticks import Ticks
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+
+from humanoid_common.ticks import Ticks
 
 _NANOSECONDS = 1_000_000_000
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The wish that a node ends, made by a signal and fulfilled by the loop of the node."""
+
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """When a periodic function is due, with late calls made up for."""
+
 from __future__ import annotations
 
 from collections.abc import Iterator

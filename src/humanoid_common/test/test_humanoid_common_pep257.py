@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the docstrings."""
+
 from __future__ import annotations
 
 from ament_pep257.main import main

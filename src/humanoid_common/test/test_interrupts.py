@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check what SIGINT does to a node."""
+
 from __future__ import annotations
 
 import signal

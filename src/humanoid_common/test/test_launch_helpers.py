@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check how tests run and inspect launch files."""
+
 from __future__ import annotations
 
 from pathlib import Path
 
 from humanoid_common.testing.launching import (
-    argument_defaults, load_launch_file, running_launch_file, undescribed_arguments)
+    argument_defaults,
+    load_launch_file,
+    running_launch_file,
+    undescribed_arguments,
+)
 import pytest
 
 FILE = """

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check parameters on a node."""
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -73,21 +74,25 @@ def test_accepted_change(ros: RosSandbox) -> None:
 def test_integer_at_run_time(ros: RosSandbox) -> None:
     """An integer is accepted where a number is meant, also in lists."""
     node = ros.start(Sample)
-    results = node.set_parameters([
-        Parameter('rate_hz', value=60), Parameter('gains', value=[5, 6])])
+    results = node.set_parameters(
+        [Parameter('rate_hz', value=60), Parameter('gains', value=[5, 6])]
+    )
     assert [result.successful for result in results] == [True, True]
     assert node.settings.current == Settings(rate_hz=60.0, gains=(5.0, 6.0))
 
 
-@pytest.mark.parametrize(('name', 'value', 'words'), [
-    ('rate_hz', 1000.0, 'out of range'),
-    ('rate_hz', float('nan'), 'out of range'),
-    ('rate_hz', 'fast', 'Wrong parameter type'),
-    ('gains', [1.0, 10.0], 'contains 10.0, but must be between 0.0 and 9.0'),
-    ('gains', [1.0], 'One gain a joint'),
-    ('mode', 'run', "must be one of 'walk', 'stand'"),
-    ('seed', 2, 'read-only'),
-])
+@pytest.mark.parametrize(
+    ('name', 'value', 'words'),
+    [
+        ('rate_hz', 1000.0, 'out of range'),
+        ('rate_hz', float('nan'), 'out of range'),
+        ('rate_hz', 'fast', 'Wrong parameter type'),
+        ('gains', [1.0, 10.0], 'contains 10.0, but must be between 0.0 and 9.0'),
+        ('gains', [1.0], 'One gain a joint'),
+        ('mode', 'run', "must be one of 'walk', 'stand'"),
+        ('seed', 2, 'read-only'),
+    ],
+)
 def test_refused_change(ros: RosSandbox, name: str, value: Any, words: str) -> None:
     """A bad change is refused with the reason, and all stays as it is."""
     node = ros.start(Sample)
@@ -100,8 +105,9 @@ def test_refused_change(ros: RosSandbox, name: str, value: Any, words: str) -> N
 def test_atomic_change(ros: RosSandbox) -> None:
     """Values that fit only together are accepted in one atomic request."""
     node = ros.start(Sample)
-    result = node.set_parameters_atomically([
-        Parameter('joints', value=['c']), Parameter('gains', value=[7.0])])
+    result = node.set_parameters_atomically(
+        [Parameter('joints', value=['c']), Parameter('gains', value=[7.0])]
+    )
     assert result.successful
     assert node.changes == [Settings(joints=('c',), gains=(7.0,))]
 
@@ -112,7 +118,9 @@ def test_description(ros: RosSandbox) -> None:
     rate, seed, mode, gains = node.describe_parameters(['rate_hz', 'seed', 'mode', 'gains'])
     assert rate.description == 'The rate.'
     assert (rate.floating_point_range[0].from_value, rate.floating_point_range[0].to_value) == (
-        1.0, 100.0)
+        1.0,
+        100.0,
+    )
     assert seed.read_only and seed.integer_range[0].from_value == 0
     assert mode.additional_constraints == 'One of: walk, stand'
     assert gains.additional_constraints == 'Each element between 0.0 and 9.0'

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check what is read from a parameter dataclass."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -68,8 +69,9 @@ def test_known_names() -> None:
     assert unknown_parameter_warnings(['rate_hz'], ['rate_hz', 'joints']) == []
 
 
-@pytest.mark.parametrize(('name', 'answer'), [
-    ('sholder', "Did you mean 'shoulder'?"), ('qqq', '')])
+@pytest.mark.parametrize(
+    ('name', 'answer'), [('sholder', "Did you mean 'shoulder'?"), ('qqq', '')]
+)
 def test_did_you_mean(name: str, answer: str) -> None:
     """Only a close name is offered."""
     assert did_you_mean(name, ['shoulder', 'elbow']) == answer

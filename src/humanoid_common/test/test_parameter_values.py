@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check how values are accepted and refused."""
+
 from __future__ import annotations
 
 from array import array
@@ -52,31 +53,37 @@ def test_array_of_ros() -> None:
     assert build(Sample, {'gains': array('d', [3.0])}).gains == (3.0,)
 
 
-@pytest.mark.parametrize(('values', 'words'), [
-    ({'rate_hz': 'fast'}, ["'rate_hz' is 'fast'", 'must be a number', 'The rate.']),
-    ({'rate_hz': True}, ['is True', 'must be a number']),
-    ({'count': 2.0}, ["'count' is 2.0", 'must be an integer']),
-    ({'is_loud': 1}, ['must be true or false']),
-    ({'gains': 1.0}, ["'gains' is 1.0", 'must be a list of numbers']),
-    ({'gains': [1.0, 'x']}, ["'gains' contains 'x'", 'must be a list of numbers']),
-    ({'gains': []}, ["'gains' is []", 'must not be empty']),
-    ({'mode': None}, ["'mode' is None", 'must be a text']),
-])
+@pytest.mark.parametrize(
+    ('values', 'words'),
+    [
+        ({'rate_hz': 'fast'}, ["'rate_hz' is 'fast'", 'must be a number', 'The rate.']),
+        ({'rate_hz': True}, ['is True', 'must be a number']),
+        ({'count': 2.0}, ["'count' is 2.0", 'must be an integer']),
+        ({'is_loud': 1}, ['must be true or false']),
+        ({'gains': 1.0}, ["'gains' is 1.0", 'must be a list of numbers']),
+        ({'gains': [1.0, 'x']}, ["'gains' contains 'x'", 'must be a list of numbers']),
+        ({'gains': []}, ["'gains' is []", 'must not be empty']),
+        ({'mode': None}, ["'mode' is None", 'must be a text']),
+    ],
+)
 def test_wrong_type(values: dict[str, Any], words: list[str]) -> None:
     """A value of a wrong type is refused with name, value and expectation."""
     reason = refusal(**values)
     assert [word for word in words if word not in reason] == []
 
 
-@pytest.mark.parametrize(('values', 'words'), [
-    ({'rate_hz': 0.0}, 'is 0.0, but must be between 1.0 and 1000.0'),
-    ({'rate_hz': 1000.1}, 'must be between 1.0 and 1000.0'),
-    ({'count': 0}, 'is 0, but must be at least 1'),
-    ({'depth_m': 0.5}, 'is 0.5, but must be at most 0.0'),
-    ({'gains': [1.0, -2.0]}, 'contains -2.0, but must be at least 0.0'),
-    ({'rate_hz': math.nan}, 'is nan, but must be finite'),
-    ({'gains': [math.inf]}, 'contains inf, but must be finite'),
-])
+@pytest.mark.parametrize(
+    ('values', 'words'),
+    [
+        ({'rate_hz': 0.0}, 'is 0.0, but must be between 1.0 and 1000.0'),
+        ({'rate_hz': 1000.1}, 'must be between 1.0 and 1000.0'),
+        ({'count': 0}, 'is 0, but must be at least 1'),
+        ({'depth_m': 0.5}, 'is 0.5, but must be at most 0.0'),
+        ({'gains': [1.0, -2.0]}, 'contains -2.0, but must be at least 0.0'),
+        ({'rate_hz': math.nan}, 'is nan, but must be finite'),
+        ({'gains': [math.inf]}, 'contains inf, but must be finite'),
+    ],
+)
 def test_out_of_limits(values: dict[str, Any], words: str) -> None:
     """A number outside the limits, or none at all, is refused."""
     assert words in refusal(**values)

@@ -1,19 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the named qualities of service."""
+
 from __future__ import annotations
 
-from humanoid_common import qos
 import pytest
 from rclpy.qos import DurabilityPolicy, qos_check_compatible, QoSCompatibility, ReliabilityPolicy
 
+from humanoid_common import qos
 
-@pytest.mark.parametrize(('name', 'depth', 'is_reliable', 'is_latched'), [
-    ('SENSOR', 5, False, False),
-    ('STATE', 10, True, False),
-    ('COMMAND', 1, True, False),
-    ('LATCHED', 1, True, True),
-    ('EVENT', 50, True, False),
-])
+
+@pytest.mark.parametrize(
+    ('name', 'depth', 'is_reliable', 'is_latched'),
+    [
+        ('SENSOR', 5, False, False),
+        ('STATE', 10, True, False),
+        ('COMMAND', 1, True, False),
+        ('LATCHED', 1, True, True),
+        ('EVENT', 50, True, False),
+    ],
+)
 def test_profile(name: str, depth: int, is_reliable: bool, is_latched: bool) -> None:
     """Each name stands for one depth, reliability and durability."""
     profile = getattr(qos, name)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check how nodes start and end."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -8,7 +9,11 @@ import sys
 import time
 
 from humanoid_common.testing.processes import (
-    assert_clean_exit, ExitReport, running_program, RunningProgram)
+    assert_clean_exit,
+    ExitReport,
+    running_program,
+    RunningProgram,
+)
 from humanoid_common.testing.ros import ros_sandbox
 from humanoid_common.testing.waiting import wait_until
 import pytest
@@ -19,7 +24,9 @@ from humanoid_common.errors import NodeStartError
 from humanoid_common.running import run_node
 from rclpy.node import Node
 """
-BUSY = HEAD + """
+BUSY = (
+    HEAD
+    + """
 class Busy(Node):
     def __init__(self):
         super().__init__('busy')
@@ -27,7 +34,10 @@ class Busy(Node):
         self.get_logger().info('ready')
 sys.exit(run_node(Busy))
 """
-STUCK = HEAD + """
+)
+STUCK = (
+    HEAD
+    + """
 class Stuck(Node):
     def __init__(self):
         super().__init__('stuck')
@@ -38,16 +48,23 @@ class Stuck(Node):
             time.sleep(0.01)
 sys.exit(run_node(Stuck))
 """
-REFUSING = HEAD + """
+)
+REFUSING = (
+    HEAD
+    + """
 def refuse():
     raise NodeStartError('There is no robot. Build one.')
 sys.exit(run_node(refuse))
 """
-BROKEN = HEAD + """
+)
+BROKEN = (
+    HEAD
+    + """
 def fail():
     raise RuntimeError('a mistake in the code')
 sys.exit(run_node(fail))
 """
+)
 
 
 def run(tmp_path: Path, code: str, *arguments: str) -> ExitReport:
@@ -92,8 +109,10 @@ def test_stuck_callback(tmp_path: Path) -> None:
     with ros_sandbox(), running_program([sys.executable, str(script)]) as program:
         program.wait_for_output('ready')
         wait_until(
-            lambda: program.has_ended, pause=lambda: repeat(program),
-            message=lambda: f'the end of the node; it wrote: {program.output}')
+            lambda: program.has_ended,
+            pause=lambda: repeat(program),
+            message=lambda: f'the end of the node; it wrote: {program.output}',
+        )
         assert_clean_exit(program.wait_for_exit())
 
 

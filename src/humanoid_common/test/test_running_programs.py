@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check how tests run programs."""
+
 from __future__ import annotations
 
 import os
@@ -64,8 +65,9 @@ def test_environment_is_added() -> None:
         assert program.wait_for_exit().stdout == f'x {os.environ["PATH"]}\n'
 
 
-@pytest.mark.parametrize('report', [
-    ExitReport(1, '', ''), ExitReport(0, '', 'Traceback (most recent call last):\n')])
+@pytest.mark.parametrize(
+    'report', [ExitReport(1, '', ''), ExitReport(0, '', 'Traceback (most recent call last):\n')]
+)
 def test_unclean_exit(report: ExitReport) -> None:
     """A status other than 0, or more than log lines on stderr, is not a clean exit."""
     with pytest.raises(AssertionError):

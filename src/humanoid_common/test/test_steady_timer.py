@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the timer for control loops."""
+
 from __future__ import annotations
 
 from statistics import median

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the request to stop."""
+
 from __future__ import annotations
 
 from humanoid_common.stop_request import StopRequest

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check when periodic calls are due."""
+
 from __future__ import annotations
 
 from humanoid_common.ticks import LONGEST_DELAY_S, Ticks

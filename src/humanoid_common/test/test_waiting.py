@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check how tests wait."""
+
 from __future__ import annotations
 
 from humanoid_common.testing.waiting import wait_until, WaitedInVainError

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Publish joint commands that swing the arms."""
+
 from __future__ import annotations
 
 import sys
@@ -9,10 +10,11 @@ from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.qos import COMMAND
 from humanoid_common.running import run_node
 from humanoid_common.steady import SteadyTimer
-from humanoid_control.conversions import command_message
-from humanoid_control.joint_controller_parameters import JointControllerParameters
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
+
+from humanoid_control.conversions import command_message
+from humanoid_control.joint_controller_parameters import JointControllerParameters
 
 
 class HumanoidJointController(Node):
@@ -26,8 +28,7 @@ class HumanoidJointController(Node):
         self._motion = parameters.motion
         self._publisher = self.create_publisher(JointState, 'joint_commands', COMMAND)
         self._timer = SteadyTimer(self, parameters.rate_hz, self._publish)
-        self.get_logger().info(
-            f'Humanoid Joint Controller started ({parameters.rate_hz:g} Hz)')
+        self.get_logger().info(f'Humanoid Joint Controller started ({parameters.rate_hz:g} Hz)')
 
     def _publish(self, now_s: float) -> None:
         """Publish the command for this moment."""

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of the joint controller."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
 import math
 
 from humanoid_common.parameters import parameter, ParameterError
+
 from humanoid_control.sine_motion import Motion, motion_of
 
 
@@ -14,16 +16,21 @@ class JointControllerParameters:
     """How fast to publish, and how each joint swings: one element a joint in every list."""
 
     rate_hz: float = parameter(
-        50.0, 'How many joint commands are published a second.', at_least=1.0, at_most=1000.0)
+        50.0, 'How many joint commands are published a second.', at_least=1.0, at_most=1000.0
+    )
     joints: tuple[str, ...] = parameter(
         ('left_shoulder', 'left_elbow', 'right_shoulder', 'right_elbow'),
-        'The names of the joints that are moved.')
+        'The names of the joints that are moved.',
+    )
     amplitudes_rad: tuple[float, ...] = parameter(
-        (0.5, 0.8, 0.5, 0.8), 'How far each joint swings to either side.')
+        (0.5, 0.8, 0.5, 0.8), 'How far each joint swings to either side.'
+    )
     frequencies_rad_s: tuple[float, ...] = parameter(
-        (1.0, 1.5, 1.0, 1.5), 'How fast the phase of each joint grows.')
+        (1.0, 1.5, 1.0, 1.5), 'How fast the phase of each joint grows.'
+    )
     phases_rad: tuple[float, ...] = parameter(
-        (0.0, 0.0, math.pi, math.pi), 'The phase of each joint at the start.')
+        (0.0, 0.0, math.pi, math.pi), 'The phase of each joint at the start.'
+    )
 
     def __post_init__(self) -> None:
         """Check what must hold for all lists together."""
@@ -34,19 +41,20 @@ class JointControllerParameters:
     @property
     def motion(self) -> Motion:
         """Return the motion that the parameters describe."""
-        return motion_of(
-            self.joints, self.amplitudes_rad, self.frequencies_rad_s, self.phases_rad)
+        return motion_of(self.joints, self.amplitudes_rad, self.frequencies_rad_s, self.phases_rad)
 
     def _check_names(self) -> None:
         """Check that every joint has a name, and its own."""
         if '' in self.joints:
             raise ParameterError(
-                "Parameter 'joints' contains an empty name. Name every joint.", 'joints')
+                "Parameter 'joints' contains an empty name. Name every joint.", 'joints'
+            )
         twice = sorted({joint for joint in self.joints if self.joints.count(joint) > 1})
         if twice:
             raise ParameterError(
-                f"Parameter 'joints' names '{twice[0]}' more than once. "
-                'Name every joint once.', 'joints')
+                f"Parameter 'joints' names '{twice[0]}' more than once. Name every joint once.",
+                'joints',
+            )
 
     def _check_length(self, name: str, length: int) -> None:
         """Check that a list has one element for each joint."""
@@ -54,4 +62,7 @@ class JointControllerParameters:
             raise ParameterError(
                 f"Parameter '{name}' has {length} elements, but 'joints' has "
                 f'{len(self.joints)}. Give one element a joint; to change the number of joints '
-                'while the node runs, set all four lists in one atomic request.', name, 'joints')
+                'while the node runs, set all four lists in one atomic request.',
+                name,
+                'joints',
+            )

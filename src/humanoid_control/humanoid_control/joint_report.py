@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Report the first joint of a stream of joint states, now and then."""
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -14,7 +15,10 @@ class JointReporter:
         self._last_s: float | None = None
 
     def report(
-        self, names: Sequence[str], positions_rad: Sequence[float], now_s: float,
+        self,
+        names: Sequence[str],
+        positions_rad: Sequence[float],
+        now_s: float,
     ) -> str | None:
         """Return the line, or None when it is too early or there is nothing to report."""
         if not names or not positions_rad or not self._is_due(now_s):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of the sensor processor."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -12,4 +13,5 @@ class SensorProcessorParameters:
     """How often to report."""
 
     report_period_s: float = parameter(
-        1.0, 'The least time between two reports.', at_least=0.1, at_most=3600.0)
+        1.0, 'The least time between two reports.', at_least=0.1, at_most=3600.0
+    )

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Joints that swing like sine waves."""
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -62,16 +63,24 @@ class Motion:
     def followed_by(self, successor: Motion, now_s: float) -> Motion:
         """Hand over to another motion; joints that are in both turn on without a jump."""
         before = {swing.joint: swing for swing in self.swings}
-        return Motion(tuple(
-            before[swing.joint].followed_by(swing, now_s) if swing.joint in before else swing
-            for swing in successor.swings))
+        return Motion(
+            tuple(
+                before[swing.joint].followed_by(swing, now_s) if swing.joint in before else swing
+                for swing in successor.swings
+            )
+        )
 
 
 def motion_of(
-    joints: Sequence[str], amplitudes_rad: Sequence[float],
-    frequencies_rad_s: Sequence[float], phases_rad: Sequence[float],
+    joints: Sequence[str],
+    amplitudes_rad: Sequence[float],
+    frequencies_rad_s: Sequence[float],
+    phases_rad: Sequence[float],
 ) -> Motion:
     """Build a motion from lists of equal length, one element a joint."""
-    return Motion(tuple(
-        Swing(*columns)
-        for columns in zip(joints, amplitudes_rad, frequencies_rad_s, phases_rad)))
+    return Motion(
+        tuple(
+            Swing(*columns)
+            for columns in zip(joints, amplitudes_rad, frequencies_rad_s, phases_rad)
+        )
+    )

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Start the joint controller and the sensor processor."""
+
 from __future__ import annotations
 
 from launch import LaunchDescription
@@ -15,25 +16,34 @@ def generate_launch_description() -> LaunchDescription:
     """Describe both nodes, with the numbers of their configuration files."""
     config = PathJoinSubstitution([FindPackageShare('humanoid_control'), 'config'])
     use_sim_time = {
-        'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)}
-    return LaunchDescription([
-        DeclareLaunchArgument(
-            'use_controller', default_value='true', choices=['true', 'false'],
-            description='Start the joint controller.'),
-        DeclareLaunchArgument(
-            'use_sim_time', default_value='false', choices=['true', 'false'],
-            description='Take the time from the topic /clock instead of the computer.'),
-        Node(
-            package='humanoid_control',
-            executable='joint_controller',
-            output='screen',
-            parameters=[PathJoinSubstitution([config, 'joint_controller.yaml']), use_sim_time],
-            condition=IfCondition(LaunchConfiguration('use_controller')),
-        ),
-        Node(
-            package='humanoid_control',
-            executable='sensor_processor',
-            output='screen',
-            parameters=[PathJoinSubstitution([config, 'sensor_processor.yaml']), use_sim_time],
-        ),
-    ])
+        'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)
+    }
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument(
+                'use_controller',
+                default_value='true',
+                choices=['true', 'false'],
+                description='Start the joint controller.',
+            ),
+            DeclareLaunchArgument(
+                'use_sim_time',
+                default_value='false',
+                choices=['true', 'false'],
+                description='Take the time from the topic /clock instead of the computer.',
+            ),
+            Node(
+                package='humanoid_control',
+                executable='joint_controller',
+                output='screen',
+                parameters=[PathJoinSubstitution([config, 'joint_controller.yaml']), use_sim_time],
+                condition=IfCondition(LaunchConfiguration('use_controller')),
+            ),
+            Node(
+                package='humanoid_control',
+                executable='sensor_processor',
+                output='screen',
+                parameters=[PathJoinSubstitution([config, 'sensor_processor.yaml']), use_sim_time],
+            ),
+        ]
+    )

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the nodes in this process."""
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -62,8 +63,10 @@ def test_rate_changes_without_a_jump(ros: RosSandbox) -> None:
     stamps_s = [c.header.stamp.sec + c.header.stamp.nanosec * 1e-9 for c in commands]
     steps_s = [later - earlier for earlier, later in zip(stamps_s, stamps_s[1:])]
     assert 0.008 < median(steps_s) < 0.02
-    speeds = [abs(later.position[0] - earlier.position[0]) / step_s
-              for earlier, later, step_s in zip(commands, commands[1:], steps_s)]
+    speeds = [
+        abs(later.position[0] - earlier.position[0]) / step_s
+        for earlier, later, step_s in zip(commands, commands[1:], steps_s)
+    ]
     assert median(speeds) < 0.55
 
 
@@ -78,9 +81,14 @@ def test_joints_change_together(ros: RosSandbox) -> None:
     """All lists together may change the number of joints."""
     commands = commands_of(ros)
     node = ros.start(HumanoidJointController)
-    result = node.set_parameters_atomically([
-        Parameter('joints', value=['head_yaw']), Parameter('amplitudes_rad', value=[0.1]),
-        Parameter('frequencies_rad_s', value=[1.0]), Parameter('phases_rad', value=[0.0])])
+    result = node.set_parameters_atomically(
+        [
+            Parameter('joints', value=['head_yaw']),
+            Parameter('amplitudes_rad', value=[0.1]),
+            Parameter('frequencies_rad_s', value=[1.0]),
+            Parameter('phases_rad', value=[0.0]),
+        ]
+    )
     assert result.successful
     ros.wait_until(lambda: bool(commands) and list(commands[-1].name) == ['head_yaw'])
     assert len(commands[-1].position) == len(commands[-1].effort) == 1

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check what the joint controller accepts."""
+
 from __future__ import annotations
 
 import math
@@ -15,15 +16,18 @@ import yaml
 CONFIG = Path(__file__).parents[1] / 'config'
 
 
-@pytest.mark.parametrize(('values', 'words'), [
-    ({'joints': ['a', 'b']}, "'amplitudes_rad' has 4 elements, but 'joints' has 2"),
-    ({'phases_rad': [0.0]}, "'phases_rad' has 1 elements, but 'joints' has 4"),
-    ({'joints': ['a', 'b', 'a', 'c']}, "names 'a' more than once"),
-    ({'joints': ['a', '', 'b', 'c']}, 'an empty name'),
-    ({'joints': []}, 'must not be empty'),
-    ({'amplitudes_rad': [math.nan, 0.0, 0.0, 0.0]}, 'must be finite'),
-    ({'rate_hz': 1001.0}, 'must be between 1.0 and 1000.0'),
-])
+@pytest.mark.parametrize(
+    ('values', 'words'),
+    [
+        ({'joints': ['a', 'b']}, "'amplitudes_rad' has 4 elements, but 'joints' has 2"),
+        ({'phases_rad': [0.0]}, "'phases_rad' has 1 elements, but 'joints' has 4"),
+        ({'joints': ['a', 'b', 'a', 'c']}, "names 'a' more than once"),
+        ({'joints': ['a', '', 'b', 'c']}, 'an empty name'),
+        ({'joints': []}, 'must not be empty'),
+        ({'amplitudes_rad': [math.nan, 0.0, 0.0, 0.0]}, 'must be finite'),
+        ({'rate_hz': 1001.0}, 'must be between 1.0 and 1000.0'),
+    ],
+)
 def test_refused(values: dict[str, Any], words: str) -> None:
     """Values that make no motion are refused with the reason."""
     with pytest.raises(ParameterError) as caught:
@@ -31,9 +35,13 @@ def test_refused(values: dict[str, Any], words: str) -> None:
     assert words in caught.value.reason
 
 
-@pytest.mark.parametrize(('kind', 'file_name'), [
-    (JointControllerParameters, 'joint_controller.yaml'),
-    (SensorProcessorParameters, 'sensor_processor.yaml')])
+@pytest.mark.parametrize(
+    ('kind', 'file_name'),
+    [
+        (JointControllerParameters, 'joint_controller.yaml'),
+        (SensorProcessorParameters, 'sensor_processor.yaml'),
+    ],
+)
 def test_configuration_file(kind: type, file_name: str) -> None:
     """The shipped file names every parameter and says the same as the defaults."""
     values = yaml.safe_load((CONFIG / file_name).read_text())['/**']['ros__parameters']

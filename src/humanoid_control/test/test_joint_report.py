@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the reports of the first joint."""
+
 from __future__ import annotations
 
 from humanoid_control.joint_report import JointReporter

@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the launch file of both nodes."""
+
 from __future__ import annotations
 
 from pathlib import Path
 import signal
 
 from humanoid_common.testing.launching import (
-    argument_defaults, load_launch_file, running_launch_file, undescribed_arguments)
+    argument_defaults,
+    load_launch_file,
+    running_launch_file,
+    undescribed_arguments,
+)
 from humanoid_common.testing.ros import ros_sandbox
 
 LAUNCH_FILE = Path(__file__).parents[1] / 'launch' / 'robot_bringup.launch.py'
@@ -25,7 +30,8 @@ def test_run() -> None:
         program.wait_for_output('[sensor_processor]: left_shoulder: ')
         report = program.stop(signal.SIGINT)
     assert '[humanoid_joint_controller]: Humanoid Joint Controller started (50 Hz)' in (
-        report.output)
+        report.output
+    )
     assert report.status == 0 and 'Traceback' not in report.output
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the motion of the joints."""
+
 from __future__ import annotations
 
 import math

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Expand the model once for all tests."""
+
 from __future__ import annotations
 
 from pathlib import Path

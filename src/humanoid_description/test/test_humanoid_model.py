@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the model of the humanoid: its tree, its names and its bodies."""
+
 from __future__ import annotations
 
 from xml.etree import ElementTree
@@ -9,10 +10,24 @@ import pytest
 ARM = ('shoulder', 'shoulder_roll', 'shoulder_yaw', 'elbow')
 LEG = ('hip_yaw', 'hip_roll', 'hip_pitch', 'knee', 'ankle_pitch', 'ankle_roll')
 DRIVEN = {'waist_yaw', 'head_yaw', 'head_pitch'} | {
-    f'{side}_{joint}' for side in ('left', 'right') for joint in ARM + LEG}
+    f'{side}_{joint}' for side in ('left', 'right') for joint in ARM + LEG
+}
 FRAMES = {
-    'base_link', 'torso', 'gaze', 'l_wrist', 'r_wrist', 'l_gripper', 'r_gripper',
-    'l_ankle', 'r_ankle', 'l_sole', 'r_sole', 'imu_link', 'camera_link', 'camera_optical_frame'}
+    'base_link',
+    'torso',
+    'gaze',
+    'l_wrist',
+    'r_wrist',
+    'l_gripper',
+    'r_gripper',
+    'l_ankle',
+    'r_ankle',
+    'l_sole',
+    'r_sole',
+    'imu_link',
+    'camera_link',
+    'camera_optical_frame',
+}
 
 
 def links(robot: ElementTree.Element) -> list[str]:
@@ -36,8 +51,9 @@ def test_one_root(robot: ElementTree.Element) -> None:
 def test_no_loop(robot: ElementTree.Element) -> None:
     """Every link is reached from the root."""
     edges = [(joint.find('parent'), joint.find('child')) for joint in robot.findall('joint')]
-    pairs = [(p.attrib['link'], c.attrib['link']) for p, c in edges if p is not None
-             and c is not None]
+    pairs = [
+        (p.attrib['link'], c.attrib['link']) for p, c in edges if p is not None and c is not None
+    ]
     reached = {'base_link'}
     for _ in pairs:
         reached |= {child for parent, child in pairs if parent in reached}
@@ -85,7 +101,8 @@ def test_inertia(robot: ElementTree.Element) -> None:
     for inertial in robot.findall('link/inertial'):
         assert number(inertial, 'mass', 'value') > 0
         low, middle, high = sorted(
-            number(inertial, 'inertia', axis) for axis in ('ixx', 'iyy', 'izz'))
+            number(inertial, 'inertia', axis) for axis in ('ixx', 'iyy', 'izz')
+        )
         assert 0 < low and high <= low + middle
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check that the right side mirrors the left one."""
+
 from __future__ import annotations
 
 from xml.etree import ElementTree
@@ -24,16 +25,20 @@ def mirror_name(name: str) -> str:
     """Return the name of the counterpart on the right side."""
     for left, right in (('left_', 'right_'), ('l_', 'r_')):
         if name.startswith(left):
-            return right + name[len(left):]
+            return right + name.removeprefix(left)
     return name
 
 
-def sides(robot: ElementTree.Element, tag: str) -> list[
-        tuple[ElementTree.Element, ElementTree.Element]]:
+def sides(
+    robot: ElementTree.Element, tag: str
+) -> list[tuple[ElementTree.Element, ElementTree.Element]]:
     """Pair every element of the left side with its counterpart."""
     by_name = {element.attrib['name']: element for element in robot.findall(tag)}
-    return [(element, by_name[mirror_name(name)]) for name, element in by_name.items()
-            if name.startswith(('left_', 'l_'))]
+    return [
+        (element, by_name[mirror_name(name)])
+        for name, element in by_name.items()
+        if name.startswith(('left_', 'l_'))
+    ]
 
 
 def test_both_sides_have_the_same(robot: ElementTree.Element) -> None:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Report the robot model that was handed to this node."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -10,6 +11,7 @@ from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
 from humanoid_common.running import run_node
 from rclpy.node import Node
+
 from robot_control.urdf import parse_urdf
 
 

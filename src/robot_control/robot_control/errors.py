@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The error that refuses a URDF."""
+
 from __future__ import annotations
 
 from humanoid_common.errors import NodeStartError

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a URDF says about a robot."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -37,5 +38,6 @@ class RobotModel:
         """Return the robot in words, one line for the whole and one for each joint."""
         summary = (
             f"Loaded robot '{self.name}': {len(self.links)} links "
-            f"({', '.join(self.links)}), {len(self.joints)} joints")
+            f'({", ".join(self.links)}), {len(self.joints)} joints'
+        )
         return [summary, *(f'  {joint.describe()}' for joint in self.joints)]

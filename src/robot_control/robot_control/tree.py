@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check that the links of a robot form one tree."""
+
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from humanoid_common.naming import did_you_mean
+
 from robot_control.errors import UrdfError
 from robot_control.robot_model import RobotModel
 
@@ -46,8 +48,10 @@ def _check_one_root(model: RobotModel) -> None:
     for _ in model.joints:
         reached |= {joint.child for joint in model.joints if joint.parent in reached}
     if len(roots) > 1:
-        raise UrdfError(f"Robot '{model.name}' falls apart: {', '.join(roots)} have no parent. "
-                        'Join them, so that only one root is left.')
+        raise UrdfError(
+            f"Robot '{model.name}' falls apart: {', '.join(roots)} have no parent. "
+            'Join them, so that only one root is left.'
+        )
     if len(reached) < len(model.links):
         loop = ', '.join(link for link in model.links if link not in reached)
         raise UrdfError(f"Robot '{model.name}' has a loop among {loop}. Links must form a tree.")

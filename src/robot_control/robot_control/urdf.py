@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Read a URDF."""
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -19,7 +20,8 @@ def parse_urdf(text: str) -> RobotModel:
     model = RobotModel(
         _attribute(robot, 'name', 'the robot'),
         tuple(_attribute(link, 'name', 'a link') for link in robot.findall('link')),
-        tuple(_joints(robot)))
+        tuple(_joints(robot)),
+    )
     check_tree(model)
     return model
 
@@ -36,7 +38,8 @@ def _robot_element(text: str) -> ElementTree.Element:
         ) from error
     if root.tag != 'robot':
         raise UrdfError(
-            f'The robot description starts with <{root.tag}>, but a URDF starts with <robot>.')
+            f'The robot description starts with <{root.tag}>, but a URDF starts with <robot>.'
+        )
     return root
 
 
@@ -48,7 +51,8 @@ def _joints(robot: ElementTree.Element) -> Iterator[Joint]:
         kind = _attribute(element, 'type', where)
         if kind not in _KINDS:
             raise UrdfError(
-                f"The type of {where} is '{kind}', but must be one of {', '.join(_KINDS)}.")
+                f"The type of {where} is '{kind}', but must be one of {', '.join(_KINDS)}."
+            )
         lower, upper = _limits(element, where) if kind in _LIMITED else (None, None)
         parent = _attribute(_child(element, 'parent', where), 'link', f'the parent of {where}')
         child = _attribute(_child(element, 'child', where), 'link', f'the child of {where}')
@@ -62,7 +66,8 @@ def _limits(joint: ElementTree.Element, where: str) -> tuple[float, float]:
     if lower > upper:
         raise UrdfError(
             f'The lower limit of {where} is {lower:g}, but must not exceed the upper one, '
-            f'which is {upper:g}.')
+            f'which is {upper:g}.'
+        )
     return lower, upper
 
 
@@ -73,7 +78,8 @@ def _number(element: ElementTree.Element, attribute: str, where: str) -> float:
         return float(text)
     except ValueError:
         raise UrdfError(
-            f"The {attribute} limit of {where} is '{text}', but must be a number.") from None
+            f"The {attribute} limit of {where} is '{text}', but must be a number."
+        ) from None
 
 
 def _child(element: ElementTree.Element, tag: str, where: str) -> ElementTree.Element:

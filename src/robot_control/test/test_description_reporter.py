@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the node that reports the model."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -8,7 +9,11 @@ import signal
 from ament_index_python.packages import get_package_share_directory
 from humanoid_common.testing.launching import load_launch_file, running_launch_file
 from humanoid_common.testing.processes import (
-    assert_clean_exit, ExitReport, module_command, running_program)
+    assert_clean_exit,
+    ExitReport,
+    module_command,
+    running_program,
+)
 from humanoid_common.testing.ros import ros_sandbox
 import pytest
 from robot_control.description_reporter import DescriptionReporter
@@ -44,9 +49,13 @@ def test_signal(number: signal.Signals) -> None:
     assert "Loaded robot 'simple_arm': 4 links" in report.stderr
 
 
-@pytest.mark.parametrize(('urdf', 'sentence'), [
-    ('', 'The robot description is empty. Pass the text of a URDF file.'),
-    ('<robot', 'The robot description is not valid XML')])
+@pytest.mark.parametrize(
+    ('urdf', 'sentence'),
+    [
+        ('', 'The robot description is empty. Pass the text of a URDF file.'),
+        ('<robot', 'The robot description is not valid XML'),
+    ],
+)
 def test_bad_urdf(urdf: str, sentence: str) -> None:
     """A bad URDF ends the node with one sentence and status 1."""
     report = run_with(urdf)

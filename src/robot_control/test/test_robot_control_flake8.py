@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the style of the code."""
+
 from __future__ import annotations
 
 from ament_flake8.main import main_with_errors

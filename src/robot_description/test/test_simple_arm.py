@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the models."""
+
 from __future__ import annotations
 
 from pathlib import Path

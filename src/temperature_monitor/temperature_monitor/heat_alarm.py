@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tell when it is too hot, and when it is not any more."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -31,7 +32,8 @@ class HeatAlarm:
             return Notice(self._compare(celsius, 'above'), is_warning=True)
         if was_hot:
             return Notice(
-                'Back to normal: ' + self._compare(celsius, 'not above'), is_warning=False)
+                'Back to normal: ' + self._compare(celsius, 'not above'), is_warning=False
+            )
         return None
 
     def _compare(self, celsius: float, relation: str) -> str:

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of both nodes."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from humanoid_common.parameters import parameter, ParameterError
+
 from temperature_monitor.thermometer import Thermometer
 
 _COLDEST = -273.15
@@ -15,23 +17,30 @@ class PublisherParameters:
     """How often to publish, and what."""
 
     rate_hz: float = parameter(
-        1.0, 'How many readings are published a second.', at_least=0.01, at_most=1000.0)
-    min_celsius: float = parameter(
-        20.0, 'The lowest reading.', at_least=_COLDEST, at_most=10000.0)
+        1.0, 'How many readings are published a second.', at_least=0.01, at_most=1000.0
+    )
+    min_celsius: float = parameter(20.0, 'The lowest reading.', at_least=_COLDEST, at_most=10000.0)
     max_celsius: float = parameter(
-        30.0, 'The highest reading.', at_least=_COLDEST, at_most=10000.0)
-    frame_id: str = parameter(
-        'thermometer', 'The frame in which the thermometer sits.')
+        30.0, 'The highest reading.', at_least=_COLDEST, at_most=10000.0
+    )
+    frame_id: str = parameter('thermometer', 'The frame in which the thermometer sits.')
     seed: int = parameter(
-        -1, 'Repeat the readings that belong to this number; -1 for new ones every time.',
-        at_least=-1, at_most=2**31 - 1, read_only=True)
+        -1,
+        'Repeat the readings that belong to this number; -1 for new ones every time.',
+        at_least=-1,
+        at_most=2**31 - 1,
+        read_only=True,
+    )
 
     def __post_init__(self) -> None:
         """Check that there is a range to draw from."""
         if self.min_celsius >= self.max_celsius:
             raise ParameterError(
                 f"Parameter 'min_celsius' is {self.min_celsius}, but must be below "
-                f"'max_celsius', which is {self.max_celsius}.", 'min_celsius', 'max_celsius')
+                f"'max_celsius', which is {self.max_celsius}.",
+                'min_celsius',
+                'max_celsius',
+            )
 
     @property
     def thermometer(self) -> Thermometer:
@@ -44,4 +53,5 @@ class AnalyzerParameters:
     """When it is hot."""
 
     threshold_celsius: float = parameter(
-        25.0, 'Warn of readings above this.', at_least=_COLDEST, at_most=10000.0)
+        25.0, 'Warn of readings above this.', at_least=_COLDEST, at_most=10000.0
+    )

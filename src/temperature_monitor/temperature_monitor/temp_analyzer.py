@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Warn when it is hot."""
+
 from __future__ import annotations
 
 import sys
@@ -10,6 +11,7 @@ from humanoid_common.qos import STATE
 from humanoid_common.running import run_node
 from rclpy.node import Node
 from sensor_msgs.msg import Temperature
+
 from temperature_monitor.heat_alarm import HeatAlarm
 from temperature_monitor.settings import AnalyzerParameters
 
@@ -24,7 +26,8 @@ class TempAnalyzer(Node):
         self._alarm = HeatAlarm(self._settings.current.threshold_celsius)
         self.create_subscription(Temperature, 'temperature', self._judge, STATE)
         self.get_logger().info(
-            f'Watching for temperatures above {self._alarm.threshold_celsius:g} °C')
+            f'Watching for temperatures above {self._alarm.threshold_celsius:g} °C'
+        )
 
     def _judge(self, message: Temperature) -> None:
         """Log what there is to say about a reading."""

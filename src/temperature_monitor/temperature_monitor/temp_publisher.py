@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Publish temperatures that are made up."""
+
 from __future__ import annotations
 
 import sys
@@ -11,6 +12,7 @@ from humanoid_common.running import run_node
 from humanoid_common.steady import SteadyTimer
 from rclpy.node import Node
 from sensor_msgs.msg import Temperature
+
 from temperature_monitor.settings import PublisherParameters
 from temperature_monitor.thermometer import generator_of
 
@@ -32,8 +34,8 @@ class TempPublisher(Node):
         """Publish the next reading."""
         thermometer = self._settings.current.thermometer
         message = Temperature(
-            temperature=thermometer.read(self._generator),
-            variance=thermometer.variance_celsius2)
+            temperature=thermometer.read(self._generator), variance=thermometer.variance_celsius2
+        )
         message.header.stamp = self.get_clock().now().to_msg()
         message.header.frame_id = self._settings.current.frame_id
         self._publisher.publish(message)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A thermometer that makes its readings up."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass

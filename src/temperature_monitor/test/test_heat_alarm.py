@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check when the alarm speaks."""
+
 from __future__ import annotations
 
 import math

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check how the executables start and end."""
+
 from __future__ import annotations
 
 import signal
 
-from humanoid_common.testing.processes import (
-    assert_clean_exit, module_command, running_program)
+from humanoid_common.testing.processes import assert_clean_exit, module_command, running_program
 from humanoid_common.testing.ros import ros_sandbox
 import pytest
 
@@ -28,7 +28,8 @@ def test_signal(executable: str, number: signal.Signals) -> None:
 def test_bad_parameter() -> None:
     """A bad parameter is refused in a sentence, with status 1."""
     command = module_command(
-        'temperature_monitor.temp_publisher', '--ros-args', '-p', 'rate_hz:=0.0')
+        'temperature_monitor.temp_publisher', '--ros-args', '-p', 'rate_hz:=0.0'
+    )
     with ros_sandbox(), running_program(command) as program:
         report = program.wait_for_exit()
     assert report.status == 1 and 'Traceback' not in report.stderr

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the nodes in this process."""
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -66,7 +67,8 @@ def test_analyzer(ros: RosSandbox) -> None:
     logs: list[tuple[bytes, str]] = []
     observer = ros.observer()
     observer.create_subscription(
-        Log, '/rosout', lambda log: logs.append((log.level, log.msg)), 100)
+        Log, '/rosout', lambda log: logs.append((log.level, log.msg)), 100
+    )
     publisher = observer.create_publisher(Temperature, TOPIC, 10)
     node = ros.start(TempAnalyzer)
     assert node.set_parameters([Parameter('threshold_celsius', value=40)])[0].successful

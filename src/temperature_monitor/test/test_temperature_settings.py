@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check what the nodes accept."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -13,12 +14,15 @@ import yaml
 CONFIG = Path(__file__).parents[1] / 'config'
 
 
-@pytest.mark.parametrize(('kind', 'values', 'words'), [
-    (PublisherParameters, {'min_celsius': 31.0}, "must be below 'max_celsius', which is 30.0"),
-    (PublisherParameters, {'rate_hz': 0.0}, "'rate_hz' is 0.0"),
-    (PublisherParameters, {'seed': -2}, "'seed' is -2"),
-    (AnalyzerParameters, {'threshold_celsius': -300.0}, 'must be between -273.15'),
-])
+@pytest.mark.parametrize(
+    ('kind', 'values', 'words'),
+    [
+        (PublisherParameters, {'min_celsius': 31.0}, "must be below 'max_celsius', which is 30.0"),
+        (PublisherParameters, {'rate_hz': 0.0}, "'rate_hz' is 0.0"),
+        (PublisherParameters, {'seed': -2}, "'seed' is -2"),
+        (AnalyzerParameters, {'threshold_celsius': -300.0}, 'must be between -273.15'),
+    ],
+)
 def test_refused(kind: type, values: dict[str, Any], words: str) -> None:
     """Impossible values are refused with the reason."""
     with pytest.raises(ParameterError) as caught:
@@ -26,8 +30,10 @@ def test_refused(kind: type, values: dict[str, Any], words: str) -> None:
     assert words in caught.value.reason
 
 
-@pytest.mark.parametrize(('kind', 'file_name'), [
-    (PublisherParameters, 'temp_publisher.yaml'), (AnalyzerParameters, 'temp_analyzer.yaml')])
+@pytest.mark.parametrize(
+    ('kind', 'file_name'),
+    [(PublisherParameters, 'temp_publisher.yaml'), (AnalyzerParameters, 'temp_analyzer.yaml')],
+)
 def test_configuration_file(kind: type, file_name: str) -> None:
     """The shipped file names every parameter and says the same as the defaults."""
     values = yaml.safe_load((CONFIG / file_name).read_text())['/**']['ros__parameters']

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check the readings that are made up."""
+
 from __future__ import annotations
 
 from statistics import pvariance

@@ -4,6 +4,7 @@ Parameters as data: a frozen dataclass whose fields know their meaning and their
 
 Nothing here needs ROS; `humanoid_common.node_parameters` declares such a dataclass on a node.
 """
+
 from __future__ import annotations
 
 from humanoid_common.parameters.building import build
@@ -14,13 +15,13 @@ from humanoid_common.parameters.unknown import unknown_parameter_warnings
 from humanoid_common.parameters.values import checked_value, ParameterValue, widened
 
 __all__ = [
-    'build',
-    'checked_value',
-    'parameter',
     'ParameterError',
     'ParameterRules',
     'ParameterSpec',
     'ParameterValue',
+    'build',
+    'checked_value',
+    'parameter',
     'specs_of',
     'unknown_parameter_warnings',
     'widened',

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Build a checked snapshot of all parameters."""
+
 from __future__ import annotations
 
 from collections.abc import Mapping

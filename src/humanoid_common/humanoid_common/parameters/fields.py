@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The fields of a parameter dataclass."""
+
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a parameter dataclass says about each of its parameters."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
@@ -39,7 +40,8 @@ def specs_of(kind: type) -> dict[str, ParameterSpec]:
     for declared in fields(kind):
         element, is_list = _element_of(declared.name, hints[declared.name])
         specs[declared.name] = ParameterSpec(
-            declared.name, element, is_list, declared.default, rules_of(declared))
+            declared.name, element, is_list, declared.default, rules_of(declared)
+        )
     return specs
 
 
@@ -48,9 +50,10 @@ def _element_of(name: str, hint: Any) -> tuple[type, bool]:
     if hint in _SCALARS:
         return hint, False
     arguments = get_args(hint)
-    if get_origin(hint) is tuple and len(arguments) == 2 and arguments[1] is Ellipsis:
-        if arguments[0] in _SCALARS:
-            return arguments[0], True
+    is_tuple = get_origin(hint) is tuple and len(arguments) == 2 and arguments[1] is Ellipsis
+    if is_tuple and arguments[0] in _SCALARS:
+        return arguments[0], True
     raise TypeError(
         f"Parameter '{name}' has type {hint}, but must have one of bool, int, float, str, "
-        'or a tuple of them such as tuple[float, ...].')
+        'or a tuple of them such as tuple[float, ...].'
+    )

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tell about values that were set for parameters which do not exist."""
+
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -15,5 +16,5 @@ def unknown_parameter_warnings(given: Iterable[str], known: Iterable[str]) -> li
 
 def _warning(name: str, known: list[str]) -> str:
     """Build the warning for one unknown name."""
-    advice = did_you_mean(name, known) or f"It has: {', '.join(known)}."
+    advice = did_you_mean(name, known) or f'It has: {", ".join(known)}.'
     return f"Ignored the value of '{name}': this node has no such parameter. {advice}"

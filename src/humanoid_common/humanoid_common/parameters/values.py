@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Check one value against the rules of its parameter."""
+
 from __future__ import annotations
 
 from array import array
@@ -64,14 +65,19 @@ def _check_limits(spec: ParameterSpec, value: float) -> None:
 
 
 def _refusal(
-    spec: ParameterSpec, value: Any, requirement: str, hint: str = '', verb: str = '',
+    spec: ParameterSpec,
+    value: Any,
+    requirement: str,
+    hint: str = '',
+    verb: str = '',
 ) -> ParameterError:
     """Build the sentence that refuses a value, which for a list is one of its elements."""
     verb = verb or ('contains' if spec.is_list else 'is')
     sentences = [
         f"Parameter '{spec.name}' {verb} {value!r}, but {requirement}.",
         hint,
-        f'Its meaning: {spec.rules.description}']
+        f'Its meaning: {spec.rules.description}',
+    ]
     return ParameterError(' '.join(filter(None, sentences)), spec.name)
 
 

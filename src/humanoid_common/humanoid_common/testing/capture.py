@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Read a stream in the background."""
+
 from __future__ import annotations
 
 import threading

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Run a launch file: `python3 -m humanoid_common.testing.launch_file FILE [name:=value ...]`."""
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -15,8 +16,11 @@ def main(arguments: Sequence[str]) -> int:
     path, *settings = arguments
     pairs = [(name, value) for name, _, value in (text.partition(':=') for text in settings)]
     service = LaunchService(argv=settings, noninteractive=True)
-    service.include_launch_description(LaunchDescription([
-        IncludeLaunchDescription(AnyLaunchDescriptionSource(path), launch_arguments=pairs)]))
+    service.include_launch_description(
+        LaunchDescription(
+            [IncludeLaunchDescription(AnyLaunchDescriptionSource(path), launch_arguments=pairs)]
+        )
+    )
     return int(service.run())
 
 

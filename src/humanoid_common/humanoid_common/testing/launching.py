@@ -1,20 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """Run a launch file in a process of its own, and look into one without running it."""
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-from humanoid_common.testing.processes import module_command, running_program, RunningProgram
 from launch import LaunchContext, LaunchDescription, LaunchDescriptionEntity
 from launch.actions import DeclareLaunchArgument
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
+from humanoid_common.testing.processes import module_command, running_program, RunningProgram
+
 
 @contextmanager
 def running_launch_file(
-    path: Path, *arguments: str, environment: Mapping[str, str] = {},
+    path: Path,
+    *arguments: str,
+    environment: Mapping[str, str] = {},
 ) -> Iterator[RunningProgram]:
     """Launch a file, with arguments in the form `name:=value`, for the length of a block."""
     command = module_command('humanoid_common.testing.launch_file', str(path), *arguments)
@@ -32,14 +36,19 @@ def argument_defaults(description: LaunchDescription) -> dict[str, str]:
     context = LaunchContext()
     return {
         argument.name: ''.join(
-            context.perform_substitution(part) for part in argument.default_value or ())
-        for argument in _arguments(description.entities)}
+            context.perform_substitution(part) for part in argument.default_value or ()
+        )
+        for argument in _arguments(description.entities)
+    }
 
 
 def undescribed_arguments(description: LaunchDescription) -> list[str]:
     """Return the names of the launch arguments that lack a description."""
-    return [argument.name for argument in _arguments(description.entities)
-            if argument.description in ('', 'no description given')]
+    return [
+        argument.name
+        for argument in _arguments(description.entities)
+        if argument.description in ('', 'no description given')
+    ]
 
 
 def _arguments(

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Run a program, read its output while it runs, signal it, and leave nothing behind."""
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -35,9 +36,13 @@ class RunningProgram:
         """Start the command; the environment is added to the present one."""
         self._command = list(command)
         self._process = subprocess.Popen(
-            self._command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE, start_new_session=True,
-            env={**os.environ, 'PYTHONUNBUFFERED': '1', **environment})
+            self._command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            start_new_session=True,
+            env={**os.environ, 'PYTHONUNBUFFERED': '1', **environment},
+        )
         self._stdout = Capture(self._process.stdout)
         self._stderr = Capture(self._process.stderr)
 
@@ -54,11 +59,15 @@ class RunningProgram:
     def wait_for_output(self, text: str, timeout_s: float = 15.0) -> None:
         """Wait until the text was written on either stream."""
         wait_until(
-            lambda: text in self.output or self.has_ended, timeout_s,
-            lambda: f'{text!r} from {self._command}; it wrote: {self.output}')
+            lambda: text in self.output or self.has_ended,
+            timeout_s,
+            lambda: f'{text!r} from {self._command}; it wrote: {self.output}',
+        )
         wait_until(
-            lambda: text in self.output, 1.0,
-            lambda: f'{text!r} from {self._command}, which ended; it wrote: {self.output}')
+            lambda: text in self.output,
+            1.0,
+            lambda: f'{text!r} from {self._command}, which ended; it wrote: {self.output}',
+        )
 
     def send(self, number: signal.Signals) -> None:
         """Send a signal to the program itself, as `kill` does."""
@@ -67,8 +76,10 @@ class RunningProgram:
     def wait_for_exit(self, timeout_s: float = 15.0) -> ExitReport:
         """Wait until the program has ended and all its output was read."""
         wait_until(
-            lambda: self.has_ended, timeout_s,
-            lambda: f'the end of {self._command}; it wrote: {self.output}')
+            lambda: self.has_ended,
+            timeout_s,
+            lambda: f'the end of {self._command}; it wrote: {self.output}',
+        )
         self._stdout.join(timeout_s)
         self._stderr.join(timeout_s)
         return ExitReport(self._process.returncode, self._stdout.text, self._stderr.text)
@@ -89,7 +100,8 @@ class RunningProgram:
 
 @contextmanager
 def running_program(
-    command: Sequence[str], environment: Mapping[str, str] = {},
+    command: Sequence[str],
+    environment: Mapping[str, str] = {},
 ) -> Iterator[RunningProgram]:
     """Run a command for the length of a `with` block."""
     program = RunningProgram(command, environment)

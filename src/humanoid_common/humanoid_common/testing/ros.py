@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Nodes in this process, in a domain of their own."""
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
@@ -8,12 +9,13 @@ import os
 from typing import Any, TypeVar
 
 from domain_coordinator import domain_id
-from humanoid_common.testing.waiting import wait_until
 import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+
+from humanoid_common.testing.waiting import wait_until
 
 NodeT = TypeVar('NodeT', bound=Node)
 
@@ -24,14 +26,18 @@ class RosSandbox:
     def __init__(self, domain: int) -> None:
         """Start ROS in the domain."""
         self.environment = {
-            'ROS_DOMAIN_ID': str(domain), 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
+            'ROS_DOMAIN_ID': str(domain),
+            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+        }
         self._context = Context()
         rclpy.init(args=[], context=self._context, domain_id=domain)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._nodes: list[Node] = []
 
     def start(
-        self, factory: Callable[..., NodeT], parameters: Mapping[str, Any] = {},
+        self,
+        factory: Callable[..., NodeT],
+        parameters: Mapping[str, Any] = {},
         **options: Any,
     ) -> NodeT:
         """Start a node with parameter values, as if they came from a parameter file."""
@@ -46,12 +52,18 @@ class RosSandbox:
         return self.start(lambda **options: Node('observer', **options))
 
     def wait_until(
-        self, predicate: Callable[[], bool], timeout_s: float = 10.0, what: str = 'the condition',
+        self,
+        predicate: Callable[[], bool],
+        timeout_s: float = 10.0,
+        what: str = 'the condition',
     ) -> None:
         """Spin until the predicate holds; a failure tells which topics exist."""
         wait_until(
-            predicate, timeout_s, lambda: f'{what}; {self._graph()}',
-            lambda: self._executor.spin_once(timeout_sec=0.05))
+            predicate,
+            timeout_s,
+            lambda: f'{what}; {self._graph()}',
+            lambda: self._executor.spin_once(timeout_sec=0.05),
+        )
 
     def close(self) -> None:
         """Destroy the nodes and end ROS."""
@@ -62,9 +74,14 @@ class RosSandbox:
 
     def _graph(self) -> str:
         """Describe the topics that the nodes see."""
-        names = sorted({name for node in self._nodes for name, _ in
-                        node.get_topic_names_and_types(no_demangle=False)})
-        return f"topics: {', '.join(names)}"
+        names = sorted(
+            {
+                name
+                for node in self._nodes
+                for name, _ in node.get_topic_names_and_types(no_demangle=False)
+            }
+        )
+        return f'topics: {", ".join(names)}'
 
 
 @contextmanager

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Wait for a condition instead of sleeping."""
+
 from __future__ import annotations
 
 from collections.abc import Callable

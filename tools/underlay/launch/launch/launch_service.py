@@ -122,7 +122,7 @@ class LaunchService:
         processor = EventProcessor(context, loop)
         context._processes = registry = ProcessRegistry()
         context._attach(loop, processor.wake_up)
-        screen.on_closed = self._on_screen_closed
+        screen.when_closed(self._on_screen_closed)
         loop_error_handler = loop.get_exception_handler()
         loop.set_exception_handler(processor.on_loop_error)
         try:
@@ -130,7 +130,7 @@ class LaunchService:
                 return await processor.run(shutdown_when_idle=shutdown_when_idle)
         finally:
             loop.set_exception_handler(loop_error_handler)
-            screen.on_closed = None
+            screen.when_closed(None)
             context._attach(None, None)
             registry.close()
             context._processes = None

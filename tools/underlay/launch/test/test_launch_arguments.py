@@ -26,7 +26,8 @@ def test_default_and_given_value(context: LaunchContext) -> None:
     default = LaunchConfiguration('missing')
     context.launch_configurations['given'] = 'x'
     DeclareLaunchArgument('given', default_value=default).visit(context)
-    DeclareLaunchArgument('other', default_value=['a', LaunchConfiguration('given')]).visit(context)
+    other = DeclareLaunchArgument('other', default_value=['a', LaunchConfiguration('given')])
+    other.visit(context)
     assert context.launch_configurations == {'given': 'x', 'other': 'ax'}
 
 

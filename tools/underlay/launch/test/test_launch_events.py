@@ -114,14 +114,15 @@ def test_empty_reactions(run: Run, reaction: Any) -> None:
 
 def test_wrong_reactions(run: Run) -> None:
     """A reaction must consist of entities; a callable's is checked when it is there."""
-    with pytest.raises(TypeError, match="OnShutdown to be given .* but got 'x'"):
+    with pytest.raises(TypeError, match="OnShutdown to be given .* but got ''x''"):
         OnShutdown(on_shutdown=['x'])  # type: ignore[list-item]
     result = run(RegisterEventHandler(OnShutdown(on_shutdown=lambda event, context: ['x'])))
-    assert result.status == 1 and "but got 'x'" in result.text
+    assert result.status == 1 and "but got ''x''" in result.text
 
 
 @pytest.mark.parametrize('handler, argument', [
-    (OnProcessExit, 'on_exit'), (OnProcessStart, 'on_start'), (OnExecutionComplete, 'on_completion')])
+    (OnProcessExit, 'on_exit'), (OnProcessStart, 'on_start'),
+    (OnExecutionComplete, 'on_completion')])
 def test_wrong_targets(handler: Any, argument: str) -> None:
     """A target is an action or a callable."""
     with pytest.raises(TypeError, match='target_action'):

@@ -99,7 +99,8 @@ def test_file_is_loaded_again_in_another_environment(run: Run, write: Write) -> 
     child = write('child.launch.py', (
         'import os\nfrom launch import LaunchDescription\nfrom launch.actions import LogInfo\n'
         "found = os.environ.get('LAUNCH_TEST', 'nothing')\n"
-        'def generate_launch_description():\n    return LaunchDescription([LogInfo(msg=found)])\n'))
+        'def generate_launch_description():\n'
+        '    return LaunchDescription([LogInfo(msg=found)])\n'))
     top = LaunchDescription([
         SetEnvironmentVariable('LAUNCH_TEST', 'something'), IncludeLaunchDescription(child)])
     result = run(IncludeLaunchDescription(LaunchDescriptionSource(top)))
@@ -116,7 +117,8 @@ def test_broken_files(run: Run, write: Write, body: str, text: str) -> None:
     """The error tells what each loader found."""
     result = run(IncludeLaunchDescription(write('bad.launch.py', body)))
     assert result.status == 1
-    assert 'Caught multiple exceptions when trying to load file of format [py]:\n - ' in result.text
+    head = 'Caught multiple exceptions when trying to load file of format [py]:\n - '
+    assert head in result.text
     assert text in result.text
 
 

@@ -59,7 +59,7 @@ def test_bare_import_reaches_everything_and_loads_little() -> None:
     code = (
         'import launch, sys; launch.actions.LogInfo(msg=launch.substitutions.LaunchConfiguration'
         '("x")); launch.actions.ExecuteProcess(cmd=["x"]); launch.LaunchDescription([]);'
-        'bad = {"asyncio", "yaml", "rclpy", "subprocess"} & set(sys.modules); sys.exit(str(bad) if '
-        'bad else 0)')
+        'bad = {"asyncio", "yaml", "rclpy", "subprocess"} & set(sys.modules); '
+        'sys.exit(str(bad) if bad else 0)')
     result = subprocess.run([sys.executable, '-c', code], stderr=subprocess.PIPE, text=True)
     assert (result.returncode, result.stderr) == (0, '')

@@ -151,7 +151,6 @@ def test_executed_twice(run: Run) -> None:
 @pytest.mark.parametrize('kwargs, text', [
     ({'cmd': ['no_such_program']}, "the program 'no_such_program' was not found on the PATH"),
     ({'cmd': ['/no/program']}, "the program '/no/program' does not exist"),
-    ({'cmd': ['/etc/hostname']}, "'/etc/hostname' may not be executed"),
     ({'cmd': ['true'], 'cwd': '/no'}, "the folder '/no', in which 'true' was to be started"),
 ])
 def test_spawn_failures(run: Run, kwargs: Any, text: str) -> None:
@@ -161,6 +160,17 @@ def test_spawn_failures(run: Run, kwargs: Any, text: str) -> None:
         OnProcessExit(on_exit=lambda event, context: seen.append(event))))
     assert (result.status, seen) == (0, [])
     assert f'exception occurred while executing process: {text}' in result.text
+
+
+@pytest.mark.parametrize('mode, text', [
+    (0o644, "may not be executed; 'chmod +x' makes it executable"),
+    (0o755, 'is a script whose first line does not name an interpreter')])
+def test_file_that_is_no_program(run: Run, tmp_path: Path, mode: int, text: str) -> None:
+    """The log tells what a file lacks to be a program."""
+    path = tmp_path / 'script'
+    path.write_text('echo x')
+    path.chmod(mode)
+    assert f"'{path}' {text}" in run(ExecuteProcess(cmd=[path])).text
 
 
 # Output.

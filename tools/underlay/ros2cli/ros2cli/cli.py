@@ -37,12 +37,22 @@ def _run_command(argv: list[str]) -> int | str | None:
 def create_parser(argv: Sequence[str]) -> argparse.ArgumentParser:
     """Return the root parser, complete for the command that `argv` names."""
     parser = argparse.ArgumentParser(
-        prog='ros2', description='ros2 is an extensible command-line tool for ROS 2.',
-        formatter_class=argparse.RawDescriptionHelpFormatter)
+        prog='ros2',
+        description='ros2 is an extensible command-line tool for ROS 2.',
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument(
-        '--use-python-default-buffering', action='store_true',
-        help='leave the buffering of the output to Python, instead of line by line')
+        '--use-python-default-buffering',
+        action='store_true',
+        help='leave the buffering of the output to Python, instead of line by line',
+    )
     add_lazy_subparsers(
-        parser, 'ros2', entries=COMMANDS, group=COMMAND_GROUP, kind='command',
-        dest='_command', argv=argv)
+        parser,
+        'ros2',
+        entries=COMMANDS,
+        group=COMMAND_GROUP,
+        kind='command',
+        dest='_command',
+        argv=argv,
+    )
     return parser

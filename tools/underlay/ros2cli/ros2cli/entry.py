@@ -11,7 +11,7 @@ class Entry(NamedTuple):
     """Where the class of a command or verb is defined, and its help without importing it."""
 
     target: str
-    help: str  # noqa: A003
+    help: str
     hidden: bool = False
 
     def create(self) -> Any:

@@ -13,19 +13,28 @@ from ros2cli.suggest import did_you_mean
 
 
 def add_lazy_subparsers(
-    parser: argparse.ArgumentParser, cli_name: str, *, entries: Mapping[str, Entry],
-    group: str, kind: str, dest: str, argv: Sequence[str] | None,
+    parser: argparse.ArgumentParser,
+    cli_name: str,
+    *,
+    entries: Mapping[str, Entry],
+    group: str,
+    kind: str,
+    dest: str,
+    argv: Sequence[str] | None,
 ) -> None:
     """Add one subparser an entry; the chosen entry is imported and adds its arguments."""
     name, rest = _split(argv or ())
     entries = _with_extension(entries, group, name)
     metavar = f'Call `{cli_name} <{kind}> -h` for more detailed usage.'
     subparsers = parser.add_subparsers(
-        title=f'{kind.capitalize()}s', description=_listing(entries), metavar=metavar)
+        title=f'{kind.capitalize()}s', description=_listing(entries), metavar=metavar
+    )
     for entry_name, entry in entries.items():
         subparser = subparsers.add_parser(
-            entry_name, description=entry.help,
-            formatter_class=argparse.RawDescriptionHelpFormatter)
+            entry_name,
+            description=entry.help,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
         if entry_name == name:
             _add_chosen(subparser, entry, f'{cli_name} {entry_name}', dest, rest)
     if name is not None and name not in entries:
@@ -33,16 +42,23 @@ def add_lazy_subparsers(
 
 
 def add_subparsers_on_demand(
-    parser: argparse.ArgumentParser, cli_name: str, dest: str, group_name: str,
-    hide_extensions: Sequence[str] | None = None, required: bool = True,
+    parser: argparse.ArgumentParser,
+    cli_name: str,
+    dest: str,
+    group_name: str,
+    hide_extensions: Sequence[str] | None = None,
+    required: bool = True,
     argv: Sequence[str] | None = None,
 ) -> None:
     """Add a subparser for each entry point of a group, for commands of other packages."""
     hidden = hide_extensions or ()
-    entries = {name: entry._replace(hidden=name in hidden)
-               for name, entry in sorted(entries_of_group(group_name).items())}
+    entries = {
+        name: entry._replace(hidden=name in hidden)
+        for name, entry in sorted(entries_of_group(group_name).items())
+    }
     add_lazy_subparsers(
-        parser, cli_name, entries=entries, group=group_name, kind='verb', dest=dest, argv=argv)
+        parser, cli_name, entries=entries, group=group_name, kind='verb', dest=dest, argv=argv
+    )
 
 
 def _split(argv: Sequence[str]) -> tuple[str | None, Sequence[str]]:
@@ -51,12 +67,14 @@ def _split(argv: Sequence[str]) -> tuple[str | None, Sequence[str]]:
         if word in ('-h', '--help'):
             break
         if not word.startswith('-'):
-            return word, argv[index + 1:]
+            return word, argv[index + 1 :]
     return None, ()
 
 
 def _with_extension(
-    entries: Mapping[str, Entry], group: str, name: str | None,
+    entries: Mapping[str, Entry],
+    group: str,
+    name: str | None,
 ) -> Mapping[str, Entry]:
     if name is None or name in entries:
         return entries
@@ -65,7 +83,10 @@ def _with_extension(
 
 
 def _add_chosen(
-    subparser: argparse.ArgumentParser, entry: Entry, cli_name: str, dest: str,
+    subparser: argparse.ArgumentParser,
+    entry: Entry,
+    cli_name: str,
+    dest: str,
     argv: Sequence[str],
 ) -> None:
     import inspect

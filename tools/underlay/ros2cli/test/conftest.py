@@ -22,8 +22,12 @@ def ros_environment_variables() -> Iterator[dict[str, str]]:
     with domain_id() as domain:
         path = os.pathsep.join([str(ROOT), os.environ.get('PYTHONPATH', '')]).rstrip(os.pathsep)
         yield {
-            **os.environ, 'ROS_DOMAIN_ID': str(domain), 'PYTHONPATH': path,
-            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'PYTHONUNBUFFERED': '1'}
+            **os.environ,
+            'ROS_DOMAIN_ID': str(domain),
+            'PYTHONPATH': path,
+            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+            'PYTHONUNBUFFERED': '1',
+        }
 
 
 @pytest.fixture(scope='session')
@@ -31,7 +35,10 @@ def talker(ros_environment_variables: dict[str, str]) -> Iterator[None]:
     """Run the talker for all tests that look at the graph."""
     process = subprocess.Popen(
         [sys.executable, str(Path(__file__).with_name('talker.py'))],
-        env=ros_environment_variables, stdout=subprocess.PIPE, text=True)
+        env=ros_environment_variables,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
     try:
         assert process.stdout is not None
         assert process.stdout.readline() == 'ready\n'
@@ -51,8 +58,13 @@ def start_ros2(
     def start(*words: str, **options: Any) -> subprocess.Popen[str]:
         environment = {**ros_environment_variables, **options.pop('extra', {})}
         process = subprocess.Popen(
-            [sys.executable, '-m', 'ros2cli', *words], env=environment, text=True,
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
+            [sys.executable, '-m', 'ros2cli', *words],
+            env=environment,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            **options,
+        )
         started.append(process)
         return process
 
@@ -77,7 +89,8 @@ def ros2(start_ros2: Callable[..., Any]) -> Callable[..., subprocess.CompletedPr
 
 @pytest.fixture
 def ros2_here(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
     ros_environment_variables: dict[str, str],
 ) -> Callable[..., subprocess.CompletedProcess[str]]:
     """Return a function that runs a command in this process, which saves its start-up."""

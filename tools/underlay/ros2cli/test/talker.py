@@ -26,8 +26,9 @@ def main() -> None:
     hidden.create_publisher(String, '_secret', 10)
     node.create_subscription(String, 'orders', lambda message: None, 10)
     description.publish(String(data='<robot/>' * 40))
-    node.create_timer(0.02, lambda: joints.publish(
-        JointState(name=['left', 'right'], position=[0.25, -0.5])))
+    node.create_timer(
+        0.02, lambda: joints.publish(JointState(name=['left', 'right'], position=[0.25, -0.5]))
+    )
     node.create_timer(0.1, lambda: temperature.publish(Temperature(temperature=21.5)))
     executor = SingleThreadedExecutor()
     executor.add_node(node)

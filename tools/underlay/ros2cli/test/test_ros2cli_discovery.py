@@ -3,8 +3,7 @@
 
 from collections.abc import Callable
 
-from ros2cli.node.discovery import PATIENCE, PERIOD_S, QUIET_LOOKS, Snapshot
-from ros2cli.node.discovery import wait_until_stable
+from ros2cli.node.discovery import PATIENCE, PERIOD_S, QUIET_LOOKS, Snapshot, wait_until_stable
 from ros2cli.node.neighbours import count_in_table
 
 SPIN_S = 0.5
@@ -27,7 +26,8 @@ def waited(at: Callable[[float], Snapshot], **options: Callable[[], object]) -> 
     """Return how long a wait takes for a graph that is a function of time, and its result."""
     clock = FakeClock()
     settled = wait_until_stable(
-        lambda: at(clock.now_s), SPIN_S, now_s=lambda: clock.now_s, sleep=clock.sleep, **options)
+        lambda: at(clock.now_s), SPIN_S, now_s=lambda: clock.now_s, sleep=clock.sleep, **options
+    )
     return clock.now_s, settled
 
 
@@ -62,8 +62,11 @@ def test_slow_machine_gets_more_time() -> None:
     """Quiet is a number of looks, which take longer where sleeping takes longer."""
     clock = FakeClock()
     wait_until_stable(
-        lambda: Snapshot('graph', True), SPIN_S, now_s=lambda: clock.now_s,
-        sleep=lambda duration_s: clock.sleep(5 * duration_s))
+        lambda: Snapshot('graph', True),
+        SPIN_S,
+        now_s=lambda: clock.now_s,
+        sleep=lambda duration_s: clock.sleep(5 * duration_s),
+    )
     assert clock.now_s >= 5 * QUIET_S
 
 

@@ -26,7 +26,8 @@ def test_number_is_status(result: int | None, status: int) -> None:
 
 @pytest.mark.parametrize('call', [lambda: 'no luck', raising(RuntimeError('no luck'))])
 def test_text_is_error(
-    call: Callable[[], str], capsys: pytest.CaptureFixture[str],
+    call: Callable[[], str],
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     """A text that is returned, or carried by a RuntimeError, goes to stderr with status 1."""
     assert run_to_status(call) == 1
@@ -35,7 +36,8 @@ def test_text_is_error(
 
 
 def test_interrupt_is_silent(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Ctrl-C has the status of its signal, prints nothing, and a second one does no harm."""
     handlers = []

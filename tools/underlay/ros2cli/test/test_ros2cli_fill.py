@@ -35,8 +35,8 @@ def test_values_are_cast_to_the_type_of_the_field() -> None:
 def test_integers_are_exact() -> None:
     """The largest number of the largest type is not rounded."""
     message = UInt64()
-    fill(message, {'data': 2 ** 64 - 1})
-    assert message.data == 2 ** 64 - 1
+    fill(message, {'data': 2**64 - 1})
+    assert message.data == 2**64 - 1
 
 
 def test_arrays_of_all_kinds() -> None:
@@ -63,26 +63,37 @@ def test_now_is_a_time() -> None:
     assert outgoing.stamped(Time(sec=5)).stamp.sec == 5
 
 
-@pytest.mark.parametrize(('type_name', 'text', 'error'), [
-    ('std_msgs/msg/String', '{nope: 1}',
-     "Failed to populate field: 'String' object has no attribute 'nope'"),
-    ('std_msgs/msg/Int32', '{data: x}', 'Failed to populate field: invalid literal'),
-    ('std_msgs/msg/UInt8', '{data: 300}', '300 is no uint8, .* from 0 to 255'),
-    ('std_msgs/msg/Int8', '{data: 1.5}', '1.5 is no int8, .* from -128 to 127'),
-    ('sensor_msgs/msg/JointState', '{name: a}', "Failed to populate field: 'name' needs a list"),
-    ('sensor_msgs/msg/JointState', '{header: 1}', "'header' needs a mapping"),
-    ('std_msgs/msg/String', '[1]',
-     'The passed value needs to be a dictionary in YAML format'),
-    ('std_msgs/msg/String', '{a: [', 'The passed value is no YAML'),
-    ('std_msgs/msg/Strin', '{}', 'The passed message type is invalid')])
+@pytest.mark.parametrize(
+    ('type_name', 'text', 'error'),
+    [
+        (
+            'std_msgs/msg/String',
+            '{nope: 1}',
+            "Failed to populate field: 'String' object has no attribute 'nope'",
+        ),
+        ('std_msgs/msg/Int32', '{data: x}', 'Failed to populate field: invalid literal'),
+        ('std_msgs/msg/UInt8', '{data: 300}', '300 is no uint8, .* from 0 to 255'),
+        ('std_msgs/msg/Int8', '{data: 1.5}', '1.5 is no int8, .* from -128 to 127'),
+        (
+            'sensor_msgs/msg/JointState',
+            '{name: a}',
+            "Failed to populate field: 'name' needs a list",
+        ),
+        ('sensor_msgs/msg/JointState', '{header: 1}', "'header' needs a mapping"),
+        ('std_msgs/msg/String', '[1]', 'The passed value needs to be a dictionary in YAML format'),
+        ('std_msgs/msg/String', '{a: [', 'The passed value is no YAML'),
+        ('std_msgs/msg/Strin', '{}', 'The passed message type is invalid'),
+    ],
+)
 def test_wrong_values_are_explained(type_name: str, text: str, error: str) -> None:
     """Each kind of mistake has its text."""
     with pytest.raises(RuntimeError, match=error):
         OutgoingMessage(type_name, text)
 
 
-@pytest.mark.parametrize(('text', 'values'), [
-    ('', {}), ('data: hi', {'data': 'hi'}), ('{x: [1, 2]}', {'x': [1, 2]})])
+@pytest.mark.parametrize(
+    ('text', 'values'), [('', {}), ('data: hi', {'data': 'hi'}), ('{x: [1, 2]}', {'x': [1, 2]})]
+)
 def test_yaml_becomes_a_mapping(text: str, values: dict[str, Any]) -> None:
     """Block and flow style are understood; nothing means the defaults."""
     assert parse_values(text) == values

@@ -11,10 +11,14 @@ from ros2cli.entry import Entry
 from ros2pkg.command.pkg import PkgCommand
 
 VERB_COMMANDS = [
-    command for command in (entry.create() for entry in COMMANDS.values())
-    if hasattr(command, 'VERBS')]
+    command
+    for command in (entry.create() for entry in COMMANDS.values())
+    if hasattr(command, 'VERBS')
+]
 ENTRIES = [
-    *COMMANDS.values(), *(entry for command in VERB_COMMANDS for entry in command.VERBS.values())]
+    *COMMANDS.values(),
+    *(entry for command in VERB_COMMANDS for entry in command.VERBS.values()),
+]
 
 
 @pytest.mark.parametrize('words', [[], ['-h'], ['--help']])
@@ -39,7 +43,8 @@ def test_unknown_command_suggests(capsys: pytest.CaptureFixture[str]) -> None:
     error = capsys.readouterr().err
     assert (
         'ros2: error: argument Call `ros2 <command> -h` for more detailed usage.: '
-        "invalid choice: 'topc' (choose from 'launch', ") in error
+        "invalid choice: 'topc' (choose from 'launch', "
+    ) in error
     assert "Did you mean 'topic'?" in error
 
 
@@ -83,19 +88,33 @@ def test_verbs_of_other_packages_are_found(monkeypatch: pytest.MonkeyPatch) -> N
     assert asked == [(PkgCommand.VERB_GROUP, 'extra')]
 
 
-@pytest.mark.parametrize('words', [
-    ['--help'], ['pkg', 'list'], ['pkg', 'prefix', 'rclpy'], ['topic', 'echo', '--help'],
-    ['launch', '--help'], ['run', 'nope', 'nope']])
+@pytest.mark.parametrize(
+    'words',
+    [
+        ['--help'],
+        ['pkg', 'list'],
+        ['pkg', 'prefix', 'rclpy'],
+        ['topic', 'echo', '--help'],
+        ['launch', '--help'],
+        ['run', 'nope', 'nope'],
+    ],
+)
 def test_heavy_modules_are_not_imported(
-    words: list[str], ros_environment_variables: dict[str, str],
+    words: list[str],
+    ros_environment_variables: dict[str, str],
 ) -> None:
     """Commands without a node import neither rclpy nor the scanner of entry points."""
     code = (
         'import sys\nfrom ros2cli.cli import main\nmain(sys.argv[1:])\n'
         "heavy = {'rclpy', 'importlib.metadata', 'asyncio', 'yaml'}\n"
-        "print('heavy:', sorted(heavy & set(sys.modules) - early))\n")
+        "print('heavy:', sorted(heavy & set(sys.modules) - early))\n"
+    )
     code = f'import sys\nearly = set(sys.modules)\n{code}'
     result = subprocess.run(
-        [sys.executable, '-c', code, *words], env=ros_environment_variables, check=True,
-        capture_output=True, text=True)
+        [sys.executable, '-c', code, *words],
+        env=ros_environment_variables,
+        check=True,
+        capture_output=True,
+        text=True,
+    )
     assert result.stdout.splitlines()[-1] == 'heavy: []'

@@ -9,15 +9,15 @@ from ros2cli.messages.text import to_csv, to_yaml
 from sensor_msgs.msg import Image, JointState
 from std_msgs.msg import ByteMultiArray, Header, String
 
-JOINTS = JointState(
-    header=Header(frame_id='torso'), name=['left', 'right'], position=[0.25, -0.5])
+JOINTS = JointState(header=Header(frame_id='torso'), name=['left', 'right'], position=[0.25, -0.5])
 
 
 def test_yaml_is_block_style_in_order_of_fields() -> None:
     """Each field is a line in the order of the definition; empty texts and arrays show."""
     assert to_yaml(JOINTS) == (
         'header:\n  stamp:\n    sec: 0\n    nanosec: 0\n  frame_id: torso\n'
-        'name:\n- left\n- right\nposition:\n- 0.25\n- -0.5\nvelocity: []\neffort: []\n')
+        'name:\n- left\n- right\nposition:\n- 0.25\n- -0.5\nvelocity: []\neffort: []\n'
+    )
     assert to_yaml(String()) == "data: ''\n"
 
 
@@ -71,12 +71,16 @@ def test_type_is_found(name: str) -> None:
     assert get_message(name) is JointState
 
 
-@pytest.mark.parametrize(('name', 'reason'), [
-    ('JointState', 'not of the form'),
-    ('sensor_msgs/srv/JointState', 'not of the form'),
-    ('../msg/x', 'not of the form'),
-    ('nope_msgs/msg/Nope', "the package 'nope_msgs' .* cannot be imported"),
-    ('sensor_msgs/msg/JointStat', "has no type 'JointStat'. Did you mean 'JointState'?")])
+@pytest.mark.parametrize(
+    ('name', 'reason'),
+    [
+        ('JointState', 'not of the form'),
+        ('sensor_msgs/srv/JointState', 'not of the form'),
+        ('../msg/x', 'not of the form'),
+        ('nope_msgs/msg/Nope', "the package 'nope_msgs' .* cannot be imported"),
+        ('sensor_msgs/msg/JointStat', "has no type 'JointStat'. Did you mean 'JointState'?"),
+    ],
+)
 def test_unknown_type_says_why(name: str, reason: str) -> None:
     """An unknown type is an error that names the part which is wrong."""
     with pytest.raises(UnknownType, match=reason):

@@ -34,20 +34,33 @@ def argument(name: str, *defaults: str, conditional: bool = False) -> SimpleName
     """Return what looks like the declaration of an argument."""
     parts = [SimpleNamespace(describe=lambda text=text: text) for text in defaults]
     return SimpleNamespace(
-        name=name, description=f'the {name}', default_value=parts or None,
-        _conditionally_included=conditional)
+        name=name,
+        description=f'the {name}',
+        default_value=parts or None,
+        _conditionally_included=conditional,
+    )
 
 
 def test_no_arguments() -> None:
     """A file without arguments says so."""
     assert list(argument_lines([])) == [
-        "Arguments (pass arguments as '<name>:=<value>'):", '', '  No arguments.']
+        "Arguments (pass arguments as '<name>:=<value>'):",
+        '',
+        '  No arguments.',
+    ]
 
 
 def test_arguments_with_defaults_and_conditions() -> None:
     """Defaults are joined, conditional arguments are marked and explained."""
     arguments = [argument('must'), argument('rate', "'1'", "LaunchConfig('x')", conditional=True)]
     assert list(argument_lines(arguments))[1:] == [
-        '', "    'must':", '        the must',
-        '', "    'rate':*", '        the rate', "        (default: '1' + LaunchConfig('x'))",
-        '', '* argument(s) which are only used if specific conditions occur']
+        '',
+        "    'must':",
+        '        the must',
+        '',
+        "    'rate':*",
+        '        the rate',
+        "        (default: '1' + LaunchConfig('x'))",
+        '',
+        '* argument(s) which are only used if specific conditions occur',
+    ]

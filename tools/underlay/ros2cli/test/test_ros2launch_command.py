@@ -43,8 +43,10 @@ def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
     index.mkdir(parents=True)
     (index / 'arm').touch()
     for name, text in {
-        'launch/say.launch.py': LAUNCH_FILE, 'launch/sleep.launch.py': SLEEPER,
-        'launch/broken.launch.py': 'import nope_nope\n', 'launch/twice.launch.py': '',
+        'launch/say.launch.py': LAUNCH_FILE,
+        'launch/sleep.launch.py': SLEEPER,
+        'launch/broken.launch.py': 'import nope_nope\n',
+        'launch/twice.launch.py': '',
         'other/twice.launch.py': '',
     }.items():
         path = tmp_path / 'share' / 'arm' / name
@@ -52,8 +54,10 @@ def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
         path.write_text(text)
     monkeypatch.chdir(tmp_path)
     return {
-        'AMENT_PREFIX_PATH': str(tmp_path), 'COLCON_PREFIX_PATH': '',
-        'ROS_LOG_DIR': str(tmp_path / 'log')}
+        'AMENT_PREFIX_PATH': str(tmp_path),
+        'COLCON_PREFIX_PATH': '',
+        'ROS_LOG_DIR': str(tmp_path / 'log'),
+    }
 
 
 def test_package_and_file(ros2: Ros2, arm: dict[str, str]) -> None:
@@ -78,7 +82,8 @@ def test_show_args(ros2: Ros2, arm: dict[str, str]) -> None:
     result = ros2('launch', 'arm', 'say.launch.py', '--show-args', extra=arm)
     assert result.stdout == (
         "Arguments (pass arguments as '<name>:=<value>'):\n\n"
-        "    'word':\n        what to say\n        (default: 'hello')\n")
+        "    'word':\n        what to say\n        (default: 'hello')\n"
+    )
     assert (result.returncode, result.stderr) == (0, '')
 
 
@@ -88,19 +93,31 @@ def test_prefix(ros2: Ros2, arm: dict[str, str]) -> None:
     assert '[echo-1] before echo said hello' in result.stdout.splitlines()
 
 
-@pytest.mark.parametrize(('words', 'error'), [
-    (['nopkg', 'x'], "Package 'nopkg' not found: \"package 'nopkg' not found, searching: ['"),
-    (['arm', 'sai.launch.py'],
-     "file 'sai.launch.py' was not found in the share directory of package 'arm' which is at '"),
-    (['arm', 'twice.launch.py'],
-     "file 'twice.launch.py' was found more than once in the share directory of package 'arm'"),
-    (['arm'], "file 'None' was not found in the share directory of package 'arm'"),
-    (['/some/x.launch.py'], "the launch file '/some/x.launch.py' does not exist"),
-    (['arm', 'say.launch.py', 'word:='], "malformed launch argument 'word:='"),
-    (['arm', 'say.launch.py', 'wrd:=1'], "the launch file does not declare an argument 'wrd'"),
-    (['arm', 'say.launch.py', '--launch-prefix-filter', 'x'],
-     '--launch-prefix must be specified if --launch-prefix-filter is provided'),
-    (['-s', 'arm', 'broken.launch.py'], "the launch file '")])
+@pytest.mark.parametrize(
+    ('words', 'error'),
+    [
+        (['nopkg', 'x'], "Package 'nopkg' not found: \"package 'nopkg' not found, searching: ['"),
+        (
+            ['arm', 'sai.launch.py'],
+            "file 'sai.launch.py' was not found in the share directory of package 'arm' which "
+            "is at '",
+        ),
+        (
+            ['arm', 'twice.launch.py'],
+            "file 'twice.launch.py' was found more than once in the share directory of package "
+            "'arm'",
+        ),
+        (['arm'], "file 'None' was not found in the share directory of package 'arm'"),
+        (['/some/x.launch.py'], "the launch file '/some/x.launch.py' does not exist"),
+        (['arm', 'say.launch.py', 'word:='], "malformed launch argument 'word:='"),
+        (['arm', 'say.launch.py', 'wrd:=1'], "the launch file does not declare an argument 'wrd'"),
+        (
+            ['arm', 'say.launch.py', '--launch-prefix-filter', 'x'],
+            '--launch-prefix must be specified if --launch-prefix-filter is provided',
+        ),
+        (['-s', 'arm', 'broken.launch.py'], "the launch file '"),
+    ],
+)
 def test_errors(words: list[str], error: str, ros2: Ros2, arm: dict[str, str]) -> None:
     """What cannot be launched is an error on stderr, before anything starts."""
     result = ros2('launch', *words, extra=arm)

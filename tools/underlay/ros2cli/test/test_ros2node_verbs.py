@@ -50,8 +50,13 @@ def test_info_has_all_sections(ros2_here: Ros2) -> None:
     assert lines[:3] == ['/talker', '  Subscribers:', '    /orders: std_msgs/msg/String']
     assert '    /joint_commands: sensor_msgs/msg/JointState' in lines
     assert [line for line in lines if line.startswith('  ') and line[2] != ' '] == [
-        '  Subscribers:', '  Publishers:', '  Service Servers:', '  Service Clients:',
-        '  Action Servers:', '  Action Clients:']
+        '  Subscribers:',
+        '  Publishers:',
+        '  Service Servers:',
+        '  Service Clients:',
+        '  Action Servers:',
+        '  Action Clients:',
+    ]
     assert lines[-1] == ''
 
 

@@ -53,8 +53,18 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_output_and_tree(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The output names each step in order, and each file that it names exists."""
-    words = [*PYTHON, 'arm_control', '--dependencies', 'rclpy', 'sensor_msgs',
-             '--node-name', 'mover', '--license', 'Apache-2.0', *MAINTAINER]
+    words = [
+        *PYTHON,
+        'arm_control',
+        '--dependencies',
+        'rclpy',
+        'sensor_msgs',
+        '--node-name',
+        'mover',
+        '--license',
+        'Apache-2.0',
+        *MAINTAINER,
+    ]
     assert main(words) == 0
     output = capsys.readouterr().out
     assert output == EXPECTED.format(folder=folder)
@@ -66,8 +76,10 @@ def test_options_may_follow_or_precede_the_name(folder: Path) -> None:
     """The order of options and name does not matter."""
     assert main(['pkg', 'create', 'first', '--build-type', 'ament_python']) == 0
     assert main([*PYTHON, 'second']) == 0
-    files = [sorted(path.name for path in (folder / name / 'test').iterdir())
-             for name in ('first', 'second')]
+    files = [
+        sorted(path.name for path in (folder / name / 'test').iterdir())
+        for name in ('first', 'second')
+    ]
     assert files[0] == files[1]
 
 
@@ -79,13 +91,17 @@ def test_manifest_declares_dependencies(folder: Path) -> None:
     assert root.findtext('description') == 'a < b'
     assert [element.text for element in root.findall('depend')] == ['rclpy', 'std_msgs']
     assert [element.text for element in root.findall('test_depend')] == [
-        'ament_copyright', 'ament_flake8', 'ament_pep257', 'python3-pytest']
+        'ament_copyright',
+        'ament_flake8',
+        'ament_pep257',
+        'python3-pytest',
+    ]
     assert root.findtext('export/build_type') == 'ament_python'
 
 
 def test_created_sources_keep_the_style(folder: Path) -> None:
     """The linters find nothing in a new package, also with a long description and quotes."""
-    main([*PYTHON, 'p', '--node-name', 'mover', '--description', "It's a \"robot\" " * 20])
+    main([*PYTHON, 'p', '--node-name', 'mover', '--description', 'It\'s a "robot" ' * 20])
     status, errors = main_with_errors(argv=[str(folder / 'p')])
     assert (status, errors) == (0, [])
     assert pep257(argv=[str(folder / 'p')]) == 0
@@ -95,8 +111,12 @@ def test_created_node_runs(folder: Path) -> None:
     """The node of a new package greets, and setup.py makes it an executable."""
     main([*PYTHON, 'p', '--node-name', 'mover'])
     result = subprocess.run(
-        [sys.executable, '-m', 'p.mover'], cwd=folder / 'p', check=True, capture_output=True,
-        text=True)
+        [sys.executable, '-m', 'p.mover'],
+        cwd=folder / 'p',
+        check=True,
+        capture_output=True,
+        text=True,
+    )
     assert result.stdout == 'Hi from p.\n'
     setup_py = (folder / 'p' / 'setup.py').read_text()
     ast.parse(setup_py)
@@ -104,7 +124,8 @@ def test_created_node_runs(folder: Path) -> None:
 
 
 def test_unknown_license_is_a_warning(
-    folder: Path, capsys: pytest.CaptureFixture[str],
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     """The default licence is none; the output ends with the names of known ones."""
     assert main([*PYTHON, 'p']) == 0
@@ -130,24 +151,32 @@ def test_licenses_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_existing_folder_is_left_alone(
-    folder: Path, capsys: pytest.CaptureFixture[str],
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     """A folder that exists is not touched."""
     (folder / 'p').mkdir()
     assert main([*PYTHON, 'p']) == 1
     assert capsys.readouterr().err == (
         '\nAborted!\nThe directory already exists: ./p\nEither remove the directory or choose '
-        'a different destination directory or package name\n')
+        'a different destination directory or package name\n'
+    )
     assert list((folder / 'p').iterdir()) == []
 
 
-@pytest.mark.parametrize(('words', 'reason'), [
-    (['test'], "cannot be named 'test'"),
-    (['my-pkg'], "package 'my-pkg' is no name of a Python module"),
-    (['p', '--node-name', '2go'], "for example 'n2go'"),
-    (['p', '--library-name', 'a b'], "for example 'a_b'")])
+@pytest.mark.parametrize(
+    ('words', 'reason'),
+    [
+        (['test'], "cannot be named 'test'"),
+        (['my-pkg'], "package 'my-pkg' is no name of a Python module"),
+        (['p', '--node-name', '2go'], "for example 'n2go'"),
+        (['p', '--library-name', 'a b'], "for example 'a_b'"),
+    ],
+)
 def test_names_that_cannot_work_are_refused(
-    words: list[str], reason: str, capsys: pytest.CaptureFixture[str],
+    words: list[str],
+    reason: str,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     """A name that would make a broken package is refused with the reason."""
     assert main([*PYTHON, *words]) == 1
@@ -164,7 +193,8 @@ def test_missing_name_explains_dependencies(capsys: pytest.CaptureFixture[str]) 
 
 
 def test_node_named_like_library_is_renamed(
-    folder: Path, capsys: pytest.CaptureFixture[str],
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     """A node and a library of one name are told apart, with a warning."""
     assert main([*PYTHON, 'p', '--node-name', 'arm', '--library-name', 'arm']) == 0

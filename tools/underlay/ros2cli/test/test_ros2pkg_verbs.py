@@ -23,8 +23,11 @@ def prefix(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (share / 'package.xml').write_text(MANIFEST)
     lib = tmp_path / 'lib' / 'arm' / 'deep'
     lib.mkdir(parents=True)
-    for path, mode in ((lib.parent / 'wave', 0o755), (lib / 'bend', 0o755),
-                       (lib.parent / 'data', 0o644)):
+    for path, mode in (
+        (lib.parent / 'wave', 0o755),
+        (lib / 'bend', 0o755),
+        (lib.parent / 'data', 0o644),
+    ):
         path.touch()
         path.chmod(mode)
     monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path))

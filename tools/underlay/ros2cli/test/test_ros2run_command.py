@@ -65,14 +65,22 @@ def test_arguments_are_passed_through(ros2: Ros2, arm: dict[str, str]) -> None:
 def test_prefix_stands_before_the_executable(ros2: Ros2, arm: dict[str, str]) -> None:
     """A prefix is split like a shell does it."""
     result = ros2('run', '--prefix', "echo 'two words'", 'arm', 'fail', extra=arm)
-    assert result.stdout == f"two words {arm['AMENT_PREFIX_PATH']}/lib/arm/fail\n"
+    assert result.stdout == f'two words {arm["AMENT_PREFIX_PATH"]}/lib/arm/fail\n'
 
 
-@pytest.mark.parametrize(('name', 'status', 'text'), [
-    ('fail', 3, '[ros2run]: Process exited with failure 3\n'),
-    ('killed', 247, '[ros2run]: Killed\n')])
+@pytest.mark.parametrize(
+    ('name', 'status', 'text'),
+    [
+        ('fail', 3, '[ros2run]: Process exited with failure 3\n'),
+        ('killed', 247, '[ros2run]: Killed\n'),
+    ],
+)
 def test_status_passes_through(
-    name: str, status: int, text: str, start_ros2: Callable[..., Any], arm: dict[str, str],
+    name: str,
+    status: int,
+    text: str,
+    start_ros2: Callable[..., Any],
+    arm: dict[str, str],
 ) -> None:
     """The status of the child becomes ours, and is explained."""
     process = start_ros2('run', 'arm', name, extra=arm)
@@ -82,7 +90,9 @@ def test_status_passes_through(
 
 @pytest.mark.parametrize('sent', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_signal_reaches_child(
-    sent: signal.Signals, start_ros2: Callable[..., Any], arm: dict[str, str],
+    sent: signal.Signals,
+    start_ros2: Callable[..., Any],
+    arm: dict[str, str],
 ) -> None:
     """A signal to the command alone is passed on once, and the child's status is returned."""
     process = start_ros2('run', 'arm', 'catcher', extra=arm)
@@ -94,14 +104,17 @@ def test_signal_reaches_child(
 
 
 def test_ctrl_c_in_terminal_is_delivered_once(
-    arm: dict[str, str], ros_environment_variables: dict[str, str],
+    arm: dict[str, str],
+    ros_environment_variables: dict[str, str],
 ) -> None:
     """In a terminal, which signals the child itself, nothing is passed on."""
     pid, terminal = pty.fork()
     if pid == 0:
         os.execve(
-            sys.executable, [sys.executable, '-m', 'ros2cli', 'run', 'arm', 'catcher'],
-            {**ros_environment_variables, **arm})
+            sys.executable,
+            [sys.executable, '-m', 'ros2cli', 'run', 'arm', 'catcher'],
+            {**ros_environment_variables, **arm},
+        )
     with os.fdopen(terminal, 'rb', buffering=0) as stream:
         output = read_until(stream, b'ready')
         os.write(terminal, b'\x03')
@@ -124,16 +137,25 @@ def read_until(stream: Any, text: bytes) -> bytes:
 def test_child_reads_stdin(arm: dict[str, str], ros_environment_variables: Any) -> None:
     """The child has the command's own standard input."""
     result = subprocess.run(
-        [sys.executable, '-m', 'ros2cli', 'run', 'arm', 'read_line'], input='hello\n',
-        env={**ros_environment_variables, **arm}, capture_output=True, text=True, check=True)
+        [sys.executable, '-m', 'ros2cli', 'run', 'arm', 'read_line'],
+        input='hello\n',
+        env={**ros_environment_variables, **arm},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     assert result.stdout == 'read hello\n'
 
 
-@pytest.mark.parametrize(('words', 'texts'), [
-    (['nope', 'fail'], ["Package 'nope' not found"]),
-    (['arm', 'fial'], ['No executable found', "Did you mean 'fail'?"]),
-    (['arm', 'twice'], ['Multiple executables found:', '/lib/arm/deep/twice']),
-    (['arm', 'no_interpreter'], ['cannot run', 'names an interpreter that does not exist'])])
+@pytest.mark.parametrize(
+    ('words', 'texts'),
+    [
+        (['nope', 'fail'], ["Package 'nope' not found"]),
+        (['arm', 'fial'], ['No executable found', "Did you mean 'fail'?"]),
+        (['arm', 'twice'], ['Multiple executables found:', '/lib/arm/deep/twice']),
+        (['arm', 'no_interpreter'], ['cannot run', 'names an interpreter that does not exist']),
+    ],
+)
 def test_errors(words: list[str], texts: list[str], ros2: Ros2, arm: dict[str, str]) -> None:
     """What cannot be run is an error with the known text first."""
     result = ros2('run', *words, extra=arm)

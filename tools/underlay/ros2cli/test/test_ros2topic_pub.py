@@ -17,10 +17,19 @@ def test_once_reaches_a_subscription(ros2_here: Ros2, start_ros2: Start) -> None
     latched = ['--qos-durability', 'transient_local', '--qos-reliability', 'reliable']
     echo = start_ros2('topic', 'echo', '--once', '/chatter', 'std_msgs/msg/String', *latched)
     result = ros2_here(
-        'topic', 'pub', '--once', '/chatter', 'std_msgs/String', 'data: hi', *latched,
-        '--keep-alive', '2')
+        'topic',
+        'pub',
+        '--once',
+        '/chatter',
+        'std_msgs/String',
+        'data: hi',
+        *latched,
+        '--keep-alive',
+        '2',
+    )
     assert result.stdout.endswith(
-        "publisher: beginning loop\npublishing #1: std_msgs.msg.String(data='hi')\n\n")
+        "publisher: beginning loop\npublishing #1: std_msgs.msg.String(data='hi')\n\n"
+    )
     assert (result.returncode, result.stderr) == (0, '')
     assert echo.communicate(timeout=20.0)[0] == 'data: hi\n---\n'
 
@@ -28,18 +37,31 @@ def test_once_reaches_a_subscription(ros2_here: Ros2, start_ros2: Start) -> None
 def test_times_and_print_without_subscription(ros2_here: Ros2) -> None:
     """A number of messages is published; only every second one is shown."""
     result = ros2_here(
-        'topic', 'pub', '-t', '4', '-p', '2', '-r', '100', '-w', '0', '/chatter',
-        'std_msgs/msg/String')
+        'topic',
+        'pub',
+        '-t',
+        '4',
+        '-p',
+        '2',
+        '-r',
+        '100',
+        '-w',
+        '0',
+        '/chatter',
+        'std_msgs/msg/String',
+    )
     assert [line for line in result.stdout.splitlines() if line] == [
-        'publisher: beginning loop', "publishing #2: std_msgs.msg.String(data='')",
-        "publishing #4: std_msgs.msg.String(data='')"]
+        'publisher: beginning loop',
+        "publishing #2: std_msgs.msg.String(data='')",
+        "publishing #4: std_msgs.msg.String(data='')",
+    ]
 
 
 def test_no_subscription_in_time_is_an_error(ros2_here: Ros2) -> None:
     """The wait for a subscription is announced and has an end."""
     result = ros2_here(
-        'topic', 'pub', '--once', '/chatter', 'std_msgs/msg/String',
-        '--max-wait-time-secs', '0.2')
+        'topic', 'pub', '--once', '/chatter', 'std_msgs/msg/String', '--max-wait-time-secs', '0.2'
+    )
     assert result.stdout == 'Waiting for at least 1 matching subscription(s)...\n'
     assert result.returncode == 1
     assert result.stderr.startswith('Timed out waiting for subscribers: Expected 1 ')

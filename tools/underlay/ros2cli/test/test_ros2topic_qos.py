@@ -16,7 +16,8 @@ VOLATILE = DurabilityPolicy.VOLATILE
 
 
 def publisher(
-    reliability: ReliabilityPolicy, durability: DurabilityPolicy = VOLATILE,
+    reliability: ReliabilityPolicy,
+    durability: DurabilityPolicy = VOLATILE,
 ) -> SimpleNamespace:
     """Return what the graph tells about a publisher."""
     profile = QoSProfile(depth=1, reliability=reliability, durability=durability)
@@ -30,13 +31,18 @@ def parse(*words: str) -> argparse.Namespace:
     return parser.parse_args(words)
 
 
-@pytest.mark.parametrize(('publishers', 'reliability', 'durability'), [
-    ([], BEST_EFFORT, VOLATILE),
-    ([publisher(RELIABLE)], RELIABLE, VOLATILE),
-    ([publisher(RELIABLE, LATCHED)], RELIABLE, LATCHED),
-    ([publisher(BEST_EFFORT)], BEST_EFFORT, VOLATILE)])
+@pytest.mark.parametrize(
+    ('publishers', 'reliability', 'durability'),
+    [
+        ([], BEST_EFFORT, VOLATILE),
+        ([publisher(RELIABLE)], RELIABLE, VOLATILE),
+        ([publisher(RELIABLE, LATCHED)], RELIABLE, LATCHED),
+        ([publisher(BEST_EFFORT)], BEST_EFFORT, VOLATILE),
+    ],
+)
 def test_profile_follows_publishers(
-    publishers: list[SimpleNamespace], reliability: ReliabilityPolicy,
+    publishers: list[SimpleNamespace],
+    reliability: ReliabilityPolicy,
     durability: DurabilityPolicy,
 ) -> None:
     """Publishers that agree are followed, without a notice."""
@@ -63,7 +69,8 @@ def test_options_override_what_publishers_offer() -> None:
 def test_named_profile_is_taken_as_it_is() -> None:
     """A profile by name does not follow the publishers, and stays unchanged itself."""
     profile, _ = choose_qos(
-        parse('--qos-profile', 'default', '--qos-depth', '3'), [publisher(BEST_EFFORT, LATCHED)])
+        parse('--qos-profile', 'default', '--qos-depth', '3'), [publisher(BEST_EFFORT, LATCHED)]
+    )
     assert (profile.reliability, profile.durability) == (RELIABLE, VOLATILE)
     assert (profile.depth, QoSPresetProfiles.get_from_short_key('default').depth) == (3, 10)
 

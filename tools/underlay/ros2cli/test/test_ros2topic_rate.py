@@ -20,8 +20,8 @@ def test_report_of_steady_events() -> None:
     for step in range(6):
         meter.add(step * 0.25)
     assert meter.report() == (
-        'average rate: 4.000\n'
-        '\tmin: 0.250s max: 0.250s std dev: 0.00000s window: 6')
+        'average rate: 4.000\n\tmin: 0.250s max: 0.250s std dev: 0.00000s window: 6'
+    )
 
 
 def test_spread_of_uneven_events() -> None:
@@ -30,7 +30,8 @@ def test_spread_of_uneven_events() -> None:
     for now_s in (0.0, 0.1, 0.4):
         meter.add(now_s)
     assert meter.report() == (
-        'average rate: 5.000\n\tmin: 0.100s max: 0.300s std dev: 0.10000s window: 3')
+        'average rate: 5.000\n\tmin: 0.100s max: 0.300s std dev: 0.10000s window: 3'
+    )
 
 
 def test_silence_is_not_reported_again() -> None:
@@ -65,13 +66,17 @@ def test_bandwidth_report() -> None:
     for now_s, size in ((0.0, 9000), (1.0, 10), (1.5, 20), (2.0, 30)):
         meter.add(now_s, size)
     assert meter.report(3.0) == (
-        '30 B/s from 3 messages\n\tMessage size mean: 20 B min: 10 B max: 30 B')
+        '30 B/s from 3 messages\n\tMessage size mean: 20 B min: 10 B max: 30 B'
+    )
 
 
 def test_units_of_bytes() -> None:
     """Large numbers are shown in thousands and millions."""
     assert [human_bytes(count) for count in (999, 1520, 2_500_000)] == [
-        '999 B', '1.52 KB', '2.50 MB']
+        '999 B',
+        '1.52 KB',
+        '2.50 MB',
+    ]
 
 
 def test_delay_report() -> None:
@@ -80,5 +85,6 @@ def test_delay_report() -> None:
     for delay_s in (9.0, 0.1, 0.3):
         meter.add(delay_s)
     assert meter.report() == (
-        'average delay: 0.200\n\tmin: 0.100s max: 0.300s std dev: 0.10000s window: 2')
+        'average delay: 0.200\n\tmin: 0.100s max: 0.300s std dev: 0.10000s window: 2'
+    )
     assert meter.report() == ''

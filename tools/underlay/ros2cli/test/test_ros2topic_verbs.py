@@ -12,8 +12,14 @@ Ros2 = Callable[..., CompletedProcess[str]]
 Start = Callable[..., Any]
 
 TOPICS = [
-    '/joint_commands', '/mixed', '/orders', '/parameter_events', '/robot_description', '/rosout',
-    '/temperature']
+    '/joint_commands',
+    '/mixed',
+    '/orders',
+    '/parameter_events',
+    '/robot_description',
+    '/rosout',
+    '/temperature',
+]
 
 pytestmark = pytest.mark.usefixtures('talker')
 
@@ -43,8 +49,7 @@ def test_list_verbose(ros2_here: Ros2) -> None:
     published, _, subscribed = ros2_here('topic', 'list', '-v').stdout.partition('\n\n')
     assert published.startswith('Published topics:\n * /joint_commands ')
     assert ' * /mixed [std_msgs/msg/String] 2 publishers' in published
-    assert subscribed == (
-        'Subscribed topics:\n * /orders [std_msgs/msg/String] 1 subscriber\n')
+    assert subscribed == ('Subscribed topics:\n * /orders [std_msgs/msg/String] 1 subscriber\n')
 
 
 def test_info_counts_endpoints(ros2_here: Ros2) -> None:
@@ -57,7 +62,8 @@ def test_info_verbose_shows_endpoints(ros2_here: Ros2) -> None:
     """The verbose info describes each endpoint."""
     output = ros2_here('topic', 'info', '-v', '/temperature').stdout
     assert output.startswith(
-        'Type: sensor_msgs/msg/Temperature\n\nPublisher count: 1\n\nNode name: talker\n')
+        'Type: sensor_msgs/msg/Temperature\n\nPublisher count: 1\n\nNode name: talker\n'
+    )
     assert 'Reliability: BEST_EFFORT' in output
     assert output.endswith('Subscription count: 0\n\n')
 
@@ -74,7 +80,8 @@ def test_echo_once_prints_yaml(ros2_here: Ros2) -> None:
     result = ros2_here('topic', 'echo', '--once', '/temperature')
     assert result.stdout == (
         "header:\n  stamp:\n    sec: 0\n    nanosec: 0\n  frame_id: ''\n"
-        'temperature: 21.5\nvariance: 0.0\n---\n')
+        'temperature: 21.5\nvariance: 0.0\n---\n'
+    )
     assert (result.returncode, result.stderr) == (0, '')
 
 
@@ -97,8 +104,14 @@ def test_echo_with_message_info(ros2_here: Ros2) -> None:
     result = ros2_here('topic', 'echo', '--once', '-i', '/joint_commands', '--field', 'name')
     names = [line.partition(':')[0] for line in result.stdout.splitlines()]
     assert names == [
-        'publication_sequence_number', 'received_timestamp', 'reception_sequence_number',
-        'source_timestamp', '- left', '- right', '---']
+        'publication_sequence_number',
+        'received_timestamp',
+        'reception_sequence_number',
+        'source_timestamp',
+        '- left',
+        '- right',
+        '---',
+    ]
 
 
 def test_echo_of_mixed_publishers_tells(ros2_here: Ros2) -> None:
@@ -107,11 +120,17 @@ def test_echo_of_mixed_publishers_tells(ros2_here: Ros2) -> None:
     assert 'Some, but not all, publishers are offering' in output
 
 
-@pytest.mark.parametrize(('words', 'error'), [
-    (['/joint_commands', '--field', 'nope', '--once'],
-     "Invalid field 'nope': 'JointState' object has no attribute 'nope'"),
-    (['/nope'], 'Could not determine the type for the passed topic'),
-    (['/nope', 'std_msgs/msg/Strin'], 'The passed message type is invalid')])
+@pytest.mark.parametrize(
+    ('words', 'error'),
+    [
+        (
+            ['/joint_commands', '--field', 'nope', '--once'],
+            "Invalid field 'nope': 'JointState' object has no attribute 'nope'",
+        ),
+        (['/nope'], 'Could not determine the type for the passed topic'),
+        (['/nope', 'std_msgs/msg/Strin'], 'The passed message type is invalid'),
+    ],
+)
 def test_echo_errors(words: list[str], error: str, ros2_here: Ros2) -> None:
     """What cannot be echoed is an error of one sentence or two."""
     result = ros2_here('topic', 'echo', *words)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds a package whose setup.py names files that do not exist yet, and says which.
 
-A beginner writes the `data_files` of a package before its launch files. setuptools would stop there
-with a traceback; it calls this function, an extension of its own kind, for each package.
+A beginner writes the `data_files` of a package before its launch files. setuptools would stop
+there with a traceback; it calls this function, an extension of its own kind, for each package.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ def leave_out(distribution: Any) -> None:
     if COMMANDS & set(sys.argv):
         names = ', '.join(missing)
         print(
-            f'The data_files of setup.py name what does not exist, so it is not installed: {names}.'
-            ' Create it and build again, or take it out of setup.py.',
+            'The data_files of setup.py name what does not exist, so it is not installed: '
+            f'{names}. Create it and build again, or take it out of setup.py.',
             file=sys.stderr,
         )
 

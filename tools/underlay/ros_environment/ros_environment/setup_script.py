@@ -50,10 +50,8 @@ def defines_main(module: Path) -> bool:
     except (OSError, SyntaxError, ValueError):
         return False
     return any(
-        isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
-        and node.name == 'main'
-        or isinstance(node, ast.ImportFrom)
-        and 'main' in [item.name for item in node.names]
+        (isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)) and node.name == 'main')
+        or (isinstance(node, ast.ImportFrom) and 'main' in [item.name for item in node.names])
         for node in tree.body
     )
 

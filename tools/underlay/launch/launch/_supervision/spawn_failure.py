@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+import errno
 import os
 from typing import Any
 
@@ -21,6 +22,8 @@ def _reason(details: Mapping[str, Any], error: Exception) -> str:
         return _not_found(program)
     if isinstance(error, PermissionError):
         return f"'{program}' may not be executed; 'chmod +x' makes it executable"
+    if getattr(error, 'errno', None) == errno.ENOEXEC:
+        return f"'{program}' is a script whose first line does not name an interpreter (#!...)"
     return f"'{program}' cannot be started: {error}"
 
 

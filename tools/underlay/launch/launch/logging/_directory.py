@@ -38,8 +38,8 @@ def _point_latest_at(base: str, path: str) -> None:
     latest = os.path.join(base, 'latest')
     if os.path.exists(latest) and not os.path.islink(latest):
         screen.write_line(
-            f"[WARNING] [launch]: '{latest}' is not a symbolic link and stays as it is, so it does "
-            'not lead to the log files of this run')
+            f"[WARNING] [launch]: '{latest}' is not a symbolic link and stays as it is, so it "
+            'does not lead to the log files of this run')
         return
     temporary = f'{latest}.{os.getpid()}'
     try:

@@ -14,8 +14,15 @@ class Screen:
 
     def __init__(self) -> None:
         """Create the writer."""
-        self.on_closed: Optional[Callable[[], None]] = None
+        self._on_closed: Optional[Callable[[], None]] = None
+        self._is_unread = False
         self._broken_stream: Optional[object] = None
+
+    def when_closed(self, callback: Optional[Callable[[], None]]) -> None:
+        """Call a function when nobody reads any more, at once if that is so already."""
+        self._on_closed = callback
+        if callback is not None and self._is_unread and sys.stdout is self._broken_stream:
+            callback()
 
     def write_line(self, text: str) -> None:
         """Write a line at once; what cannot be encoded is escaped."""
@@ -33,8 +40,9 @@ class Screen:
         self._broken_stream = stream
         if stream is sys.__stdout__ and isinstance(error, OSError):
             _discard_standard_output()
-        if isinstance(error, BrokenPipeError) and self.on_closed is not None:
-            self.on_closed()
+        self._is_unread = isinstance(error, BrokenPipeError)
+        if self._is_unread and self._on_closed is not None:
+            self._on_closed()
 
 
 def _encodable(text: str, encoding: str) -> str:

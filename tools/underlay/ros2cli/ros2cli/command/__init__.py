@@ -7,10 +7,9 @@ import argparse
 from collections.abc import Mapping, Sequence
 
 from ros2cli.entry import Entry
-from ros2cli.subparsers import add_lazy_subparsers
-from ros2cli.subparsers import add_subparsers_on_demand
+from ros2cli.subparsers import add_lazy_subparsers, add_subparsers_on_demand
 
-__all__ = ['add_subparsers_on_demand', 'CommandExtension', 'VerbCommand']
+__all__ = ['CommandExtension', 'VerbCommand', 'add_subparsers_on_demand']
 
 
 class CommandExtension:
@@ -19,12 +18,14 @@ class CommandExtension:
     NAME: str | None = None
     EXTENSION_POINT_VERSION = '0.1'
 
-    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str, *,
-                      argv: Sequence[str] | None = None) -> None:
+    def add_arguments(
+        self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
+    ) -> None:
         """Add the command's own arguments to its parser."""
 
-    def main(self, *, parser: argparse.ArgumentParser,
-             args: argparse.Namespace) -> int | str | None:
+    def main(
+        self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
+    ) -> int | str | None:
         """Do the work; an int is the exit status, a str is an error text."""
         raise NotImplementedError(f'{type(self).__name__} does not implement main()')
 
@@ -35,16 +36,24 @@ class VerbCommand(CommandExtension):
     VERBS: Mapping[str, Entry] = {}
     VERB_GROUP = ''
 
-    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str, *,
-                      argv: Sequence[str] | None = None) -> None:
+    def add_arguments(
+        self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
+    ) -> None:
         """Add a parser for each verb, with arguments only for the one that is called."""
         self._parser = parser
         add_lazy_subparsers(
-            parser, cli_name, entries=self.VERBS, group=self.VERB_GROUP, kind='verb',
-            dest='_verb', argv=argv)
+            parser,
+            cli_name,
+            entries=self.VERBS,
+            group=self.VERB_GROUP,
+            kind='verb',
+            dest='_verb',
+            argv=argv,
+        )
 
-    def main(self, *, parser: argparse.ArgumentParser,
-             args: argparse.Namespace) -> int | str | None:
+    def main(
+        self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
+    ) -> int | str | None:
         """Call the chosen verb, or print the help if there is none."""
         verb = getattr(args, '_verb', None)
         if verb is None:

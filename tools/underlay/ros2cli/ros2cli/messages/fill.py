@@ -11,7 +11,11 @@ from ros2cli.messages.plain import element_type
 
 HEADER, TIME = 'std_msgs/Header', 'builtin_interfaces/Time'
 SCALARS: dict[str, Callable[[Any], Any]] = {
-    'boolean': bool, 'float': float, 'double': float, 'octet': lambda value: bytes([value])}
+    'boolean': bool,
+    'float': float,
+    'double': float,
+    'octet': lambda value: bytes([value]),
+}
 
 Stamp = Callable[[Any], None]
 
@@ -73,11 +77,12 @@ def _integer(type_name: str, value: Any) -> int:
     """Return a whole number that fits a type such as `int8` or `uint64`."""
     number = int(value)
     bits = int(type_name.rpartition('int')[2])
-    lowest, count = (0, 2 ** bits) if type_name.startswith('u') else (-2 ** (bits - 1), 2 ** bits)
+    lowest, count = (0, 2**bits) if type_name.startswith('u') else (-(2 ** (bits - 1)), 2**bits)
     is_whole = not isinstance(value, float) or value.is_integer()
     if not is_whole or not lowest <= number < lowest + count:
         raise ValueError(
-            f'{value!r} is no {type_name}, a whole number from {lowest} to {lowest + count - 1}')
+            f'{value!r} is no {type_name}, a whole number from {lowest} to {lowest + count - 1}'
+        )
     return number
 
 

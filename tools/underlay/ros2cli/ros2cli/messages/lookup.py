@@ -18,7 +18,8 @@ def get_message(name: str) -> Any:
         parts.insert(1, 'msg')
     if len(parts) != 3 or parts[1] != 'msg' or not all(part.isidentifier() for part in parts):
         raise UnknownType(
-            f"'{name}' is not of the form 'package/msg/Type', for example 'std_msgs/msg/String'")
+            f"'{name}' is not of the form 'package/msg/Type', for example 'std_msgs/msg/String'"
+        )
     package, kind, type_name = parts
     try:
         module = import_module(f'{package}.{kind}')
@@ -33,7 +34,8 @@ def get_message(name: str) -> Any:
 def _no_package_text(package: str, kind: str) -> str:
     return (
         f"the package '{package}' with its '{kind}' folder cannot be imported: is it "
-        'installed, or built and sourced?')
+        'installed, or built and sourced?'
+    )
 
 
 def _no_type_text(folder: str, name: str, names: dict[str, Any]) -> str:

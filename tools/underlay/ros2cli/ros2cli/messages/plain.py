@@ -21,7 +21,8 @@ def to_plain(value: Any, shortening: Shortening = Shortening(), field_type: str 
     if hasattr(value, 'get_fields_and_field_types'):
         return {
             name: to_plain(getattr(value, name), shortening, field_type)
-            for name, field_type in value.get_fields_and_field_types().items()}
+            for name, field_type in value.get_fields_and_field_types().items()
+        }
     if isinstance(value, dict):
         return {name: to_plain(value[name], shortening) for name in sorted(value)}
     if isinstance(value, (str, bytes)):
@@ -36,7 +37,7 @@ def _text(value: str | bytes, shortening: Shortening) -> str:
     if shortening.hide_strings:
         return f'<string length: <{len(text)}>>'
     if shortening.length is not None and len(text) > shortening.length:
-        return f'{text[:shortening.length]}...'
+        return f'{text[: shortening.length]}...'
     return text
 
 
@@ -44,7 +45,7 @@ def _array(value: Any, shortening: Shortening, field_type: str) -> Any:
     if shortening.hide_arrays:
         return _array_summary(len(value), field_type)
     cut = shortening.length is not None and len(value) > shortening.length
-    head = value[:shortening.length] if cut else value
+    head = value[: shortening.length] if cut else value
     items = head.tolist() if hasattr(head, 'tolist') else head
     inner = element_type(field_type)
     plain = [to_plain(item, shortening, inner) for item in items]
@@ -62,6 +63,6 @@ def _array_summary(length: int, field_type: str) -> str:
 def element_type(field_type: str) -> str:
     """Return `double` for `sequence<double>`, `sequence<double, 3>` and `double[3]`."""
     if field_type.startswith('sequence<'):
-        inner = field_type[len('sequence<'):-1]
+        inner = field_type[len('sequence<') : -1]
         return inner.rpartition(', ')[0] if inner.rpartition(', ')[2].isdigit() else inner
     return field_type.partition('[')[0]

@@ -6,20 +6,25 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from ros2cli.messages.plain import Shortening, to_plain
 import yaml
 
+from ros2cli.messages.plain import Shortening, to_plain
+
 Dumper: Any = getattr(yaml, 'CSafeDumper', yaml.SafeDumper)
-UNLIMITED_WIDTH = 2 ** 31 - 1
+UNLIMITED_WIDTH = 2**31 - 1
 
 
-def to_yaml(value: Any, shortening: Shortening = Shortening(), *,
-            flow_style: bool = False) -> str:
+def to_yaml(value: Any, shortening: Shortening = Shortening(), *, flow_style: bool = False) -> str:
     """Return a message as YAML, one field a line unless flow style is wanted."""
     plain = to_plain(value, shortening)
     text: str = yaml.dump(
-        plain, Dumper=Dumper, allow_unicode=True, sort_keys=False, width=UNLIMITED_WIDTH,
-        default_flow_style=flow_style)
+        plain,
+        Dumper=Dumper,
+        allow_unicode=True,
+        sort_keys=False,
+        width=UNLIMITED_WIDTH,
+        default_flow_style=flow_style,
+    )
     return text
 
 

@@ -20,19 +20,21 @@ from ros2cli.node.arguments import add_node_arguments as add_arguments
 from ros2cli.node.discovery import DEFAULT_SPIN_TIME, wait_until_stable
 from ros2cli.node.graph import take_snapshot
 
-__all__ = ['add_arguments', 'DirectNode']
+__all__ = ['DirectNode', 'add_arguments']
 
 
 INCOMPLETE = (
     'WARNING: a ROS process on this machine does not answer (is it stopped, or just starting?); '
-    'what follows may be incomplete')
+    'what follows may be incomplete'
+)
 
 
 class DirectNode:
     """A hidden node in a `with` statement; its attributes are those of the rclpy node."""
 
-    def __init__(self, args: argparse.Namespace | None, *, node_name: str | None = None,
-                 wait: bool = True) -> None:
+    def __init__(
+        self, args: argparse.Namespace | None, *, node_name: str | None = None, wait: bool = True
+    ) -> None:
         """Keep the options of the command line; nothing happens before the `with`."""
         self._spin_time_s: float = getattr(args, 'spin_time', None) or DEFAULT_SPIN_TIME
         self._use_sim_time: bool = getattr(args, 'use_sim_time', False)
@@ -43,10 +45,14 @@ class DirectNode:
         """Start rclpy and the node, and wait for discovery."""
         rclpy.init(args=[])
         self.node = rclpy.create_node(
-            self._node_name, start_parameter_services=False, enable_rosout=False,
+            self._node_name,
+            start_parameter_services=False,
+            enable_rosout=False,
             parameter_overrides=[
                 Parameter('use_sim_time', value=self._use_sim_time),
-                Parameter('start_type_description_service', value=False)])
+                Parameter('start_type_description_service', value=False),
+            ],
+        )
         self.executor = SingleThreadedExecutor()
         self.executor.add_node(self.node)
         if self._wait:
@@ -56,7 +62,8 @@ class DirectNode:
     def wait_for_graph(self, is_done: Callable[[], object] = bool) -> None:
         """Wait until discovery has settled, or has found what is looked for."""
         settled = wait_until_stable(
-            lambda: take_snapshot(self.node), self._spin_time_s, is_done=is_done)
+            lambda: take_snapshot(self.node), self._spin_time_s, is_done=is_done
+        )
         if not settled:
             print(INCOMPLETE, file=sys.stderr)
 
@@ -70,8 +77,12 @@ class DirectNode:
             raise AttributeError(f'the node exists only inside a with statement: {name!r}')
         return getattr(self.node, name)
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
-                 trace: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
         """End the node; an error because SIGTERM has ended rclpy becomes a clean end."""
         terminated = not rclpy.ok() and not isinstance(error, KeyboardInterrupt)
         interrupt = signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -31,9 +31,12 @@ class Snapshot(NamedTuple):
 
 
 def wait_until_stable(
-    take: Callable[[], Snapshot], spin_time_s: float, *,
+    take: Callable[[], Snapshot],
+    spin_time_s: float,
+    *,
     is_done: Callable[[], object] = bool,
-    now_s: Callable[[], float] = time.monotonic, sleep: Callable[[float], None] = time.sleep,
+    now_s: Callable[[], float] = time.monotonic,
+    sleep: Callable[[float], None] = time.sleep,
 ) -> bool:
     """
     Wait until the graph is complete and quiet for a short while, or `is_done()`.
@@ -45,7 +48,8 @@ def wait_until_stable(
     last, unchanged = take(), 0
     while not is_done() and now_s() - start < PATIENCE * spin_time_s:
         if unchanged >= QUIET_LOOKS and (
-                last.is_complete or _is_over(last, now_s() - start, spin_time_s)):
+            last.is_complete or _is_over(last, now_s() - start, spin_time_s)
+        ):
             break
         sleep(PERIOD_S)
         current = take()

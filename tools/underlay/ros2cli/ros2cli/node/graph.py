@@ -21,16 +21,20 @@ def take_snapshot(node: Any) -> Snapshot:
         tuple(sorted(node.get_node_names_and_namespaces())),
         tuple(sorted(name for name, _ in node.get_topic_names_and_types())),
         tuple(sorted(name for name, _ in node.get_service_names_and_types())),
-        len(endpoints))
+        len(endpoints),
+    )
     return Snapshot(content, _is_complete(node, endpoints))
 
 
 def foreign_topics(node: Any, names: list[str]) -> list[str]:
     """Return the topics which are not there just because of the node that asks."""
     return [
-        name for name in names
+        name
+        for name in names
         if name != TOPIC_OF_ALL_NODES
-        or foreign_publishers(node, name) or foreign_subscriptions(node, name)]
+        or foreign_publishers(node, name)
+        or foreign_subscriptions(node, name)
+    ]
 
 
 def foreign_publishers(node: Any, topic: str) -> list[Any]:
@@ -61,4 +65,5 @@ def _is_complete(node: Any, endpoints: list[Any]) -> bool | None:
 def _is_local_only() -> bool:
     """Tell if discovery is confined to this machine, where all participants are countable."""
     return os.environ.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '').upper() == 'LOCALHOST' and (
-        not os.environ.get('ROS_STATIC_PEERS'))
+        not os.environ.get('ROS_STATIC_PEERS')
+    )

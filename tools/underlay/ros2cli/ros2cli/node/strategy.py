@@ -6,4 +6,4 @@ from __future__ import annotations
 from ros2cli.node.arguments import add_strategy_arguments as add_arguments
 from ros2cli.node.direct import DirectNode as NodeStrategy
 
-__all__ = ['add_arguments', 'NodeStrategy']
+__all__ = ['NodeStrategy', 'add_arguments']

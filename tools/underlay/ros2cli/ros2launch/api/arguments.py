@@ -16,7 +16,8 @@ def parse_launch_arguments(texts: Sequence[str]) -> list[tuple[str, str]]:
         name, separator, value = text.partition(SEPARATOR)
         if not (separator and name and value):
             raise RuntimeError(
-                f"malformed launch argument '{text}', expected format '<name>:=<value>'")
+                f"malformed launch argument '{text}', expected format '<name>:=<value>'"
+            )
         values[name] = value
     return list(values.items())
 
@@ -32,5 +33,6 @@ def misspelt_argument_text(given: Iterable[str], declared: Iterable[str]) -> str
             return (
                 f"the launch file does not declare an argument '{name}'. "
                 f"Did you mean '{close[0]}'? Pass --allow-undeclared-arguments if "
-                f"'{name}' is meant, or --show-args to see the arguments")
+                f"'{name}' is meant, or --show-args to see the arguments"
+            )
     return ''

@@ -10,8 +10,12 @@ from ros2launch.api.arguments import misspelt_argument_text, parse_launch_argume
 
 
 def launch_a_launch_file(
-    *, launch_file_path: str, launch_file_arguments: Sequence[str],
-    noninteractive: bool = False, debug: bool = False, check_names: bool = True,
+    *,
+    launch_file_path: str,
+    launch_file_arguments: Sequence[str],
+    noninteractive: bool = False,
+    debug: bool = False,
+    check_names: bool = True,
 ) -> int:
     """Run a launch file until everything that it started has ended; return the status."""
     arguments = parse_launch_arguments(launch_file_arguments)
@@ -23,9 +27,11 @@ def launch_a_launch_file(
     if check_names and arguments:
         _check_names([name for name, _ in arguments], source)
     service = LaunchService(
-        argv=list(launch_file_arguments), noninteractive=noninteractive, debug=debug)
+        argv=list(launch_file_arguments), noninteractive=noninteractive, debug=debug
+    )
     service.include_launch_description(
-        LaunchDescription([IncludeLaunchDescription(source, launch_arguments=arguments)]))
+        LaunchDescription([IncludeLaunchDescription(source, launch_arguments=arguments)])
+    )
     status: int = service.run()
     return status
 

@@ -22,13 +22,18 @@ def get_share_file_path_from_package(*, package_name: str, file_name: str | None
     share = get_share_directory(package_name)
     paths = [
         os.path.join(root, file_name)
-        for root, _, names in os.walk(share) if file_name is not None and file_name in names]
+        for root, _, names in os.walk(share)
+        if file_name is not None and file_name in names
+    ]
     if not paths:
         raise FileNotFoundError(
             f"file '{file_name}' was not found in the share directory of package "
-            f"'{package_name}' which is at '{share}'")
+            f"'{package_name}' which is at '{share}'"
+        )
     if len(paths) > 1:
         raise MultipleLaunchFilesError(
             f"file '{file_name}' was found more than once in the share directory of package "
-            f"'{package_name}': {paths}", paths)
+            f"'{package_name}': {paths}",
+            paths,
+        )
     return paths[0]

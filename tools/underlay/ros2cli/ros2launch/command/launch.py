@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import os
 
 from ros2cli.command import CommandExtension
+
 from ros2launch.command.options import add_launch_options, prefix_arguments
 
 SHOW_ALL_OUTPUT = 'OVERRIDE_LAUNCH_PROCESS_OUTPUT'
@@ -16,32 +17,39 @@ SHOW_ALL_OUTPUT = 'OVERRIDE_LAUNCH_PROCESS_OUTPUT'
 class LaunchCommand(CommandExtension):
     """Run a launch file."""
 
-    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str, *,
-                      argv: Sequence[str] | None = None) -> None:
+    def add_arguments(
+        self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
+    ) -> None:
         """Add the options, the launch file and its arguments."""
         add_launch_options(parser)
 
-    def main(self, *, parser: argparse.ArgumentParser,
-             args: argparse.Namespace) -> int | str | None:
+    def main(
+        self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
+    ) -> int | str | None:
         """Show the arguments of the launch file, or run it."""
         from ros2launch.api.running import launch_a_launch_file
         from ros2launch.command.target import find_target
 
         prefix = prefix_arguments(args)
         path, arguments = find_target(
-            args.package_name, args.launch_file_name, args.launch_arguments)
+            args.package_name, args.launch_file_name, args.launch_arguments
+        )
         if args.show_all_subprocesses_output:
             os.environ[SHOW_ALL_OUTPUT] = 'both'
         if args.show_args:
             return _show(path, args.debug)
         return launch_a_launch_file(
-            launch_file_path=path, launch_file_arguments=arguments + prefix,
-            noninteractive=args.noninteractive, debug=args.debug,
-            check_names=not args.allow_undeclared_arguments)
+            launch_file_path=path,
+            launch_file_arguments=arguments + prefix,
+            noninteractive=args.noninteractive,
+            debug=args.debug,
+            check_names=not args.allow_undeclared_arguments,
+        )
 
 
 def _show(path: str, debug: bool) -> int | str | None:
     from launch import InvalidLaunchFileError
+
     from ros2launch.api.showing import print_arguments_of_launch_file
 
     try:

@@ -10,16 +10,37 @@ import sys
 def add_launch_options(parser: argparse.ArgumentParser) -> None:
     """Add all options, then the launch file and its arguments."""
     add = parser.add_argument
-    add('-n', '--noninteractive', action='store_true', default=not sys.stdin.isatty(),
-        help='Run the launch system non-interactively, with no terminal associated')
-    add('-d', '--debug', action='store_true',
-        help='Put the launch system in debug mode, provides more verbose output')
-    add('-s', '--show-args', '--show-arguments', action='store_true',
-        help='Show arguments that may be given to the launch file')
-    add('-a', '--show-all-subprocesses-output', action='store_true',
-        help="Show all launched subprocesses' output by overriding their output configuration")
-    add('--allow-undeclared-arguments', action='store_true',
-        help='Accept names of arguments that look like misspelt ones')
+    add(
+        '-n',
+        '--noninteractive',
+        action='store_true',
+        default=not sys.stdin.isatty(),
+        help='Run the launch system non-interactively, with no terminal associated',
+    )
+    add(
+        '-d',
+        '--debug',
+        action='store_true',
+        help='Put the launch system in debug mode, provides more verbose output',
+    )
+    add(
+        '-s',
+        '--show-args',
+        '--show-arguments',
+        action='store_true',
+        help='Show arguments that may be given to the launch file',
+    )
+    add(
+        '-a',
+        '--show-all-subprocesses-output',
+        action='store_true',
+        help="Show all launched subprocesses' output by overriding their output configuration",
+    )
+    add(
+        '--allow-undeclared-arguments',
+        action='store_true',
+        help='Accept names of arguments that look like misspelt ones',
+    )
     _add_prefix_options(parser)
     _add_positionals(parser)
 
@@ -28,9 +49,12 @@ def prefix_arguments(args: argparse.Namespace) -> list[str]:
     """Return the launch arguments that stand for the options --launch-prefix*."""
     if args.launch_prefix_filter is not None and args.launch_prefix is None:
         raise RuntimeError(
-            '--launch-prefix must be specified if --launch-prefix-filter is provided')
+            '--launch-prefix must be specified if --launch-prefix-filter is provided'
+        )
     values = {
-        'launch-prefix': args.launch_prefix, 'launch-prefix-filter': args.launch_prefix_filter}
+        'launch-prefix': args.launch_prefix,
+        'launch-prefix-filter': args.launch_prefix_filter,
+    }
     return [f'{name}:={value}' for name, value in values.items() if value is not None]
 
 
@@ -38,16 +62,23 @@ def _add_prefix_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '--launch-prefix',
         help='Prefix command, which should go before all executables, e.g. '
-        "--launch-prefix 'xterm -e gdb -ex run --args'")
+        "--launch-prefix 'xterm -e gdb -ex run --args'",
+    )
     parser.add_argument(
         '--launch-prefix-filter',
-        help='Regex pattern for filtering which executables the --launch-prefix is applied to')
+        help='Regex pattern for filtering which executables the --launch-prefix is applied to',
+    )
 
 
 def _add_positionals(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument('package_name', help='Name of the ROS package which contains the '
-                        'launch file, or the path of a launch file')
+    parser.add_argument(
+        'package_name',
+        help='Name of the ROS package which contains the '
+        'launch file, or the path of a launch file',
+    )
     parser.add_argument('launch_file_name', nargs='?', help='Name of the launch file')
-    parser.add_argument('launch_arguments', nargs='*',
-                        help="Arguments to the launch file; '<name>:=<value>' (for duplicates, "
-                        'last one wins)')
+    parser.add_argument(
+        'launch_arguments',
+        nargs='*',
+        help="Arguments to the launch file; '<name>:=<value>' (for duplicates, last one wins)",
+    )

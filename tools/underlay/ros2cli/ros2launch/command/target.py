@@ -5,14 +5,16 @@ from __future__ import annotations
 
 import os
 
-from ros2launch.api.share_files import get_share_file_path_from_package
-from ros2launch.api.share_files import MultipleLaunchFilesError
 from ros2pkg.api import get_share_directory, PackageNotFoundError
 from ros2pkg.api.missing import missing_package_by_name
 
+from ros2launch.api.share_files import get_share_file_path_from_package, MultipleLaunchFilesError
+
 
 def find_target(
-    package_or_path: str, file_name: str | None, arguments: list[str],
+    package_or_path: str,
+    file_name: str | None,
+    arguments: list[str],
 ) -> tuple[str, list[str]]:
     """Return the path of the launch file and its arguments, or raise a RuntimeError."""
     if os.path.isfile(package_or_path):

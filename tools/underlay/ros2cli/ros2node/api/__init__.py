@@ -9,7 +9,11 @@ from typing import Any, NamedTuple
 from ros2cli.node import HIDDEN_NODE_PREFIX
 
 __all__ = [
-    'get_node_names', 'node_sections', 'NodeName', 'shared_names', 'TopicInfo',
+    'NodeName',
+    'TopicInfo',
+    'get_node_names',
+    'node_sections',
+    'shared_names',
 ]
 
 
@@ -33,10 +37,13 @@ def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[Nod
     found = node.get_node_names_and_namespaces()
     names = (
         NodeName(name, namespace, f'{namespace.rstrip("/")}/{name}')
-        for name, namespace in found if name != node.get_name())
+        for name, namespace in found
+        if name != node.get_name()
+    )
     return sorted(
         (name for name in names if include_hidden_nodes or not _is_hidden(name)),
-        key=lambda name: name.full_name)
+        key=lambda name: name.full_name,
+    )
 
 
 def shared_names(names: list[NodeName]) -> list[str]:
@@ -46,7 +53,9 @@ def shared_names(names: list[NodeName]) -> list[str]:
 
 
 def node_sections(
-    node: Any, remote: NodeName, include_hidden: bool = False,
+    node: Any,
+    remote: NodeName,
+    include_hidden: bool = False,
 ) -> list[tuple[str, list[TopicInfo]]]:
     """Return the headings of `node info`, each with what a node has under it."""
     of_node = (remote.name, remote.namespace)
@@ -55,9 +64,13 @@ def node_sections(
     servers = node.get_service_names_and_types_by_node(*of_node)
     clients = node.get_client_names_and_types_by_node(*of_node)
     sections = [
-        ('Subscribers', subscribers), ('Publishers', publishers),
-        ('Service Servers', servers), ('Service Clients', clients),
-        ('Action Servers', _actions(servers)), ('Action Clients', _actions(clients))]
+        ('Subscribers', subscribers),
+        ('Publishers', publishers),
+        ('Service Servers', servers),
+        ('Service Clients', clients),
+        ('Action Servers', _actions(servers)),
+        ('Action Clients', _actions(clients)),
+    ]
     return [(title, _visible(found, include_hidden)) for title, found in sections]
 
 
@@ -74,5 +87,7 @@ def _actions(services: list[tuple[str, list[str]]]) -> list[tuple[str, list[str]
     """Return the actions behind the hidden services that each action consists of."""
     suffix = '/_action/send_goal'
     return [
-        (name[:-len(suffix)], [text.replace('_SendGoal', '') for text in types])
-        for name, types in services if name.endswith(suffix)]
+        (name[: -len(suffix)], [text.replace('_SendGoal', '') for text in types])
+        for name, types in services
+        if name.endswith(suffix)
+    ]

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.node.arguments import add_strategy_arguments
+
 from ros2node.verb import VerbExtension
 
 
@@ -17,12 +18,15 @@ class InfoVerb(VerbExtension):
         add_strategy_arguments(parser)
         parser.add_argument('node_name', help='Fully qualified node name to request information')
         parser.add_argument(
-            '--include-hidden', action='store_true',
-            help='Display hidden topics, services, and actions as well')
+            '--include-hidden',
+            action='store_true',
+            help='Display hidden topics, services, and actions as well',
+        )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print what the node publishes, subscribes to, serves and calls."""
         from ros2cli.node.strategy import NodeStrategy
+
         from ros2node.api import get_node_names, node_sections
 
         with NodeStrategy(args) as node:

@@ -7,6 +7,7 @@ import argparse
 import sys
 
 from ros2cli.node.arguments import add_strategy_arguments
+
 from ros2node.verb import VerbExtension
 
 
@@ -17,14 +18,19 @@ class ListVerb(VerbExtension):
         """Add the choice of nodes and of a mere count."""
         add_strategy_arguments(parser)
         parser.add_argument(
-            '-a', '--all', action='store_true', help='Display all nodes even hidden ones')
+            '-a', '--all', action='store_true', help='Display all nodes even hidden ones'
+        )
         parser.add_argument(
-            '-c', '--count-nodes', action='store_true',
-            help='Only display the number of nodes discovered')
+            '-c',
+            '--count-nodes',
+            action='store_true',
+            help='Only display the number of nodes discovered',
+        )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print one full name a line, or the count."""
         from ros2cli.node.strategy import NodeStrategy
+
         from ros2node.api import get_node_names, shared_names
 
         with NodeStrategy(args) as node:
@@ -42,4 +48,6 @@ def _warn_about(shared: list[str]) -> None:
     if shared:
         print(
             'WARNING: Be aware that there are nodes in the graph that share an exact name, '
-            f'which can have unintended side effects: {", ".join(shared)}', file=sys.stderr)
+            f'which can have unintended side effects: {", ".join(shared)}',
+            file=sys.stderr,
+        )

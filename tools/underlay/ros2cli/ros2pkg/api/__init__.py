@@ -7,12 +7,14 @@ from collections.abc import Iterator
 import os
 
 from ament_index_python.packages import get_package_prefix as _get_package_prefix
-from ament_index_python.packages import get_packages_with_prefixes
-from ament_index_python.packages import PackageNotFoundError
+from ament_index_python.packages import get_packages_with_prefixes, PackageNotFoundError
 
 __all__ = [
-    'get_executable_paths', 'get_package_names', 'get_package_prefix', 'get_share_directory',
     'PackageNotFoundError',
+    'get_executable_paths',
+    'get_package_names',
+    'get_package_prefix',
+    'get_share_directory',
 ]
 
 

@@ -15,10 +15,12 @@ class PkgCommand(VerbCommand):
         'create': Entry('ros2pkg.verb.create:CreateVerb', 'Create a new ROS 2 package'),
         'executables': Entry(
             'ros2pkg.verb.executables:ExecutablesVerb',
-            'Output a list of package specific executables'),
+            'Output a list of package specific executables',
+        ),
         'list': Entry('ros2pkg.verb.list:ListVerb', 'Output a list of available packages'),
         'prefix': Entry('ros2pkg.verb.prefix:PrefixVerb', 'Output the prefix path of a package'),
         'xml': Entry(
             'ros2pkg.verb.xml_manifest:XmlVerb',
-            'Output the XML of the package manifest or a specific tag'),
+            'Output the XML of the package manifest or a specific tag',
+        ),
     }

@@ -4,4 +4,4 @@
 from ros2pkg.create.description import PackageDescription
 from ros2pkg.create.package import create_package
 
-__all__ = ['create_package', 'PackageDescription']
+__all__ = ['PackageDescription', 'create_package']

@@ -14,11 +14,13 @@ def refusal(args: argparse.Namespace, package_folder: str) -> str:
     if os.path.isdir(package_folder):
         return (
             f'\nAborted!\nThe directory already exists: {package_folder}\nEither remove the '
-            'directory or choose a different destination directory or package name')
+            'directory or choose a different destination directory or package name'
+        )
     if args.build_type == 'cmake':
         return (
             "The build type 'cmake' is not supported here. Choose --build-type ament_python "
-            'for a Python package, or --build-type ament_cmake for a C++ package.')
+            'for a Python package, or --build-type ament_cmake for a C++ package.'
+        )
     return _python_refusal(args) if args.build_type == 'ament_python' else _cmake_refusal(args)
 
 
@@ -26,7 +28,8 @@ def _cmake_refusal(args: argparse.Namespace) -> str:
     if args.library_name:
         return (
             '--library-name is supported only for Python packages here. Add '
-            '--build-type ament_python, or leave --library-name out.')
+            '--build-type ament_python, or leave --library-name out.'
+        )
     return ''
 
 
@@ -34,10 +37,13 @@ def _python_refusal(args: argparse.Namespace) -> str:
     if args.package_name == 'test':
         return (
             "A package of the build type 'ament_python' cannot be named 'test', because its "
-            'folder of tests has this name already. Please choose a different package name.')
+            'folder of tests has this name already. Please choose a different package name.'
+        )
     names = {
-        'package': args.package_name, '--node-name': args.node_name,
-        '--library-name': args.library_name}
+        'package': args.package_name,
+        '--node-name': args.node_name,
+        '--library-name': args.library_name,
+    }
     problems = (_module_problem(what, name) for what, name in names.items() if name)
     return next(filter(None, problems), '')
 
@@ -49,7 +55,8 @@ def _module_problem(what: str, name: str) -> str:
     better = re.sub(r'^(?=\d)', 'n', re.sub(r'\W', '_', name))
     return (
         f"{what} '{name}' is no name of a Python module: use letters, digits and underscores "
-        f"only, for example '{better}'.")
+        f"only, for example '{better}'."
+    )
 
 
 def renamed_node(node_name: str | None, library_name: str | None) -> str | None:
@@ -58,5 +65,7 @@ def renamed_node(node_name: str | None, library_name: str | None) -> str | None:
         return node_name
     print(
         '[WARNING] node name can not be equal to the library name\n'
-        f'[WARNING] renaming node to {node_name}_node', file=sys.stderr)
+        f'[WARNING] renaming node to {node_name}_node',
+        file=sys.stderr,
+    )
     return f'{node_name}_node'

@@ -30,4 +30,5 @@ def unknown_license_warning(identifier: str) -> str:
     return (
         f"\n[WARNING]: Unknown license '{identifier}'.  This has been set in the package.xml, "
         'but no LICENSE file has been created.\n'
-        f'It is recommended to use one of the ament license identifiers:\n{choices}')
+        f'It is recommended to use one of the ament license identifiers:\n{choices}'
+    )

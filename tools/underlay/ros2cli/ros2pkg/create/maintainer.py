@@ -10,8 +10,8 @@ def default_email(name: str) -> str:
     """Return the address that git knows, else one that is obviously to be replaced."""
     try:
         result = subprocess.run(
-            ['git', 'config', '--get', 'user.email'], capture_output=True, text=True,
-            check=False)
+            ['git', 'config', '--get', 'user.email'], capture_output=True, text=True, check=False
+        )
     except OSError:
         return f'{name}@todo.todo'
     return result.stdout.strip() or f'{name}@todo.todo'

@@ -21,7 +21,8 @@ def manifest_text(description: PackageDescription) -> str:
         f'<?xml-model href="{schema}" schematypens="http://www.w3.org/2001/XMLSchema"?>\n'
         f'<package format="{description.package_format}">\n{body}\n\n'
         f'  <export>\n    <build_type>{description.build_type}</build_type>\n  </export>\n'
-        '</package>\n')
+        '</package>\n'
+    )
 
 
 def _facts(description: PackageDescription) -> list[str]:
@@ -39,7 +40,8 @@ def _dependencies(description: PackageDescription) -> list[str]:
     tools = ['ament_cmake'] if description.build_type == 'ament_cmake' else []
     return [
         *(_element('buildtool_depend', name) for name in tools),
-        *(_element('depend', name) for name in description.dependencies)]
+        *(_element('depend', name) for name in description.dependencies),
+    ]
 
 
 def _tests(description: PackageDescription) -> list[str]:

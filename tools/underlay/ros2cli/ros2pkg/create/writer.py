@@ -18,7 +18,7 @@ class Writer:
         """Create a folder, if it does not exist yet."""
         self._make(os.path.join(self.package_folder, relative))
 
-    def file(self, relative: str, text: str = '') -> None:  # noqa: A003
+    def file(self, relative: str, text: str = '') -> None:
         """Create a file with its text."""
         path = os.path.join(self.package_folder, relative)
         print(f'creating {path}')

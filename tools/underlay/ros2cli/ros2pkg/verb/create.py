@@ -13,10 +13,10 @@ from ros2pkg.create.licenses import known_licenses, unknown_license_warning
 from ros2pkg.create.maintainer import default_email
 from ros2pkg.verb import VerbExtension
 
-
 MISSING_NAME = (
     'the following arguments are required: package_name (give it before --dependencies, which '
-    'takes all names that follow: {} --build-type ament_python my_package --dependencies rclpy)')
+    'takes all names that follow: {} --build-type ament_python my_package --dependencies rclpy)'
+)
 
 
 class CreateVerb(VerbExtension):
@@ -27,23 +27,44 @@ class CreateVerb(VerbExtension):
         self._parser, self._cli_name = parser, cli_name
         add = parser.add_argument
         add('package_name', nargs='?', help='The package name')
-        add('--package-format', '--package_format', type=int, default=3, choices=[2, 3],
-            help='The package.xml format')
-        add('--description', default='TODO: Package description',
-            help='The description given in the package.xml')
-        add('--license', default='TODO: License declaration',
+        add(
+            '--package-format',
+            '--package_format',
+            type=int,
+            default=3,
+            choices=[2, 3],
+            help='The package.xml format',
+        )
+        add(
+            '--description',
+            default='TODO: Package description',
+            help='The description given in the package.xml',
+        )
+        add(
+            '--license',
+            default='TODO: License declaration',
             help='The license attached to this package; this can be an arbitrary string, but '
             'a LICENSE file will only be generated if it is one of the supported licenses '
-            "(pass '?' to get a list)")
-        add('--destination-directory', default=os.curdir,
-            help='Directory where to create the package directory')
-        add('--build-type', default='ament_cmake',
+            "(pass '?' to get a list)",
+        )
+        add(
+            '--destination-directory',
+            default=os.curdir,
+            help='Directory where to create the package directory',
+        )
+        add(
+            '--build-type',
+            default='ament_cmake',
             choices=['cmake', 'ament_cmake', 'ament_python'],
-            help='The build type to process the package with')
+            help='The build type to process the package with',
+        )
         add('--dependencies', nargs='+', default=[], help='list of dependencies')
         add('--maintainer-email', help='email address of the maintainer of this package')
-        add('--maintainer-name', default=getpass.getuser(),
-            help='name of the maintainer of this package')
+        add(
+            '--maintainer-name',
+            default=getpass.getuser(),
+            help='name of the maintainer of this package',
+        )
         add('--node-name', help='name of the empty executable')
         add('--library-name', help='name of the empty library')
 
@@ -70,9 +91,14 @@ class CreateVerb(VerbExtension):
 
 def _description(args: argparse.Namespace) -> PackageDescription:
     return PackageDescription(
-        name=args.package_name, package_format=args.package_format, build_type=args.build_type,
-        description=args.description, license_id=args.license,
+        name=args.package_name,
+        package_format=args.package_format,
+        build_type=args.build_type,
+        description=args.description,
+        license_id=args.license,
         maintainer_name=args.maintainer_name,
         maintainer_email=args.maintainer_email or default_email(args.maintainer_name),
-        dependencies=tuple(args.dependencies), node_name=args.node_name,
-        library_name=args.library_name)
+        dependencies=tuple(args.dependencies),
+        node_name=args.node_name,
+        library_name=args.library_name,
+    )

@@ -18,7 +18,8 @@ class ExecutablesVerb(VerbExtension):
         """Add the package's name and the choice of full paths."""
         parser.add_argument('package_name', nargs='?', help='The package name')
         parser.add_argument(
-            '--full-path', action='store_true', help='Show the full path of each executable')
+            '--full-path', action='store_true', help='Show the full path of each executable'
+        )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the executables of one package, or of all."""

@@ -17,7 +17,8 @@ class PrefixVerb(VerbExtension):
         """Add the package's name and the choice of the share folder."""
         parser.add_argument('package_name', help='The package name')
         parser.add_argument(
-            '--share', action='store_true', help='show share directory for the package')
+            '--share', action='store_true', help='show share directory for the package'
+        )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the folder."""

@@ -7,7 +7,7 @@ import os
 
 from ros2run.api.child import run_child
 
-__all__ = ['get_executable_path', 'MultipleExecutables', 'run_executable']
+__all__ = ['MultipleExecutables', 'get_executable_path', 'run_executable']
 
 
 class MultipleExecutables(Exception):
@@ -24,8 +24,10 @@ def get_executable_path(*, package_name: str, executable_name: str) -> str | Non
     from ros2pkg.api import get_executable_paths
 
     paths = [
-        path for path in get_executable_paths(package_name=package_name)
-        if os.path.basename(path) == executable_name]
+        path
+        for path in get_executable_paths(package_name=package_name)
+        if os.path.basename(path) == executable_name
+    ]
     if len(paths) > 1:
         raise MultipleExecutables(paths)
     return paths[0] if paths else None

@@ -14,26 +14,34 @@ from ros2cli.command import CommandExtension
 class RunCommand(CommandExtension):
     """Run a package specific executable."""
 
-    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str, *,
-                      argv: Sequence[str] | None = None) -> None:
+    def add_arguments(
+        self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
+    ) -> None:
         """Add the arguments; all that follows the executable's name belongs to it."""
-        parser.add_argument('--prefix', help='Prefix command, which should go before the '
-                            "executable, e.g. --prefix 'gdb -ex run --args'")
+        parser.add_argument(
+            '--prefix',
+            help='Prefix command, which should go before the '
+            "executable, e.g. --prefix 'gdb -ex run --args'",
+        )
         parser.add_argument('package_name', help='Name of the ROS package')
         parser.add_argument('executable_name', help='Name of the executable')
-        parser.add_argument('argv', nargs=argparse.REMAINDER,
-                            help='Pass arbitrary arguments to the executable')
+        parser.add_argument(
+            'argv', nargs=argparse.REMAINDER, help='Pass arbitrary arguments to the executable'
+        )
 
-    def main(self, *, parser: argparse.ArgumentParser,
-             args: argparse.Namespace) -> int | str | None:
+    def main(
+        self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
+    ) -> int | str | None:
         """Find the executable and run it until it ends."""
         from ros2pkg.api import PackageNotFoundError
         from ros2pkg.api.missing import missing_package_by_name
+
         from ros2run.api import get_executable_path, MultipleExecutables, run_executable
 
         try:
             path = get_executable_path(
-                package_name=args.package_name, executable_name=args.executable_name)
+                package_name=args.package_name, executable_name=args.executable_name
+            )
         except PackageNotFoundError:
             return missing_package_by_name(args.package_name)
         except MultipleExecutables as error:

@@ -11,14 +11,18 @@ __all__ = ['get_topic_names_and_types', 'get_topic_types', 'is_hidden', 'unknown
 
 
 def get_topic_names_and_types(
-    *, node: Any, include_hidden_topics: bool = False,
+    *,
+    node: Any,
+    include_hidden_topics: bool = False,
 ) -> list[tuple[str, list[str]]]:
     """Return the topics that others publish or subscribe to, sorted, with their types."""
     found = dict(node.get_topic_names_and_types())
     names = foreign_topics(node, list(found))
     return [
-        (name, found[name]) for name in sorted(names)
-        if include_hidden_topics or not is_hidden(name)]
+        (name, found[name])
+        for name in sorted(names)
+        if include_hidden_topics or not is_hidden(name)
+    ]
 
 
 def get_topic_types(node: Any, topic: str) -> list[str]:

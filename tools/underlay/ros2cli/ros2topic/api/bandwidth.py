@@ -26,7 +26,8 @@ class BandwidthMeter:
         return (
             f'{human_bytes(per_second)}/s from {len(sizes)} messages\n\tMessage size mean: '
             f'{human_bytes(sum(sizes) / len(sizes))} min: {human_bytes(min(sizes))} '
-            f'max: {human_bytes(max(sizes))}')
+            f'max: {human_bytes(max(sizes))}'
+        )
 
 
 def human_bytes(count: float) -> str:

@@ -30,4 +30,5 @@ class DelayMeter:
         spread = sqrt(sum((delay - mean) ** 2 for delay in delays) / len(delays))
         return (
             f'average delay: {mean:.3f}\n\tmin: {min(delays):.3f}s max: {max(delays):.3f}s '
-            f'std dev: {spread:.5f}s window: {len(delays)}')
+            f'std dev: {spread:.5f}s window: {len(delays)}'
+        )

@@ -30,8 +30,7 @@ def echo(node: Any, topic: str, message_type: Any, args: argparse.Namespace) -> 
 class Listener:
     """A subscription that prints what it receives."""
 
-    def __init__(self, node: Any, topic: str, message_type: Any,
-                 args: argparse.Namespace) -> None:
+    def __init__(self, node: Any, topic: str, message_type: Any, args: argparse.Namespace) -> None:
         """Subscribe with the quality of service that the publishers offer."""
         profile, notices = choose_qos(args, settled_publishers(node, topic))
         for notice in notices:
@@ -40,9 +39,11 @@ class Listener:
         self._once = args.once
         self._print = printer(args)
         events = SubscriptionEventCallbacks(
-            message_lost=None if args.no_lost_messages else _report_lost)
+            message_lost=None if args.no_lost_messages else _report_lost
+        )
         self._subscription = node.create_subscription(
-            message_type, topic, self._receive, profile, event_callbacks=events, raw=args.raw)
+            message_type, topic, self._receive, profile, event_callbacks=events, raw=args.raw
+        )
 
     def _receive(self, message: Any, info: Any) -> None:
         if not (self._once and self.count):
@@ -54,4 +55,6 @@ def _report_lost(status: Any) -> None:
     print(
         'A message was lost!!!\n'
         f'\ttotal count change:{status.total_count_change}\n'
-        f'\ttotal count: {status.total_count}', end='---\n')
+        f'\ttotal count: {status.total_count}',
+        end='---\n',
+    )

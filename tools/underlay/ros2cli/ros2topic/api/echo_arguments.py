@@ -16,25 +16,43 @@ def add_echo_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _add_form(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add('--csv', action='store_true',
-        help='Output all recursive fields separated by commas (e.g. for plotting)')
+    add(
+        '--csv',
+        action='store_true',
+        help='Output all recursive fields separated by commas (e.g. for plotting)',
+    )
     add('--field', help='Echo a selected field of a message, e.g. "pose.position"')
-    add('-f', '--full-length', action='store_true',
-        help='Output all elements for arrays, bytes, and string')
-    add('-l', '--truncate-length', type=int, default=DEFAULT_TRUNCATE_LENGTH,
-        help='The length to truncate arrays, bytes, and string to (default: %(default)s)')
+    add(
+        '-f',
+        '--full-length',
+        action='store_true',
+        help='Output all elements for arrays, bytes, and string',
+    )
+    add(
+        '-l',
+        '--truncate-length',
+        type=int,
+        default=DEFAULT_TRUNCATE_LENGTH,
+        help='The length to truncate arrays, bytes, and string to (default: %(default)s)',
+    )
     add('--no-arr', action='store_true', help="Don't print array fields of messages")
     add('--no-str', action='store_true', help="Don't print string fields of messages")
-    add('--flow-style', action='store_true',
-        help='Print collections in the flow style, on one line')
+    add(
+        '--flow-style',
+        action='store_true',
+        help='Print collections in the flow style, on one line',
+    )
     add('--raw', action='store_true', help='Echo the raw binary representation')
-    add('-i', '--include-message-info', action='store_true',
-        help='Shows the associated message info')
+    add(
+        '-i',
+        '--include-message-info',
+        action='store_true',
+        help='Shows the associated message info',
+    )
 
 
 def _add_limits(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add('--no-lost-messages', action='store_true', help="Don't report when a message is lost")
-    add('--once', action='store_true',
-        help='Print the first message received and then exit')
+    add('--once', action='store_true', help='Print the first message received and then exit')
     add('--timeout', metavar='SECONDS', type=float, help='Stop after this time')

@@ -16,7 +16,8 @@ SEPARATOR = '---'
 def printer(args: argparse.Namespace) -> Callable[[Any, Any], None]:
     """Return the function that prints a message and its info as the options say."""
     shortening = Shortening(
-        None if args.full_length else args.truncate_length, args.no_arr, args.no_str)
+        None if args.full_length else args.truncate_length, args.no_arr, args.no_str
+    )
 
     def print_message(message: Any, info: Any) -> None:
         value = nested_field(message, args.field) if args.field else message

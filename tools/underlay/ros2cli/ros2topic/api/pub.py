@@ -35,8 +35,9 @@ def publish(node: Any, message: OutgoingMessage, args: argparse.Namespace) -> No
     _spin_until(node, time.monotonic() + args.keep_alive)
 
 
-def _publish_one(node: Any, publisher: Any, message: OutgoingMessage, count: int,
-                 args: argparse.Namespace) -> None:
+def _publish_one(
+    node: Any, publisher: Any, message: OutgoingMessage, count: int, args: argparse.Namespace
+) -> None:
     outgoing = message.stamped(node.get_clock().now().to_msg())
     if args.print and count % args.print == 0:
         print(f'publishing #{count}: {outgoing!r}\n')
@@ -54,7 +55,8 @@ def _wait_for_subscriptions(node: Any, publisher: Any, args: argparse.Namespace)
         if args.max_wait_time_secs is not None and now - start > args.max_wait_time_secs:
             raise RuntimeError(
                 f'Timed out waiting for subscribers: Expected {wanted} subcribers but only got '
-                f'{publisher.get_subscription_count()} subscribers')
+                f'{publisher.get_subscription_count()} subscribers'
+            )
         if now >= announced:
             print(f'Waiting for at least {wanted} matching subscription(s)...')
             announced = now + ANNOUNCE_S

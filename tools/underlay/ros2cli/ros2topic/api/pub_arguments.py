@@ -14,39 +14,66 @@ def add_pub_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument('message_type', help="Type of the ROS message (e.g. 'std_msgs/String')")
     source = parser.add_mutually_exclusive_group()
     source.add_argument(
-        'values', nargs='?', default='{}',
+        'values',
+        nargs='?',
+        default='{}',
         help='Values to fill the message with in YAML format (e.g. "data: Hello World"), '
-        'otherwise the message will be published with default values')
-    source.add_argument(
-        '--stdin', action='store_true', help='Read values from standard input')
+        'otherwise the message will be published with default values',
+    )
+    source.add_argument('--stdin', action='store_true', help='Read values from standard input')
     _add_count(parser)
     _add_waiting(parser)
 
 
 def _add_count(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        '-r', '--rate', metavar='N', type=positive_number, default=1.0,
-        help='Publishing rate in Hz (default: 1)')
+        '-r',
+        '--rate',
+        metavar='N',
+        type=positive_number,
+        default=1.0,
+        help='Publishing rate in Hz (default: 1)',
+    )
     parser.add_argument(
-        '-p', '--print', metavar='N', type=int, default=1,
-        help='Only print every N-th published message (default: 1)')
+        '-p',
+        '--print',
+        metavar='N',
+        type=int,
+        default=1,
+        help='Only print every N-th published message (default: 1)',
+    )
     group = parser.add_mutually_exclusive_group()
+    group.add_argument('-1', '--once', action='store_true', help='Publish one message and exit')
     group.add_argument(
-        '-1', '--once', action='store_true', help='Publish one message and exit')
-    group.add_argument(
-        '-t', '--times', type=positive_int, default=0, metavar='N',
-        help='Publish this number of times and then exit')
+        '-t',
+        '--times',
+        type=positive_int,
+        default=0,
+        metavar='N',
+        help='Publish this number of times and then exit',
+    )
     parser.add_argument('-n', '--node-name', help='Name of the created publishing node')
 
 
 def _add_waiting(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        '-w', '--wait-matching-subscriptions', type=int, metavar='N',
+        '-w',
+        '--wait-matching-subscriptions',
+        type=int,
+        metavar='N',
         help='Wait until finding the specified number of matching subscriptions; defaults to 1 '
-        'with --once or --times, otherwise to 0')
+        'with --once or --times, otherwise to 0',
+    )
     parser.add_argument(
-        '--max-wait-time-secs', type=positive_number, metavar='SECONDS',
-        help='Give up waiting for matching subscriptions after this time')
+        '--max-wait-time-secs',
+        type=positive_number,
+        metavar='SECONDS',
+        help='Give up waiting for matching subscriptions after this time',
+    )
     parser.add_argument(
-        '--keep-alive', metavar='SECONDS', type=positive_number, default=0.1,
-        help='Keep the publishing node alive this long after the last message (default: 0.1)')
+        '--keep-alive',
+        metavar='SECONDS',
+        type=positive_number,
+        default=0.1,
+        help='Keep the publishing node alive this long after the last message (default: 0.1)',
+    )

@@ -8,12 +8,20 @@ from typing import Any
 
 from rclpy.duration import Duration
 from rclpy.qos import (
-    DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSPresetProfiles, QoSProfile,
-    ReliabilityPolicy)
+    DurabilityPolicy,
+    HistoryPolicy,
+    LivelinessPolicy,
+    QoSPresetProfiles,
+    QoSProfile,
+    ReliabilityPolicy,
+)
 
 POLICY_TYPES: dict[str, Any] = {
-    'history': HistoryPolicy, 'reliability': ReliabilityPolicy,
-    'durability': DurabilityPolicy, 'liveliness': LivelinessPolicy}
+    'history': HistoryPolicy,
+    'reliability': ReliabilityPolicy,
+    'durability': DurabilityPolicy,
+    'liveliness': LivelinessPolicy,
+}
 
 
 def choose_qos(args: argparse.Namespace, publishers: list[Any]) -> tuple[QoSProfile, list[str]]:
@@ -33,10 +41,14 @@ def matching_qos(publishers: list[Any]) -> tuple[QoSProfile, list[str]]:
     profiles = [info.qos_profile for info in publishers]
     profile.reliability, first = _common(
         [each.reliability for each in profiles],
-        ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT)
+        ReliabilityPolicy.RELIABLE,
+        ReliabilityPolicy.BEST_EFFORT,
+    )
     profile.durability, second = _common(
         [each.durability for each in profiles],
-        DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE)
+        DurabilityPolicy.TRANSIENT_LOCAL,
+        DurabilityPolicy.VOLATILE,
+    )
     return profile, [notice for notice in (first, second) if notice]
 
 
@@ -60,12 +72,21 @@ def _common(offered: list[Any], strong: Any, weak: Any) -> tuple[Any, str]:
         return (strong if count else weak), ''
     return weak, (
         f'Some, but not all, publishers are offering {strong}. Falling back to {weak} as it '
-        'will connect to all publishers')
+        'will connect to all publishers'
+    )
 
 
 def copy_profile(profile: Any) -> QoSProfile:
     """Return a profile of one's own, since the presets are shared."""
     names = (
-        'history', 'depth', 'reliability', 'durability', 'lifespan', 'deadline', 'liveliness',
-        'liveliness_lease_duration', 'avoid_ros_namespace_conventions')
+        'history',
+        'depth',
+        'reliability',
+        'durability',
+        'lifespan',
+        'deadline',
+        'liveliness',
+        'liveliness_lease_duration',
+        'avoid_ros_namespace_conventions',
+    )
     return QoSProfile(**{name: getattr(profile, name) for name in names})

@@ -6,30 +6,44 @@ from __future__ import annotations
 import argparse
 
 PROFILES = (
-    'unknown', 'default', 'system_default', 'sensor_data', 'services_default', 'parameters',
-    'parameter_events', 'action_status_default', 'best_available')
+    'unknown',
+    'default',
+    'system_default',
+    'sensor_data',
+    'services_default',
+    'parameters',
+    'parameter_events',
+    'action_status_default',
+    'best_available',
+)
 POLICIES = {
     'history': ('system_default', 'keep_last', 'keep_all', 'unknown'),
     'reliability': ('system_default', 'reliable', 'best_effort', 'unknown', 'best_available'),
-    'durability': (
-        'system_default', 'transient_local', 'volatile', 'unknown', 'best_available'),
-    'liveliness': (
-        'system_default', 'automatic', 'manual_by_topic', 'unknown', 'best_available'),
+    'durability': ('system_default', 'transient_local', 'volatile', 'unknown', 'best_available'),
+    'liveliness': ('system_default', 'automatic', 'manual_by_topic', 'unknown', 'best_available'),
 }
 
 
 def add_qos_arguments(parser: argparse.ArgumentParser, role: str) -> None:
     """Add the profile and the single policies of a publisher or subscription."""
     parser.add_argument(
-        '--qos-profile', choices=PROFILES,
+        '--qos-profile',
+        choices=PROFILES,
         help=f'Quality of service preset profile of the {role}; by default it follows the '
-        'other side')
+        'other side',
+    )
     parser.add_argument(
-        '--qos-depth', metavar='N', type=int, help=f'Queue size setting of the {role}')
+        '--qos-depth', metavar='N', type=int, help=f'Queue size setting of the {role}'
+    )
     for policy, choices in POLICIES.items():
         parser.add_argument(
-            f'--qos-{policy}', choices=choices,
-            help=f'Quality of service {policy} setting of the {role}')
+            f'--qos-{policy}',
+            choices=choices,
+            help=f'Quality of service {policy} setting of the {role}',
+        )
     parser.add_argument(
-        '--qos-liveliness-lease-duration-seconds', metavar='SECONDS', type=float,
-        help=f'Quality of service liveliness lease duration setting of the {role}')
+        '--qos-liveliness-lease-duration-seconds',
+        metavar='SECONDS',
+        type=float,
+        help=f'Quality of service liveliness lease duration setting of the {role}',
+    )

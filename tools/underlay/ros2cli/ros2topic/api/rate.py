@@ -36,4 +36,5 @@ class RateMeter:
         spread = sqrt(sum((period - mean) ** 2 for period in periods) / len(periods))
         return (
             f'average rate: {rate:.3f}\n\tmin: {min(periods):.3f}s max: {max(periods):.3f}s '
-            f'std dev: {spread:.5f}s window: {len(periods) + 1}')
+            f'std dev: {spread:.5f}s window: {len(periods) + 1}'
+        )

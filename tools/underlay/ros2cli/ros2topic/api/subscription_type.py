@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from ros2cli.messages.lookup import get_message, UnknownType
+
 from ros2topic.api.waiting import find_types
 
 
@@ -25,6 +26,6 @@ def _discovered_type(node: Any, topic: str) -> str:
         raise RuntimeError('Could not determine the type for the passed topic')
     if len(types) > 1:
         raise RuntimeError(
-            f"Cannot echo topic '{topic}', as it contains more than one type: "
-            f'[{", ".join(types)}]')
+            f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]"
+        )
     return types[0]

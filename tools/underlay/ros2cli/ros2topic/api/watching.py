@@ -16,7 +16,11 @@ QUEUE_DEPTH = 1000
 
 
 def subscribe_when_published(
-    node: Any, topic: str, callback: Callable[[Any], None], *, raw: bool = True,
+    node: Any,
+    topic: str,
+    callback: Callable[[Any], None],
+    *,
+    raw: bool = True,
 ) -> Any:
     """Wait for a topic as long as it takes and return a subscription that fits it."""
     _wait_until_published(node, topic)

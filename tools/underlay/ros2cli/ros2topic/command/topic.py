@@ -17,10 +17,12 @@ class TopicCommand(VerbCommand):
     VERBS = {
         'bw': Entry('ros2topic.verb.bw:BwVerb', 'Display bandwidth used by topic'),
         'delay': Entry(
-            'ros2topic.verb.delay:DelayVerb', 'Display delay of topic from timestamp in header'),
+            'ros2topic.verb.delay:DelayVerb', 'Display delay of topic from timestamp in header'
+        ),
         'echo': Entry('ros2topic.verb.echo:EchoVerb', 'Output messages from a topic'),
         'find': Entry(
-            'ros2topic.verb.find:FindVerb', 'Output a list of available topics of a given type'),
+            'ros2topic.verb.find:FindVerb', 'Output a list of available topics of a given type'
+        ),
         'hz': Entry('ros2topic.verb.hz:HzVerb', 'Print the average publishing rate to screen'),
         'info': Entry('ros2topic.verb.info:InfoVerb', 'Print information about a topic'),
         'list': Entry('ros2topic.verb.list:ListVerb', 'Output a list of available topics'),
@@ -28,10 +30,11 @@ class TopicCommand(VerbCommand):
         'type': Entry('ros2topic.verb.type:TypeVerb', "Print a topic's type"),
     }
 
-    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str, *,
-                      argv: Sequence[str] | None = None) -> None:
+    def add_arguments(
+        self, parser: argparse.ArgumentParser, cli_name: str, *, argv: Sequence[str] | None = None
+    ) -> None:
         """Add the option that all verbs share, then the verbs."""
         parser.add_argument(
-            '--include-hidden-topics', action='store_true',
-            help='Consider hidden topics as well')
+            '--include-hidden-topics', action='store_true', help='Consider hidden topics as well'
+        )
         super().add_arguments(parser, cli_name, argv=argv)

@@ -8,6 +8,7 @@ import time
 from typing import Any
 
 from ros2cli.node.arguments import add_strategy_arguments
+
 from ros2topic.api.argument_types import positive_int
 from ros2topic.api.bandwidth import BandwidthMeter
 from ros2topic.verb import VerbExtension
@@ -23,13 +24,19 @@ class BwVerb(VerbExtension):
         add_strategy_arguments(parser)
         parser.add_argument('topic_name', help='Topic name to monitor for bandwidth utilization')
         parser.add_argument(
-            '-w', '--window', type=positive_int, default=DEFAULT_WINDOW, metavar='WINDOW',
+            '-w',
+            '--window',
+            type=positive_int,
+            default=DEFAULT_WINDOW,
+            metavar='WINDOW',
             help='maximum window size, in number of messages, for calculating rate '
-            '(default: %(default)s)')
+            '(default: %(default)s)',
+        )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print a report every second until the user stops it."""
         from ros2cli.node.direct import DirectNode
+
         from ros2topic.api.reporting import report_for_ever
         from ros2topic.api.waiting import absolute
         from ros2topic.api.watching import subscribe_when_published

@@ -7,6 +7,7 @@ import argparse
 from typing import Any
 
 from ros2cli.node.arguments import add_strategy_arguments
+
 from ros2topic.api.argument_types import positive_int
 from ros2topic.api.delay import DelayMeter
 from ros2topic.verb import VerbExtension
@@ -22,13 +23,19 @@ class DelayVerb(VerbExtension):
         add_strategy_arguments(parser)
         parser.add_argument('topic_name', help='Topic name to calculate the delay for')
         parser.add_argument(
-            '-w', '--window', type=positive_int, default=DEFAULT_WINDOW, metavar='WINDOW',
+            '-w',
+            '--window',
+            type=positive_int,
+            default=DEFAULT_WINDOW,
+            metavar='WINDOW',
             help='window size, in number of messages, for calculating delay '
-            '(default: %(default)s)')
+            '(default: %(default)s)',
+        )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print a report every second until the user stops it."""
         from ros2cli.node.direct import DirectNode
+
         from ros2topic.api.reporting import report_for_ever
         from ros2topic.api.waiting import absolute
         from ros2topic.api.watching import subscribe_when_published
@@ -36,6 +43,7 @@ class DelayVerb(VerbExtension):
         topic = absolute(args.topic_name)
         meter = DelayMeter(args.window)
         with DirectNode(args, wait=False) as node:
+
             def count(message: Any) -> None:
                 now_s = node.get_clock().now().nanoseconds / 1e9
                 meter.add(now_s - _stamp_s(message))

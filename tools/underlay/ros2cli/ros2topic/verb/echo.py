@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.node.arguments import add_strategy_arguments
+
 from ros2topic.api.echo_arguments import add_echo_arguments
 from ros2topic.api.qos_arguments import add_qos_arguments
 from ros2topic.verb import VerbExtension
@@ -18,16 +19,18 @@ class EchoVerb(VerbExtension):
         """Add the topic, the quality of service and the form of the output."""
         add_strategy_arguments(parser)
         parser.add_argument(
-            'topic_name', help="Name of the ROS topic to listen to (e.g. '/chatter')")
+            'topic_name', help="Name of the ROS topic to listen to (e.g. '/chatter')"
+        )
         parser.add_argument(
-            'message_type', nargs='?',
-            help="Type of the ROS message (e.g. 'std_msgs/msg/String')")
+            'message_type', nargs='?', help="Type of the ROS message (e.g. 'std_msgs/msg/String')"
+        )
         add_qos_arguments(parser, 'subscription')
         add_echo_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print messages until enough have come or the user stops it."""
         from ros2cli.node.direct import DirectNode
+
         from ros2topic.api.echo import echo
         from ros2topic.api.subscription_type import resolve_type
         from ros2topic.api.waiting import absolute

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.node.arguments import add_strategy_arguments
+
 from ros2topic.api.argument_types import positive_int
 from ros2topic.verb import VerbExtension
 
@@ -19,18 +20,26 @@ class HzVerb(VerbExtension):
         """Add the topic and the measurement's properties."""
         add_strategy_arguments(parser)
         parser.add_argument(
-            'topic_name', help="Name of the ROS topic to listen to (e.g. '/chatter')")
+            'topic_name', help="Name of the ROS topic to listen to (e.g. '/chatter')"
+        )
         parser.add_argument(
-            '-w', '--window', type=positive_int, default=DEFAULT_WINDOW, metavar='WINDOW',
-            help='window size, in number of messages, for calculating rate '
-            '(default: %(default)s)')
+            '-w',
+            '--window',
+            type=positive_int,
+            default=DEFAULT_WINDOW,
+            metavar='WINDOW',
+            help='window size, in number of messages, for calculating rate (default: %(default)s)',
+        )
         parser.add_argument(
-            '--wall-time', action='store_true',
-            help='calculates rate using wall time, also with --use-sim-time')
+            '--wall-time',
+            action='store_true',
+            help='calculates rate using wall time, also with --use-sim-time',
+        )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print a report every second until the user stops it."""
         from ros2cli.node.direct import DirectNode
+
         from ros2topic.api.hz import print_rate
         from ros2topic.api.waiting import absolute
 

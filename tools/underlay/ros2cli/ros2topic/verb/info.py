@@ -7,6 +7,7 @@ import argparse
 from typing import Any
 
 from ros2cli.node.arguments import add_strategy_arguments
+
 from ros2topic.verb import VerbExtension
 
 
@@ -17,16 +18,21 @@ class InfoVerb(VerbExtension):
         """Add the topic's name and the choice of details."""
         add_strategy_arguments(parser)
         parser.add_argument(
-            'topic_name', help="Name of the ROS topic to get info (e.g. '/chatter')")
+            'topic_name', help="Name of the ROS topic to get info (e.g. '/chatter')"
+        )
         parser.add_argument(
-            '-v', '--verbose', action='store_true',
+            '-v',
+            '--verbose',
+            action='store_true',
             help='Prints detailed information like the node name, node namespace, topic type, '
-            'GID, and QoS Profile of the publishers and subscribers to this topic')
+            'GID, and QoS Profile of the publishers and subscribers to this topic',
+        )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the type and the endpoints."""
         from ros2cli.node.graph import foreign_publishers, foreign_subscriptions
         from ros2cli.node.strategy import NodeStrategy
+
         from ros2topic.api import get_topic_types, unknown_topic_text
 
         with NodeStrategy(args) as node:

@@ -7,6 +7,7 @@ import argparse
 from typing import Any
 
 from ros2cli.node.arguments import add_strategy_arguments
+
 from ros2topic.verb import VerbExtension
 
 
@@ -17,26 +18,34 @@ class ListVerb(VerbExtension):
         """Add what to show of each topic."""
         add_strategy_arguments(parser)
         parser.add_argument(
-            '-t', '--show-types', action='store_true',
-            help='Additionally show the topic type')
+            '-t', '--show-types', action='store_true', help='Additionally show the topic type'
+        )
         parser.add_argument(
-            '-c', '--count-topics', action='store_true',
-            help='Only display the number of topics discovered')
+            '-c',
+            '--count-topics',
+            action='store_true',
+            help='Only display the number of topics discovered',
+        )
         parser.add_argument(
-            '--include-hidden-topics', action='store_true', default=argparse.SUPPRESS,
-            help='Consider hidden topics as well')
+            '--include-hidden-topics',
+            action='store_true',
+            default=argparse.SUPPRESS,
+            help='Consider hidden topics as well',
+        )
         parser.add_argument(
-            '-v', '--verbose', action='store_true',
-            help='List full details about each topic')
+            '-v', '--verbose', action='store_true', help='List full details about each topic'
+        )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the topics, or their count."""
         from ros2cli.node.strategy import NodeStrategy
+
         from ros2topic.api import get_topic_names_and_types
 
         with NodeStrategy(args) as node:
             topics = get_topic_names_and_types(
-                node=node, include_hidden_topics=args.include_hidden_topics)
+                node=node, include_hidden_topics=args.include_hidden_topics
+            )
             if args.count_topics:
                 print(len(topics))
             elif args.verbose:
@@ -51,11 +60,11 @@ def _print_verbose(node: Any, topics: list[tuple[str, list[str]]]) -> None:
     from ros2cli.node.graph import foreign_publishers, foreign_subscriptions
 
     print('Published topics:')
-    _print_counts(topics, [len(foreign_publishers(node, name)) for name, _ in topics],
-                  'publisher')
+    _print_counts(topics, [len(foreign_publishers(node, name)) for name, _ in topics], 'publisher')
     print('\nSubscribed topics:')
-    _print_counts(topics, [len(foreign_subscriptions(node, name)) for name, _ in topics],
-                  'subscriber')
+    _print_counts(
+        topics, [len(foreign_subscriptions(node, name)) for name, _ in topics], 'subscriber'
+    )
 
 
 def _print_counts(topics: list[tuple[str, list[str]]], counts: list[int], what: str) -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.node.arguments import add_strategy_arguments
+
 from ros2topic.verb import VerbExtension
 
 
@@ -16,11 +17,13 @@ class TypeVerb(VerbExtension):
         """Add the topic's name."""
         add_strategy_arguments(parser)
         parser.add_argument(
-            'topic_name', help="Name of the ROS topic to get type (e.g. '/chatter')")
+            'topic_name', help="Name of the ROS topic to get type (e.g. '/chatter')"
+        )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print all types of the topic; without one the status is 1."""
         from ros2cli.node.strategy import NodeStrategy
+
         from ros2topic.api import get_topic_types
 
         with NodeStrategy(args) as node:
