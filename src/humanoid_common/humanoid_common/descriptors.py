@@ -5,9 +5,8 @@ from __future__ import annotations
 
 import sys
 
-from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
-
 from humanoid_common.parameters import ParameterSpec
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 
 _LARGEST_INTEGER = 2**63 - 1
 

@@ -7,10 +7,6 @@ from collections.abc import Callable
 from dataclasses import asdict
 from typing import Any, Generic, TypeVar
 
-from rcl_interfaces.msg import SetParametersResult
-from rclpy.node import Node
-from rclpy.parameter import Parameter
-
 from humanoid_common.descriptors import descriptor_of
 from humanoid_common.parameters import (
     build,
@@ -19,6 +15,9 @@ from humanoid_common.parameters import (
     unknown_parameter_warnings,
     widened,
 )
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.node import Node
+from rclpy.parameter import Parameter
 
 T = TypeVar('T')
 _WIDER = {

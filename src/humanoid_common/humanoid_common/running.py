@@ -6,15 +6,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 import sys
 
+from humanoid_common.errors import NodeStartError
+from humanoid_common.interrupts import stop_on_signals
+from humanoid_common.stop_request import StopRequest
 import rclpy
 from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
-
-from humanoid_common.errors import NodeStartError
-from humanoid_common.interrupts import stop_on_signals
-from humanoid_common.stop_request import StopRequest
 
 NodeFactory = Callable[[], Node]
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from humanoid_common.ticks import Ticks
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
-
-from humanoid_common.ticks import Ticks
 
 _NANOSECONDS = 1_000_000_000
 

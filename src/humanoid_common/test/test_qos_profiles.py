@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
+from humanoid_common import qos
 import pytest
 from rclpy.qos import DurabilityPolicy, qos_check_compatible, QoSCompatibility, ReliabilityPolicy
-
-from humanoid_common import qos
 
 
 @pytest.mark.parametrize(

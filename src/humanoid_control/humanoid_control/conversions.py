@@ -4,9 +4,8 @@
 from __future__ import annotations
 
 from builtin_interfaces.msg import Time
-from sensor_msgs.msg import JointState
-
 from humanoid_control.sine_motion import Motion
+from sensor_msgs.msg import JointState
 
 
 def command_message(motion: Motion, now_s: float, stamp: Time) -> JointState:

@@ -10,11 +10,10 @@ from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.qos import COMMAND
 from humanoid_common.running import run_node
 from humanoid_common.steady import SteadyTimer
-from rclpy.node import Node
-from sensor_msgs.msg import JointState
-
 from humanoid_control.conversions import command_message
 from humanoid_control.joint_controller_parameters import JointControllerParameters
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
 
 
 class HumanoidJointController(Node):

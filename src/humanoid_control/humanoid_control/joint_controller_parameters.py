@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import math
 
 from humanoid_common.parameters import parameter, ParameterError
-
 from humanoid_control.sine_motion import Motion, motion_of
 
 

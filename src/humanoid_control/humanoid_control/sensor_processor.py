@@ -10,11 +10,10 @@ from typing import Any
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.qos import STATE
 from humanoid_common.running import run_node
-from rclpy.node import Node
-from sensor_msgs.msg import JointState
-
 from humanoid_control.joint_report import JointReporter
 from humanoid_control.sensor_processor_parameters import SensorProcessorParameters
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
 
 
 class SensorProcessor(Node):

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 import math
-from statistics import median
 
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.joint_controller import HumanoidJointController
@@ -60,14 +59,10 @@ def test_rate_changes_without_a_jump(ros: RosSandbox) -> None:
     assert node.set_parameters([Parameter('rate_hz', value=100.0)])[0].successful
     commands.clear()
     ros.wait_until(lambda: len(commands) >= 40, what='faster commands')
-    stamps_s = [c.header.stamp.sec + c.header.stamp.nanosec * 1e-9 for c in commands]
-    steps_s = [later - earlier for earlier, later in zip(stamps_s, stamps_s[1:])]
-    assert 0.008 < median(steps_s) < 0.02
-    speeds = [
-        abs(later.position[0] - earlier.position[0]) / step_s
-        for earlier, later, step_s in zip(commands, commands[1:], steps_s)
-    ]
-    assert median(speeds) < 0.55
+    positions_rad = [command.position[0] for command in commands[2:]]
+    steps_rad = [later - earlier for earlier, later in zip(positions_rad, positions_rad[1:])]
+    # The joint starts at 0.5 rad/s and slows down: at most 5 mrad in the 10 ms between commands.
+    assert all(0.001 < step_rad < 0.0051 for step_rad in steps_rad)
 
 
 def test_refused_change(ros: RosSandbox) -> None:

@@ -11,7 +11,6 @@ from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
 from humanoid_common.running import run_node
 from rclpy.node import Node
-
 from robot_control.urdf import parse_urdf
 
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from humanoid_common.naming import did_you_mean
-
 from robot_control.errors import UrdfError
 from robot_control.robot_model import RobotModel
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from humanoid_common.parameters import parameter, ParameterError
-
 from temperature_monitor.thermometer import Thermometer
 
 _COLDEST = -273.15

@@ -11,7 +11,6 @@ from humanoid_common.qos import STATE
 from humanoid_common.running import run_node
 from rclpy.node import Node
 from sensor_msgs.msg import Temperature
-
 from temperature_monitor.heat_alarm import HeatAlarm
 from temperature_monitor.settings import AnalyzerParameters
 

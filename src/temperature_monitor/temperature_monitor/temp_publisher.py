@@ -12,7 +12,6 @@ from humanoid_common.running import run_node
 from humanoid_common.steady import SteadyTimer
 from rclpy.node import Node
 from sensor_msgs.msg import Temperature
-
 from temperature_monitor.settings import PublisherParameters
 from temperature_monitor.thermometer import generator_of
 

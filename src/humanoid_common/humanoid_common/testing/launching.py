@@ -7,11 +7,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
+from humanoid_common.testing.processes import module_command, running_program, RunningProgram
 from launch import LaunchContext, LaunchDescription, LaunchDescriptionEntity
 from launch.actions import DeclareLaunchArgument
 from launch.launch_description_sources import AnyLaunchDescriptionSource
-
-from humanoid_common.testing.processes import module_command, running_program, RunningProgram
 
 
 @contextmanager

@@ -9,13 +9,12 @@ import os
 from typing import Any, TypeVar
 
 from domain_coordinator import domain_id
+from humanoid_common.testing.waiting import wait_until
 import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-
-from humanoid_common.testing.waiting import wait_until
 
 NodeT = TypeVar('NodeT', bound=Node)
 

@@ -67,7 +67,8 @@ def test_node(run: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.Monke
     assert parameters['single'] is False
 
 
-NAMES = ('a', 'a1', '_a', '', '1a', 'a-b', 'a b', 'a/b', 'a' * 255, 'a' * 256, '\u00e9', '~a', 'A_b')
+NAMES = (
+    'a', 'a1', '_a', '', '1a', 'a-b', 'a b', 'a/b', 'a' * 255, 'a' * 256, '\u00e9', '~a', 'A_b')
 NAMESPACES = ('/', '/a', '/a/b', 'a', '', '/a/', '//a', '/a//b', '/1a', '/a b', '/_a', '/a-b')
 
 

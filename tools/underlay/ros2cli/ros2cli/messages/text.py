@@ -6,9 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-import yaml
-
 from ros2cli.messages.plain import Shortening, to_plain
+import yaml
 
 Dumper: Any = getattr(yaml, 'CSafeDumper', yaml.SafeDumper)
 UNLIMITED_WIDTH = 2**31 - 1

@@ -14,7 +14,6 @@ from typing import Any
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.parameter import Parameter
-
 from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.node.arguments import add_node_arguments as add_arguments
 from ros2cli.node.discovery import DEFAULT_SPIN_TIME, wait_until_stable

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 import os
 
 from ros2cli.command import CommandExtension
-
 from ros2launch.command.options import add_launch_options, prefix_arguments
 
 SHOW_ALL_OUTPUT = 'OVERRIDE_LAUNCH_PROCESS_OUTPUT'
@@ -49,7 +48,6 @@ class LaunchCommand(CommandExtension):
 
 def _show(path: str, debug: bool) -> int | str | None:
     from launch import InvalidLaunchFileError
-
     from ros2launch.api.showing import print_arguments_of_launch_file
 
     try:

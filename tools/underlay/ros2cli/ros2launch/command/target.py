@@ -5,10 +5,9 @@ from __future__ import annotations
 
 import os
 
+from ros2launch.api.share_files import get_share_file_path_from_package, MultipleLaunchFilesError
 from ros2pkg.api import get_share_directory, PackageNotFoundError
 from ros2pkg.api.missing import missing_package_by_name
-
-from ros2launch.api.share_files import get_share_file_path_from_package, MultipleLaunchFilesError
 
 
 def find_target(

@@ -6,7 +6,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.node.arguments import add_strategy_arguments
-
 from ros2node.verb import VerbExtension
 
 
@@ -26,7 +25,6 @@ class InfoVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print what the node publishes, subscribes to, serves and calls."""
         from ros2cli.node.strategy import NodeStrategy
-
         from ros2node.api import get_node_names, node_sections
 
         with NodeStrategy(args) as node:

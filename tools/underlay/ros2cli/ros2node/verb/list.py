@@ -7,7 +7,6 @@ import argparse
 import sys
 
 from ros2cli.node.arguments import add_strategy_arguments
-
 from ros2node.verb import VerbExtension
 
 
@@ -30,7 +29,6 @@ class ListVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print one full name a line, or the count."""
         from ros2cli.node.strategy import NodeStrategy
-
         from ros2node.api import get_node_names, shared_names
 
         with NodeStrategy(args) as node:

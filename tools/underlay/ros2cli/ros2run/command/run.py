@@ -35,7 +35,6 @@ class RunCommand(CommandExtension):
         """Find the executable and run it until it ends."""
         from ros2pkg.api import PackageNotFoundError
         from ros2pkg.api.missing import missing_package_by_name
-
         from ros2run.api import get_executable_path, MultipleExecutables, run_executable
 
         try:

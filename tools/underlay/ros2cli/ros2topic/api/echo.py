@@ -8,7 +8,6 @@ import time
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
-
 from ros2topic.api.printing import printer
 from ros2topic.api.qos import choose_qos
 from ros2topic.api.waiting import Patience, settled_publishers

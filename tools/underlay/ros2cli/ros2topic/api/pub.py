@@ -8,7 +8,6 @@ import time
 from typing import Any
 
 from rclpy.qos import QoSPresetProfiles
-
 from ros2topic.api.outgoing import OutgoingMessage
 from ros2topic.api.qos import copy_profile, override
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 from typing import Any
 
 from ros2cli.messages.lookup import get_message, UnknownType
-
 from ros2topic.api.waiting import find_types
 
 

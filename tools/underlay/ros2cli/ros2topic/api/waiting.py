@@ -8,7 +8,6 @@ import time
 from typing import Any
 
 from ros2cli.node.graph import foreign_publishers
-
 from ros2topic.api import get_topic_types
 
 PERIOD_S = 0.02

@@ -8,7 +8,6 @@ import time
 from typing import Any
 
 from ros2cli.node.arguments import add_strategy_arguments
-
 from ros2topic.api.argument_types import positive_int
 from ros2topic.api.bandwidth import BandwidthMeter
 from ros2topic.verb import VerbExtension
@@ -36,7 +35,6 @@ class BwVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print a report every second until the user stops it."""
         from ros2cli.node.direct import DirectNode
-
         from ros2topic.api.reporting import report_for_ever
         from ros2topic.api.waiting import absolute
         from ros2topic.api.watching import subscribe_when_published

@@ -7,7 +7,6 @@ import argparse
 from typing import Any
 
 from ros2cli.node.arguments import add_strategy_arguments
-
 from ros2topic.api.argument_types import positive_int
 from ros2topic.api.delay import DelayMeter
 from ros2topic.verb import VerbExtension
@@ -35,7 +34,6 @@ class DelayVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print a report every second until the user stops it."""
         from ros2cli.node.direct import DirectNode
-
         from ros2topic.api.reporting import report_for_ever
         from ros2topic.api.waiting import absolute
         from ros2topic.api.watching import subscribe_when_published

@@ -6,7 +6,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.node.arguments import add_strategy_arguments
-
 from ros2topic.api.echo_arguments import add_echo_arguments
 from ros2topic.api.qos_arguments import add_qos_arguments
 from ros2topic.verb import VerbExtension
@@ -30,7 +29,6 @@ class EchoVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print messages until enough have come or the user stops it."""
         from ros2cli.node.direct import DirectNode
-
         from ros2topic.api.echo import echo
         from ros2topic.api.subscription_type import resolve_type
         from ros2topic.api.waiting import absolute

@@ -6,7 +6,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.node.arguments import add_strategy_arguments
-
 from ros2topic.verb import VerbExtension
 
 
@@ -36,7 +35,6 @@ class FindVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the topics of the type, or their number."""
         from ros2cli.node.strategy import NodeStrategy
-
         from ros2topic.api import get_topic_names_and_types
 
         with NodeStrategy(args) as node:

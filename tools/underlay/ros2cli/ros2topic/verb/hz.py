@@ -6,7 +6,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.node.arguments import add_strategy_arguments
-
 from ros2topic.api.argument_types import positive_int
 from ros2topic.verb import VerbExtension
 
@@ -39,7 +38,6 @@ class HzVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print a report every second until the user stops it."""
         from ros2cli.node.direct import DirectNode
-
         from ros2topic.api.hz import print_rate
         from ros2topic.api.waiting import absolute
 

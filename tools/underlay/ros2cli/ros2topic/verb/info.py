@@ -7,7 +7,6 @@ import argparse
 from typing import Any
 
 from ros2cli.node.arguments import add_strategy_arguments
-
 from ros2topic.verb import VerbExtension
 
 
@@ -32,7 +31,6 @@ class InfoVerb(VerbExtension):
         """Print the type and the endpoints."""
         from ros2cli.node.graph import foreign_publishers, foreign_subscriptions
         from ros2cli.node.strategy import NodeStrategy
-
         from ros2topic.api import get_topic_types, unknown_topic_text
 
         with NodeStrategy(args) as node:

@@ -7,7 +7,6 @@ import argparse
 from typing import Any
 
 from ros2cli.node.arguments import add_strategy_arguments
-
 from ros2topic.verb import VerbExtension
 
 
@@ -39,7 +38,6 @@ class ListVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the topics, or their count."""
         from ros2cli.node.strategy import NodeStrategy
-
         from ros2topic.api import get_topic_names_and_types
 
         with NodeStrategy(args) as node:

@@ -7,7 +7,6 @@ import argparse
 import sys
 
 from ros2cli.node.arguments import add_node_arguments
-
 from ros2topic.api.pub_arguments import add_pub_arguments
 from ros2topic.api.qos_arguments import add_qos_arguments
 from ros2topic.verb import VerbExtension
@@ -25,7 +24,6 @@ class PubVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Publish until enough is published or the user stops it."""
         from ros2cli.node.direct import DirectNode
-
         from ros2topic.api.outgoing import OutgoingMessage
         from ros2topic.api.pub import publish
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.node.arguments import add_strategy_arguments
-
 from ros2topic.verb import VerbExtension
 
 
@@ -23,7 +22,6 @@ class TypeVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print all types of the topic; without one the status is 1."""
         from ros2cli.node.strategy import NodeStrategy
-
         from ros2topic.api import get_topic_types
 
         with NodeStrategy(args) as node:
