@@ -11,6 +11,7 @@ import commands
 from console import SetupError
 from locations import Locations
 import processes
+from programs import runs, wait_until
 import pytest
 from stamp import Stamp
 
@@ -88,4 +89,4 @@ def test_an_interruption_ends_what_was_started(monkeypatch: pytest.MonkeyPatch) 
             pids = [process.pid, int(process.stdout.readline())]
             raise KeyboardInterrupt
     assert len(pids) == 2
-    assert not any(Path(f'/proc/{pid}/cwd').exists() for pid in pids)
+    wait_until(lambda: not any(runs(pid) for pid in pids), 5.0, f'{pids} to end')

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Programs that tests start, watch and end, with everything that these start in turn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import os
+from pathlib import Path
+import signal
+import subprocess
+import time
+from typing import Any
+import uuid
+
+MARK = 'STARTED_BY_TEST'
+
+
+class Program:
+    """A program whose whole output is kept and whose descendants are known by a mark."""
+
+    def __init__(
+        self, command: list[str], output: Path, env: dict[str, str] | None = None
+    ) -> None:
+        """Start it; its output goes to the file."""
+        self._output = output
+        self._mark = f'{MARK}={uuid.uuid4().hex}'
+        name, _, value = self._mark.partition('=')
+        with output.open('wb') as stream:
+            self.process = subprocess.Popen(
+                command,
+                env={**(os.environ if env is None else env), name: value},
+                stdin=subprocess.DEVNULL,
+                stdout=stream,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+
+    @property
+    def output(self) -> str:
+        """Return what it printed so far."""
+        return self._output.read_text(errors='replace')
+
+    def wait_for(self, text: str, timeout_s: float = 60.0) -> None:
+        """Wait until it prints a text."""
+        self._wait(lambda: text in self.output, timeout_s, f'{text!r} in')
+
+    def end(self, number: int = signal.SIGINT, timeout_s: float = 20.0) -> int:
+        """Send it a signal and wait for its end; return the exit status."""
+        self.process.send_signal(number)
+        self._wait(lambda: self.process.poll() is not None, timeout_s, 'the end of')
+        return self.process.returncode
+
+    def members(self) -> list[int]:
+        """Return it and its descendants, as far as they run."""
+        pids = [int(name) for name in os.listdir('/proc') if name.isdigit()]
+        return [pid for pid in pids if self._mark.encode() in _environment(pid) and runs(pid)]
+
+    def clean_up(self) -> None:
+        """Kill whatever is left."""
+        for pid in self.members():
+            os.kill(pid, signal.SIGKILL)
+        self.process.wait()
+
+    def _wait(self, done: Callable[[], bool], timeout_s: float, what: str) -> None:
+        wait_until(done, timeout_s, lambda: f'{what} the output\n{self.output}')
+
+
+def wait_until(done: Callable[[], Any], timeout_s: float, what: str | Callable[[], str]) -> None:
+    """Wait until a condition holds."""
+    end_s = time.monotonic() + timeout_s
+    while not done():
+        text = what if isinstance(what, str) else what()
+        assert time.monotonic() < end_s, f'waited {timeout_s} s in vain for {text}'
+        time.sleep(0.02)
+
+
+def runs(pid: int) -> bool:
+    """Tell whether a process is there and is more than a zombie."""
+    try:
+        with open(f'/proc/{pid}/stat') as file:
+            return file.read().rpartition(')')[2].split()[0] != 'Z'
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+
+
+def _environment(pid: int) -> bytes:
+    try:
+        with open(f'/proc/{pid}/environ', 'rb') as file:
+            return file.read()
+    except OSError:
+        return b''
