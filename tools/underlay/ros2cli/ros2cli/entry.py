@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 
 
 class Entry(NamedTuple):
-    """Where the class of a command or verb is defined, and its help without importing it."""
+    """Where the class of a command or verb is defined, and what it does, without importing it."""
 
     target: str
-    help: str
+    summary: str
     hidden: bool = False
 
     def create(self) -> Any:

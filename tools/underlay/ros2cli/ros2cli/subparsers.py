@@ -32,7 +32,7 @@ def add_lazy_subparsers(
     for entry_name, entry in entries.items():
         subparser = subparsers.add_parser(
             entry_name,
-            description=entry.help,
+            description=entry.summary,
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
         if entry_name == name:
@@ -67,7 +67,8 @@ def _split(argv: Sequence[str]) -> tuple[str | None, Sequence[str]]:
         if word in ('-h', '--help'):
             break
         if not word.startswith('-'):
-            return word, argv[index + 1 :]
+            following = index + 1
+            return word, argv[following:]
     return None, ()
 
 
@@ -104,7 +105,7 @@ def _add_chosen(
 def _listing(entries: Mapping[str, Entry]) -> str:
     shown = {name: entry for name, entry in entries.items() if not entry.hidden}
     width = max((len(name) for name in shown), default=0)
-    return '\n'.join(f'{name:<{width}}  {entry.help}' for name, entry in shown.items())
+    return '\n'.join(f'{name:<{width}}  {entry.summary}' for name, entry in shown.items())
 
 
 def _unknown_text(metavar: str, name: str, entries: Mapping[str, Entry]) -> str:

@@ -73,7 +73,7 @@ def test_missing_argument_is_error_of_verb(capsys: pytest.CaptureFixture[str]) -
 def test_table_agrees_with_docstring(entry: Entry) -> None:
     """The help in the static table is the first line of the class's docstring."""
     first_line = (type(entry.create()).__doc__ or '').strip().split('\n')[0]
-    assert first_line == f'{entry.help}.'
+    assert first_line == f'{entry.summary}.'
 
 
 def test_verbs_of_other_packages_are_found(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -63,6 +63,6 @@ def _array_summary(length: int, field_type: str) -> str:
 def element_type(field_type: str) -> str:
     """Return `double` for `sequence<double>`, `sequence<double, 3>` and `double[3]`."""
     if field_type.startswith('sequence<'):
-        inner = field_type[len('sequence<') : -1]
+        inner = field_type.removeprefix('sequence<').removesuffix('>')
         return inner.rpartition(', ')[0] if inner.rpartition(', ')[2].isdigit() else inner
     return field_type.partition('[')[0]

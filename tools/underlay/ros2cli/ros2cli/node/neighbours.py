@@ -51,4 +51,4 @@ def _own_sockets() -> Iterator[str]:
         except OSError:
             continue
         if target.startswith('socket:['):
-            yield target[len('socket:[') : -1]
+            yield target.removeprefix('socket:[').removesuffix(']')
