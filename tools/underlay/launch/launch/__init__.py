@@ -5,36 +5,38 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ._lazy import lazy_exports
+from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from . import actions
-    from . import conditions
-    from . import descriptions
-    from . import event_handlers
-    from . import events
-    from . import frontend
-    from . import launch_description_sources
-    from . import logging
-    from . import substitutions
-    from . import utilities
-    from .action import Action
-    from .condition import Condition
-    from .event import Event
-    from .event_handler import EventHandler
-    from .invalid_launch_file_error import InvalidLaunchFileError
-    from .launch_context import LaunchContext
-    from .launch_description import LaunchDescription
-    from .launch_description_entity import LaunchDescriptionEntity
-    from .launch_description_source import LaunchDescriptionSource
-    from .launch_service import LaunchService
-    from .some_actions_type import SomeActionsType
-    from .some_actions_type import SomeActionsType_types_tuple
-    from .some_entities_type import SomeEntitiesType
-    from .some_entities_type import SomeEntitiesType_types_tuple
-    from .some_substitutions_type import SomeSubstitutionsType
-    from .some_substitutions_type import SomeSubstitutionsType_types_tuple
-    from .substitution import Substitution
+    from launch import (
+        actions,
+        conditions,
+        descriptions,
+        event_handlers,
+        events,
+        frontend,
+        launch_description_sources,
+        logging,
+        substitutions,
+        utilities,
+    )
+    from launch.action import Action
+    from launch.condition import Condition
+    from launch.event import Event
+    from launch.event_handler import EventHandler
+    from launch.invalid_launch_file_error import InvalidLaunchFileError
+    from launch.launch_context import LaunchContext
+    from launch.launch_description import LaunchDescription
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.launch_description_source import LaunchDescriptionSource
+    from launch.launch_service import LaunchService
+    from launch.some_actions_type import SomeActionsType, SomeActionsType_types_tuple
+    from launch.some_entities_type import SomeEntitiesType, SomeEntitiesType_types_tuple
+    from launch.some_substitutions_type import (
+        SomeSubstitutionsType,
+        SomeSubstitutionsType_types_tuple,
+    )
+    from launch.substitution import Substitution
 
 __all__ = [
     'Action',

@@ -4,19 +4,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Dict, List, Tuple
 
-from .actions.declare_launch_argument import DeclareLaunchArgument
-from .actions.include_launch_description import IncludeLaunchDescription
-from .actions.reset_launch_configurations import ResetLaunchConfigurations
-from .launch_description_entity import LaunchDescriptionEntity
+from launch.actions.declare_launch_argument import DeclareLaunchArgument
+from launch.actions.include_launch_description import IncludeLaunchDescription
+from launch.actions.reset_launch_configurations import ResetLaunchConfigurations
+from launch.launch_description_entity import LaunchDescriptionEntity
 
-Found = Dict[str, Tuple[DeclareLaunchArgument, List[IncludeLaunchDescription]]]
+Found = dict[str, tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]]
 
 
 def find_arguments(
-    entities: Iterable[LaunchDescriptionEntity], conditional: bool,
-) -> List[Tuple[DeclareLaunchArgument, List[IncludeLaunchDescription]]]:
+    entities: Iterable[LaunchDescriptionEntity],
+    conditional: bool,
+) -> list[tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]]:
     """Return the first declaration of each name, with the includes that lead to it."""
     found: Found = {}
     _search(entities, conditional, [], found)
@@ -26,7 +26,7 @@ def find_arguments(
 def _search(
     entities: Iterable[LaunchDescriptionEntity],
     conditional: bool,
-    includes: List[IncludeLaunchDescription],
+    includes: list[IncludeLaunchDescription],
     found: Found,
 ) -> None:
     """Search depth-first; behind a reset of the configurations nothing can be told."""
@@ -42,7 +42,7 @@ def _search(
 def _note(
     argument: DeclareLaunchArgument,
     conditional: bool,
-    includes: List[IncludeLaunchDescription],
+    includes: list[IncludeLaunchDescription],
     found: Found,
 ) -> None:
     """Keep the declaration unless its name is known already."""
@@ -52,7 +52,9 @@ def _note(
 
 
 def _descend(
-    entity: LaunchDescriptionEntity, includes: List[IncludeLaunchDescription], found: Found,
+    entity: LaunchDescriptionEntity,
+    includes: list[IncludeLaunchDescription],
+    found: Found,
 ) -> None:
     """Search what an entity brings in; only its direct children count as conditional."""
     if isinstance(entity, IncludeLaunchDescription):

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Dict, List
+from typing import Any
 
 
 class ContextLocals:
@@ -12,12 +12,12 @@ class ContextLocals:
 
     def __init__(self) -> None:
         """Create an empty set of variables."""
-        self._globals: Dict[str, Any] = {}
-        self._locals: Dict[str, Any] = {}
-        self._stack: List[Dict[str, Any]] = []
+        self._globals: dict[str, Any] = {}
+        self._locals: dict[str, Any] = {}
+        self._stack: list[dict[str, Any]] = []
         self.view = LocalsView(self)
 
-    def as_dict(self) -> Dict[str, Any]:
+    def as_dict(self) -> dict[str, Any]:
         """Return a copy of all the variables."""
         return {**self._globals, **self._locals}
 
@@ -56,9 +56,11 @@ class LocalsView:
             return known[name]
         names = ', '.join(f"'{each}'" for each in known) or 'none'
         raise AttributeError(
-            f"context.locals has no attribute '{name}'; the available ones are: {names}")
+            f"context.locals has no attribute '{name}'; the available ones are: {names}"
+        )
 
     def __setattr__(self, name: str, value: Any) -> None:
         """Refuse: variables are added by extend_locals()."""
         raise AttributeError(
-            f"context.locals.{name} cannot be set; use context.extend_locals({{'{name}': ...}})")
+            f"context.locals.{name} cannot be set; use context.extend_locals({{'{name}': ...}})"
+        )

@@ -6,19 +6,19 @@ from __future__ import annotations
 import asyncio
 import logging
 import threading
-from typing import Any, Dict, List, Optional, Set, Tuple, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING
 
-from ._failure_report import report_failure
-from .event_handler import BaseEventHandler
-from .events.shutdown import Shutdown
-from .launch_description_entity import LaunchDescriptionEntity
-from .logging import get_logger
-from .utilities.normalize_to_list_of_entities_impl import normalize_to_list_of_entities
-from .utilities.visit_all_entities_and_collect_futures_impl import visit_into
+from launch._failure_report import report_failure
+from launch.event_handler import BaseEventHandler
+from launch.events.shutdown import Shutdown
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.logging import get_logger
+from launch.utilities.normalize_to_list_of_entities_impl import normalize_to_list_of_entities
+from launch.utilities.visit_all_entities_and_collect_futures_impl import visit_into
 
 if TYPE_CHECKING:
-    from .event import Event
-    from .launch_context import LaunchContext
+    from launch.event import Event
+    from launch.launch_context import LaunchContext
 
 
 class EventProcessor:
@@ -31,7 +31,7 @@ class EventProcessor:
         self._loop = loop
         self._thread = threading.get_ident()
         self._awake = asyncio.Event()
-        self._pending: Set[asyncio.Future[Any]] = set()
+        self._pending: set[asyncio.Future[Any]] = set()
         self._shutting_down = False
         self._logger: logging.Logger = get_logger('launch')
 
@@ -72,7 +72,7 @@ class EventProcessor:
             self._context._set_is_shutdown(True)
             self._context.emit_event_sync(Shutdown(reason=str(error)))
 
-    def on_loop_error(self, loop: asyncio.AbstractEventLoop, details: Dict[str, Any]) -> None:
+    def on_loop_error(self, loop: asyncio.AbstractEventLoop, details: dict[str, Any]) -> None:
         """Report an error that a callback of the loop raised."""
         self.fail(details.get('exception') or RuntimeError(details['message']))
 
@@ -90,7 +90,7 @@ class EventProcessor:
 
     def _run_handler(self, handler: BaseEventHandler, event: Event) -> bool:
         """Run a handler and visit what it returns; return whether that went well."""
-        futures: List[Tuple[LaunchDescriptionEntity, asyncio.Future[Any]]] = []
+        futures: list[tuple[LaunchDescriptionEntity, asyncio.Future[Any]]] = []
         self._context._push_locals()
         try:
             if handler.matches(event):
@@ -106,7 +106,7 @@ class EventProcessor:
 
     # Futures.
 
-    def _track(self, futures: List[asyncio.Future[Any]]) -> None:
+    def _track(self, futures: list[asyncio.Future[Any]]) -> None:
         """Wait for futures before the launch counts as idle."""
         for future in futures:
             if future not in self._pending:

@@ -49,5 +49,6 @@ def _unknown(package: str, name: str, known: Iterable[str]) -> str:
     if name.startswith('_'):
         return text
     import difflib
+
     close = difflib.get_close_matches(name, list(known), n=1)
     return text + (f". Did you mean: '{close[0]}'?" if close else '')

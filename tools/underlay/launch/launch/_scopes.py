@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import os
-from typing import Dict, List
 
 
 class EnvironmentScopes:
@@ -13,7 +12,7 @@ class EnvironmentScopes:
     def __init__(self) -> None:
         """Remember the environment of now for a reset."""
         self._at_start = dict(os.environ)
-        self._stack: List[Dict[str, str]] = []
+        self._stack: list[dict[str, str]] = []
 
     def push(self) -> None:
         """Keep the environment for the next pop."""
@@ -30,7 +29,7 @@ class EnvironmentScopes:
         _restore(self._at_start)
 
 
-def _restore(kept: Dict[str, str]) -> None:
+def _restore(kept: dict[str, str]) -> None:
     """Make the environment equal to a copy, touching only what differs."""
     for name in [name for name in os.environ if name not in kept]:
         del os.environ[name]

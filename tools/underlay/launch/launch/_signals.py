@@ -7,18 +7,20 @@ import asyncio
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 import signal
-from typing import Any, Dict
+from typing import Any
 
 _WATCHED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
 
 
 @contextmanager
 def handled_signals(
-    loop: asyncio.AbstractEventLoop, react: Callable[[signal.Signals], None],
+    loop: asyncio.AbstractEventLoop,
+    react: Callable[[signal.Signals], None],
 ) -> Iterator[None]:
     """Call `react` from the loop on signals that ask to end; restore what was before."""
-    before: Dict[signal.Signals, Any] = {
-        number: signal.getsignal(number) for number in _WATCHED if _is_wanted(number)}
+    before: dict[signal.Signals, Any] = {
+        number: signal.getsignal(number) for number in _WATCHED if _is_wanted(number)
+    }
     for number in before:
         loop.add_signal_handler(number, react, number)
     try:

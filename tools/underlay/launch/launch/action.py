@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import List, Optional, Tuple, TYPE_CHECKING
+from typing import Optional, TYPE_CHECKING
 
-from ._call_site import calling_line, CallSite
-from .launch_description_entity import LaunchDescriptionEntity
+from launch._call_site import calling_line, CallSite
+from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from .condition import Condition
-    from .launch_context import LaunchContext
+    from launch.condition import Condition
+    from launch.launch_context import LaunchContext
 
 
 class Action(LaunchDescriptionEntity):
@@ -29,7 +29,7 @@ class Action(LaunchDescriptionEntity):
         """Return the condition, or None if the action is always executed."""
         return self.__condition
 
-    def get_sub_entities(self) -> List[LaunchDescriptionEntity]:
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the entities that executing this action brings in; subclasses override this."""
         return []
 
@@ -37,13 +37,13 @@ class Action(LaunchDescriptionEntity):
         """Return a short description for people."""
         return f'Action({self!r})'
 
-    def describe_sub_entities(self) -> List[LaunchDescriptionEntity]:
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the entities that are visited with this one in any case."""
         return self.get_sub_entities() if self.__condition is None else []
 
     def describe_conditional_sub_entities(
         self,
-    ) -> List[Tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """Return the entities that are visited if the condition is fulfilled."""
         if self.__condition is None:
             return []
@@ -60,7 +60,8 @@ class Action(LaunchDescriptionEntity):
 
     def _announce_completion(self, context: LaunchContext) -> None:
         """Emit an event at the end of the execution if anyone waits for it by now."""
-        from .events.execution_complete import ExecutionComplete
+        from launch.events.execution_complete import ExecutionComplete
+
         event = ExecutionComplete(action=self)
         if not context.would_handle_event(event):
             return
@@ -73,4 +74,5 @@ class Action(LaunchDescriptionEntity):
     def execute(self, context: LaunchContext) -> Optional[Iterable[LaunchDescriptionEntity]]:
         """Do it; the entities returned are visited next. Subclasses override this."""
         raise NotImplementedError(
-            f"the action class '{type(self).__name__}' does not define execute(context)")
+            f"the action class '{type(self).__name__}' does not define execute(context)"
+        )

@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any, List, Optional, Tuple, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING
 
-from .launch_description_entity import LaunchDescriptionEntity
-from .some_entities_type import SomeEntitiesType
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:
-    from .event import Event
-    from .launch_context import LaunchContext
+    from launch.event import Event
+    from launch.launch_context import LaunchContext
 
 
 class BaseEventHandler:
@@ -41,7 +41,7 @@ class BaseEventHandler:
         """Return whether the handler reacts to an event."""
         return self.__matcher(event)
 
-    def describe(self) -> Tuple[str, List[Any]]:
+    def describe(self) -> tuple[str, list[Any]]:
         """Return a short description for people, and the entities behind it."""
         return f"{type(self).__name__}(matcher='{self.matcher_description}')", []
 
@@ -67,7 +67,8 @@ class EventHandler(BaseEventHandler):
         super().__init__(matcher=matcher, handle_once=handle_once)
         if entities is None or isinstance(entities, LaunchDescriptionEntity):
             self.__entities: Iterable[LaunchDescriptionEntity] = (
-                [] if entities is None else [entities])
+                [] if entities is None else [entities]
+            )
         else:
             self.__entities = entities
 
@@ -76,7 +77,7 @@ class EventHandler(BaseEventHandler):
         """Return the entities that are visited."""
         return self.__entities
 
-    def describe(self) -> Tuple[str, List[Any]]:
+    def describe(self) -> tuple[str, list[Any]]:
         """Return a short description for people, and the entities behind it."""
         return super().describe()[0], list(self.__entities)
 

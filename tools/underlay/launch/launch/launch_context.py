@@ -6,25 +6,28 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 import os
-from typing import Any, Deque, Dict, List, Optional, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING
 
-from ._context_locals import ContextLocals, LocalsView
-from ._scopes import EnvironmentScopes
+from launch._context_locals import ContextLocals, LocalsView
+from launch._scopes import EnvironmentScopes
 
 if TYPE_CHECKING:
     import asyncio
 
-    from ._supervision.process_registry import ProcessRegistry
-    from .event import Event
-    from .event_handler import BaseEventHandler
-    from .substitution import Substitution
+    from launch._supervision.process_registry import ProcessRegistry
+    from launch.event import Event
+    from launch.event_handler import BaseEventHandler
+    from launch.substitution import Substitution
 
 
 class LaunchContext:
     """The launch configurations, the environment, the event handlers and the event queue."""
 
     def __init__(
-        self, *, argv: Optional[Iterable[str]] = None, noninteractive: bool = False,
+        self,
+        *,
+        argv: Optional[Iterable[str]] = None,
+        noninteractive: bool = False,
     ) -> None:
         """Create a context; it needs no running event loop."""
         self.__argv = list(argv) if argv is not None else []
@@ -33,18 +36,18 @@ class LaunchContext:
         self.__loop: Optional[asyncio.AbstractEventLoop] = None
         self.__wake_up: Optional[Callable[[], None]] = None
         self.__locals = ContextLocals()
-        self.__configurations: Dict[str, Any] = {}
-        self.__configurations_stack: List[Dict[str, Any]] = []
+        self.__configurations: dict[str, Any] = {}
+        self.__configurations_stack: list[dict[str, Any]] = []
         self.__environment = EnvironmentScopes()
-        self._event_handlers: Deque[BaseEventHandler] = deque()
-        self._event_queue: Deque[Event] = deque()
-        self._completion_futures: List[asyncio.Future[Any]] = []
+        self._event_handlers: deque[BaseEventHandler] = deque()
+        self._event_queue: deque[Event] = deque()
+        self._completion_futures: list[asyncio.Future[Any]] = []
         self._processes: Optional[ProcessRegistry] = None
 
     # What the launch was started with, and its state.
 
     @property
-    def argv(self) -> List[str]:
+    def argv(self) -> list[str]:
         """Return the arguments that the launch was started with."""
         return self.__argv
 
@@ -82,7 +85,7 @@ class LaunchContext:
         return sub.perform(self)
 
     @property
-    def launch_configurations(self) -> Dict[str, Any]:
+    def launch_configurations(self) -> dict[str, Any]:
         """Return the launch configurations, which may be changed."""
         return self.__configurations
 
@@ -99,7 +102,7 @@ class LaunchContext:
     # The environment.
 
     @property
-    def environment(self) -> 'os._Environ[str]':
+    def environment(self) -> os._Environ[str]:
         """Return the environment of this process, which children inherit."""
         return os.environ
 
@@ -115,11 +118,11 @@ class LaunchContext:
     # Locals.
 
     @property
-    def locals(self) -> LocalsView:  # noqa: A003
+    def locals(self) -> LocalsView:  # noqa: A003, RUF100
         """Return the local variables, each as an attribute."""
         return self.__locals.view
 
-    def get_locals_as_dict(self) -> Dict[str, Any]:
+    def get_locals_as_dict(self) -> dict[str, Any]:
         """Return a copy of the local variables."""
         return self.__locals.as_dict()
 
@@ -140,7 +143,9 @@ class LaunchContext:
     # Events.
 
     def register_event_handler(
-        self, event_handler: BaseEventHandler, append: bool = False,
+        self,
+        event_handler: BaseEventHandler,
+        append: bool = False,
     ) -> None:
         """Register a handler before all others, or behind them with `append`."""
         if append:

@@ -4,16 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import List, Optional, Tuple, TYPE_CHECKING
+from typing import Optional, TYPE_CHECKING
 
-from .launch_description_entity import LaunchDescriptionEntity
+from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from .actions.declare_launch_argument import DeclareLaunchArgument
-    from .actions.include_launch_description import IncludeLaunchDescription
-    from .launch_context import LaunchContext
+    from launch.actions.declare_launch_argument import DeclareLaunchArgument
+    from launch.actions.include_launch_description import IncludeLaunchDescription
+    from launch.launch_context import LaunchContext
 
-    ArgumentWithIncludes = Tuple[DeclareLaunchArgument, List[IncludeLaunchDescription]]
+    ArgumentWithIncludes = tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]
 
 
 class LaunchDescription(LaunchDescriptionEntity):
@@ -30,7 +30,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         self.__deprecated_reason = deprecated_reason
 
     @property
-    def entities(self) -> List[LaunchDescriptionEntity]:
+    def entities(self) -> list[LaunchDescriptionEntity]:
         """Return the entities, in the order in which they are visited."""
         return self.__entities
 
@@ -55,27 +55,33 @@ class LaunchDescription(LaunchDescriptionEntity):
     def visit(self, context: LaunchContext) -> Iterable[LaunchDescriptionEntity]:
         """Return the entities, which are visited next."""
         if self.deprecated:
-            from .logging import get_logger
+            from launch.logging import get_logger
+
             file_name = context.get_locals_as_dict().get('current_launch_file_path', 'unknown')
             get_logger().warning(
-                'launch file [%s] is deprecated: %s', file_name, self.__deprecated_reason)
+                'launch file [%s] is deprecated: %s', file_name, self.__deprecated_reason
+            )
         return self.__entities
 
-    def describe_sub_entities(self) -> List[LaunchDescriptionEntity]:
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the entities."""
         return self.__entities
 
     def get_launch_arguments(
-        self, conditional_inclusion: bool = False,
-    ) -> List[DeclareLaunchArgument]:
+        self,
+        conditional_inclusion: bool = False,
+    ) -> list[DeclareLaunchArgument]:
         """Return the arguments declared here and in what is included, each name once."""
         found = self.get_launch_arguments_with_include_launch_description_actions(
-            conditional_inclusion)
+            conditional_inclusion
+        )
         return [argument for argument, _ in found]
 
     def get_launch_arguments_with_include_launch_description_actions(
-        self, conditional_inclusion: bool = False,
-    ) -> List[ArgumentWithIncludes]:
+        self,
+        conditional_inclusion: bool = False,
+    ) -> list[ArgumentWithIncludes]:
         """Return the arguments, each with the includes that lead to its declaration."""
-        from ._argument_discovery import find_arguments
+        from launch._argument_discovery import find_arguments
+
         return find_arguments(self.__entities, conditional_inclusion)

@@ -4,35 +4,37 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, List, Optional, Tuple, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING
 
 if TYPE_CHECKING:
     import asyncio
 
-    from .launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class LaunchDescriptionEntity:
     """A part of a launch description; visiting it makes it happen."""
 
     def visit(
-        self, context: LaunchContext,
+        self,
+        context: LaunchContext,
     ) -> Optional[Iterable[LaunchDescriptionEntity]]:
         """Do what the entity stands for; the entities returned are visited next."""
         raise NotImplementedError(
-            f"the class '{type(self).__name__}' does not define visit(context)")
+            f"the class '{type(self).__name__}' does not define visit(context)"
+        )
 
     def describe(self) -> str:
         """Return a short description for people."""
         return repr(self)
 
-    def describe_sub_entities(self) -> List[LaunchDescriptionEntity]:
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the entities that are visited with this one in any case."""
         return []
 
     def describe_conditional_sub_entities(
         self,
-    ) -> List[Tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """Return the entities that may be visited, each list with the reason for it."""
         return []
 

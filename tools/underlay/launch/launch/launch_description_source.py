@@ -4,15 +4,17 @@
 from __future__ import annotations
 
 import os
-from typing import Dict, Optional, Tuple, TYPE_CHECKING
+from typing import Optional, TYPE_CHECKING
 
-from .launch_description import LaunchDescription
-from .some_substitutions_type import SomeSubstitutionsType
-from .utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from .utilities.perform_substitutions_impl import perform_substitutions
+from launch.launch_description import LaunchDescription
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from .launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class LaunchDescriptionSource:
@@ -29,7 +31,7 @@ class LaunchDescriptionSource:
         self.__location = normalize_to_list_of_substitutions(location)
         self.__expanded_location: Optional[str] = None
         self.__method = method
-        self.__preview: Optional[Tuple[str, Dict[str, str], LaunchDescription]] = None
+        self.__preview: Optional[tuple[str, dict[str, str], LaunchDescription]] = None
 
     @property
     def location(self) -> str:
@@ -48,23 +50,26 @@ class LaunchDescriptionSource:
         if self.__expanded_location is None:
             self.__expanded_location = perform_substitutions(context, self.__location)
         if self.__launch_description is None:
-            self.__launch_description = (
-                self._from_preview(self.__expanded_location)
-                or self._get_launch_description(self.__expanded_location))
+            self.__launch_description = self._from_preview(
+                self.__expanded_location
+            ) or self._get_launch_description(self.__expanded_location)
         return self.__launch_description
 
     def try_get_launch_description_without_context(self) -> Optional[LaunchDescription]:
         """Return the description if it can be had before the launch runs, else None."""
         if self.__launch_description is not None:
             return self.__launch_description
-        from .launch_context import LaunchContext
+        from launch.launch_context import LaunchContext
+
         try:
             location = perform_substitutions(LaunchContext(), self.__location)
             return self._from_preview(location) or self._load_preview(location)
         except Exception as error:
-            from .logging import get_logger
+            from launch.logging import get_logger
+
             get_logger('launch.launch_description_source').debug(
-                "the launch description at '%s' is not known yet: %s", self.location, error)
+                "the launch description at '%s' is not known yet: %s", self.location, error
+            )
             return None
 
     def _load_preview(self, location: str) -> LaunchDescription:
@@ -78,10 +83,12 @@ class LaunchDescriptionSource:
         if self.__preview is None:
             return None
         known_location, environment, description = self.__preview
-        return description if (location, dict(os.environ)) == (
-            known_location, environment) else None
+        return (
+            description if (location, dict(os.environ)) == (known_location, environment) else None
+        )
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
         """Load the description; subclasses override this."""
         raise NotImplementedError(
-            f"the source class '{type(self).__name__}' does not say how to load '{location}'")
+            f"the source class '{type(self).__name__}' does not say how to load '{location}'"
+        )

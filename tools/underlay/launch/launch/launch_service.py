@@ -9,16 +9,16 @@ import signal
 import threading
 from typing import Any, Optional, TYPE_CHECKING
 
-from .event_handler import EventHandler
-from .events.include_launch_description import IncludeLaunchDescription
-from .events.shutdown import Shutdown
-from .launch_context import LaunchContext
+from launch.event_handler import EventHandler
+from launch.events.include_launch_description import IncludeLaunchDescription
+from launch.events.shutdown import Shutdown
+from launch.launch_context import LaunchContext
 
 if TYPE_CHECKING:
     import asyncio
 
-    from .event import Event
-    from .launch_description import LaunchDescription
+    from launch.event import Event
+    from launch.launch_description import LaunchDescription
 
 
 class LaunchService:
@@ -71,8 +71,11 @@ class LaunchService:
         """
         self.emit_event(Shutdown(reason='LaunchService.shutdown() called'))
         loop = self.__loop
-        if force_sync or loop is None or threading.current_thread() is not (
-                threading.main_thread()):
+        if (
+            force_sync
+            or loop is None
+            or threading.current_thread() is not (threading.main_thread())
+        ):
             return None
         future: asyncio.Future[None] = loop.create_future()
         future.set_result(None)
@@ -82,6 +85,7 @@ class LaunchService:
         """Run until all is done; return 0, or 1 if an exception occurred in the launch."""
         _require_main_thread()
         import asyncio
+
         loop = asyncio.new_event_loop()
         asyncio.set_event_loop(loop)
         try:
@@ -95,6 +99,7 @@ class LaunchService:
         """Do the same in the running event loop."""
         _require_main_thread()
         import asyncio
+
         if not self.__lock.acquire(blocking=False):
             raise RuntimeError('the LaunchService is running already and cannot run twice at once')
         try:
@@ -106,14 +111,17 @@ class LaunchService:
             self.__lock.release()
 
     async def _run_in(
-        self, loop: asyncio.AbstractEventLoop, shutdown_when_idle: bool,
+        self,
+        loop: asyncio.AbstractEventLoop,
+        shutdown_when_idle: bool,
     ) -> int:
         """Set up what a run needs, and take it down again whatever happens."""
-        from ._event_processor import EventProcessor
-        from ._signals import handled_signals
-        from ._supervision.process_registry import ProcessRegistry
-        from .logging import log_launch_config
-        from .logging._screen import screen
+        from launch._event_processor import EventProcessor
+        from launch._signals import handled_signals
+        from launch._supervision.process_registry import ProcessRegistry
+        from launch.logging import log_launch_config
+        from launch.logging._screen import screen
+
         self._set_level()
         log_launch_config()
         context = self.__context
@@ -137,15 +145,20 @@ class LaunchService:
 
     def _set_level(self) -> None:
         if self.__debug:
-            from .logging import launch_config
+            from launch.logging import launch_config
+
             launch_config.level = logging.DEBUG
 
     def _on_signal(self, number: signal.Signals) -> None:
         """End the service; whoever asks twice is told that it is ending."""
-        from .logging import get_logger
+        from launch.logging import get_logger
+
         interrupted = number == signal.SIGINT
-        text = ('user interrupted with ctrl-c (SIGINT)' if interrupted
-                else f'asked to end by a signal ({number.name})')
+        text = (
+            'user interrupted with ctrl-c (SIGINT)'
+            if interrupted
+            else f'asked to end by a signal ({number.name})'
+        )
         if self.__interrupted:
             get_logger('launch').warning('%s again, ignoring...', text)
             return
@@ -176,12 +189,14 @@ class _IncludeHandler(EventHandler):
 def _require_main_thread() -> None:
     if threading.current_thread() is not threading.main_thread():
         raise RuntimeError(
-            'LaunchService can only be run in the main thread, where signals arrive')
+            'LaunchService can only be run in the main thread, where signals arrive'
+        )
 
 
 def _cancel_all_tasks(loop: asyncio.AbstractEventLoop) -> None:
     """Let what is still in the loop come to an end."""
     import asyncio
+
     tasks = asyncio.all_tasks(loop)
     for task in tasks:
         task.cancel()

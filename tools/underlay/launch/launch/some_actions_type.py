@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Union
 
-from .launch_description_entity import LaunchDescriptionEntity
+from launch.launch_description_entity import LaunchDescriptionEntity
 
 SomeActionsType = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity]]
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import os
 from typing import Union
 
-from .substitution import Substitution
+from launch.substitution import Substitution
 
 SomeSubstitutionsType = Union[
     str,

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class Substitution:
@@ -15,7 +15,8 @@ class Substitution:
     def perform(self, context: LaunchContext) -> str:
         """Return the text; subclasses override this."""
         raise NotImplementedError(
-            f"the substitution class '{type(self).__name__}' does not define perform(context)")
+            f"the substitution class '{type(self).__name__}' does not define perform(context)"
+        )
 
     def describe(self) -> str:
         """Return a short description for people."""

@@ -10,7 +10,7 @@ from pathlib import Path
 import subprocess
 import sys
 import time
-from typing import Any, List
+from typing import Any
 
 import launch
 from launch import LaunchContext, LaunchDescription, LaunchService
@@ -36,7 +36,7 @@ class Result:
     text: str
 
     @property
-    def lines(self) -> List[str]:
+    def lines(self) -> list[str]:
         """Return what was written behind the two lines that each launch begins with."""
         return self.text.splitlines()[2:]
 
@@ -77,28 +77,32 @@ def context() -> LaunchContext:
 @pytest.fixture
 def run(capfd: pytest.CaptureFixture[str]) -> Callable[..., Result]:
     """Return a function that launches some entities."""
+
     def launch_entities(*entities: Any, **kwargs: Any) -> Result:
         service = LaunchService(**kwargs)
         service.include_launch_description(LaunchDescription(entities))
         capfd.readouterr()
         status = service.run()
         return Result(status, capfd.readouterr().out)
+
     return launch_entities
 
 
 @pytest.fixture
 def write(tmp_path: Path) -> Callable[[str, str], str]:
     """Return a function that writes a file and returns its path."""
+
     def write_file(name: str, text: str) -> str:
         path = tmp_path / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding='utf-8')
         return str(path)
+
     return write_file
 
 
 @pytest.fixture
-def launch_command() -> List[str]:
+def launch_command() -> list[str]:
     """Return the command that launches the file whose path follows it."""
     return [sys.executable, '-c', LAUNCHER]
 
@@ -111,8 +115,11 @@ class Launcher:
         self.output = output
         with open(output, 'wb') as file:
             self.process = subprocess.Popen(
-                [sys.executable, '-c', LAUNCHER, path], stdout=file, stderr=subprocess.STDOUT,
-                stdin=subprocess.DEVNULL)
+                [sys.executable, '-c', LAUNCHER, path],
+                stdout=file,
+                stderr=subprocess.STDOUT,
+                stdin=subprocess.DEVNULL,
+            )
 
     @property
     def text(self) -> str:
@@ -131,17 +138,23 @@ class Launcher:
 
 @pytest.fixture
 def launcher(
-    tmp_path: Path, write: Callable[[str, str], str],
+    tmp_path: Path,
+    write: Callable[[str, str], str],
 ) -> Iterator[Callable[[str], Launcher]]:
     """Return a function that launches, in another process, the entities that a text lists."""
-    started: List[Launcher] = []
+    started: list[Launcher] = []
 
     def start(entities: str) -> Launcher:
-        path = write('it.launch.py', (
-            'from launch import LaunchDescription\nfrom launch.actions import *\n'
-            f'def generate_launch_description():\n    return LaunchDescription([{entities}])\n'))
+        path = write(
+            'it.launch.py',
+            (
+                'from launch import LaunchDescription\nfrom launch.actions import *\n'
+                f'def generate_launch_description():\n    return LaunchDescription([{entities}])\n'
+            ),
+        )
         started.append(Launcher(path, tmp_path / 'output'))
         return started[-1]
+
     yield start
     for each in started:
         each.process.kill()

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, List
+from typing import Any
 
 from launch import LaunchContext, LaunchDescription
 from launch.actions import (
@@ -33,8 +33,10 @@ def test_default_and_given_value(context: LaunchContext) -> None:
 
 def test_required_argument(context: LaunchContext) -> None:
     """An argument without a default must be given."""
-    with pytest.raises(RuntimeError, match=(
-            r'Required launch argument "robot" \(description: "which"\) was not provided')):
+    with pytest.raises(
+        RuntimeError,
+        match=(r'Required launch argument "robot" \(description: "which"\) was not provided'),
+    ):
         DeclareLaunchArgument('robot', description='which').visit(context)
 
 
@@ -44,8 +46,9 @@ def test_choices(context: LaunchContext, choices: Any) -> None:
     argument = DeclareLaunchArgument('x', default_value='a', choices=choices)
     argument.visit(context)
     context.launch_configurations['x'] = 'c'
-    with pytest.raises(RuntimeError, match=(
-            'Argument "x" provided value "c" is not valid. Valid options are: ')):
+    with pytest.raises(
+        RuntimeError, match=('Argument "x" provided value "c" is not valid. Valid options are: ')
+    ):
         argument.visit(context)
 
 
@@ -53,18 +56,23 @@ def test_wrong_choices() -> None:
     """Choices must not be empty, and a plain default must be among them."""
     with pytest.raises(RuntimeError, match='empty list of choices'):
         DeclareLaunchArgument('x', choices=[])
-    with pytest.raises(RuntimeError, match=(
-            r'''Provided default_value "z" is not in provided choices "\['a'\]"''')):
+    with pytest.raises(
+        RuntimeError,
+        match=(r'''Provided default_value "z" is not in provided choices "\['a'\]"'''),
+    ):
         DeclareLaunchArgument('x', default_value='z', choices=['a'])
 
 
-@pytest.mark.parametrize('description, choices, text', [
-    (None, None, 'no description given'),
-    ('which', None, 'which'),
-    (None, ['a'], "One of: ['a']"),
-    ('which', ['a'], "which. Valid choices are: ['a']"),
-    ('which.', ('a',), "which. Valid choices are: ('a',)"),
-])
+@pytest.mark.parametrize(
+    'description, choices, text',
+    [
+        (None, None, 'no description given'),
+        ('which', None, 'which'),
+        (None, ['a'], "One of: ['a']"),
+        ('which', ['a'], "which. Valid choices are: ['a']"),
+        ('which.', ('a',), "which. Valid choices are: ('a',)"),
+    ],
+)
 def test_description(description: Any, choices: Any, text: str) -> None:
     """The choices are part of the description."""
     argument = DeclareLaunchArgument('x', description=description, choices=choices)
@@ -74,55 +82,89 @@ def test_description(description: Any, choices: Any, text: str) -> None:
 def test_discovery() -> None:
     """Arguments are found in groups, once each; those under a condition are marked."""
     on = IfCondition('true')
-    description = LaunchDescription([
-        DeclareLaunchArgument('a'),
-        DeclareLaunchArgument('b', condition=on),
-        GroupAction([DeclareLaunchArgument('a'), DeclareLaunchArgument('c')]),
-        GroupAction([DeclareLaunchArgument('d'), GroupAction([DeclareLaunchArgument('e')])],
-                    condition=on),
-        TimerAction(period=1.0, actions=[DeclareLaunchArgument('f')]),
-        GroupAction([DeclareLaunchArgument('hidden')], forwarding=False),
-        OpaqueFunction(function=lambda context: [DeclareLaunchArgument('opaque')]),
-    ])
-    found = [(argument.name, argument._conditionally_included)
-             for argument in description.get_launch_arguments()]
+    description = LaunchDescription(
+        [
+            DeclareLaunchArgument('a'),
+            DeclareLaunchArgument('b', condition=on),
+            GroupAction([DeclareLaunchArgument('a'), DeclareLaunchArgument('c')]),
+            GroupAction(
+                [DeclareLaunchArgument('d'), GroupAction([DeclareLaunchArgument('e')])],
+                condition=on,
+            ),
+            TimerAction(period=1.0, actions=[DeclareLaunchArgument('f')]),
+            GroupAction([DeclareLaunchArgument('hidden')], forwarding=False),
+            OpaqueFunction(function=lambda context: [DeclareLaunchArgument('opaque')]),
+        ]
+    )
+    found = [
+        (argument.name, argument._conditionally_included)
+        for argument in description.get_launch_arguments()
+    ]
     assert found == [
-        ('a', False), ('b', True), ('c', False), ('d', True), ('e', False), ('f', True)]
+        ('a', False),
+        ('b', True),
+        ('c', False),
+        ('d', True),
+        ('e', False),
+        ('f', True),
+    ]
 
 
-def _note(into: List[str]) -> OpaqueFunction:
+def _note(into: list[str]) -> OpaqueFunction:
     """Return an action that notes two launch configurations and an environment variable."""
-    parts = [LaunchConfiguration('x', default='-'), LaunchConfiguration('y', default='-'),
-             EnvironmentVariable('LAUNCH_TEST', default_value='-')]
+    parts = [
+        LaunchConfiguration('x', default='-'),
+        LaunchConfiguration('y', default='-'),
+        EnvironmentVariable('LAUNCH_TEST', default_value='-'),
+    ]
     return OpaqueFunction(
-        function=lambda context: into.append(''.join(part.perform(context) for part in parts)))
+        function=lambda context: into.append(''.join(part.perform(context) for part in parts))
+    )
 
 
 def test_scoped_group(run: Callable[..., Any]) -> None:
     """A scope restores launch configurations and the environment."""
-    seen: List[str] = []
-    run(SetLaunchConfiguration('x', '1'),
-        GroupAction([SetLaunchConfiguration('x', '2'), SetEnvironmentVariable('LAUNCH_TEST', 'e'),
-                     _note(seen)], launch_configurations={'y': '3'}),
-        _note(seen))
+    seen: list[str] = []
+    run(
+        SetLaunchConfiguration('x', '1'),
+        GroupAction(
+            [
+                SetLaunchConfiguration('x', '2'),
+                SetEnvironmentVariable('LAUNCH_TEST', 'e'),
+                _note(seen),
+            ],
+            launch_configurations={'y': '3'},
+        ),
+        _note(seen),
+    )
     assert seen == ['23e', '1--']
 
 
 def test_unscoped_group(run: Callable[..., Any]) -> None:
     """Without a scope everything stays."""
-    seen: List[str] = []
-    run(GroupAction([SetEnvironmentVariable('LAUNCH_TEST', 'e')], scoped=False,
-                    launch_configurations={'y': '3'}), _note(seen))
+    seen: list[str] = []
+    run(
+        GroupAction(
+            [SetEnvironmentVariable('LAUNCH_TEST', 'e')],
+            scoped=False,
+            launch_configurations={'y': '3'},
+        ),
+        _note(seen),
+    )
     assert seen == ['-3e']
 
 
 def test_group_without_forwarding(run: Callable[..., Any]) -> None:
     """Only what is given gets in; it is evaluated outside."""
-    seen: List[str] = []
-    run(SetLaunchConfiguration('x', '1'), SetEnvironmentVariable('LAUNCH_TEST', 'e'),
-        GroupAction([_note(seen)], forwarding=False,
-                    launch_configurations={'y': LaunchConfiguration('x')}),
-        _note(seen))
+    seen: list[str] = []
+    run(
+        SetLaunchConfiguration('x', '1'),
+        SetEnvironmentVariable('LAUNCH_TEST', 'e'),
+        GroupAction(
+            [_note(seen)], forwarding=False, launch_configurations={'y': LaunchConfiguration('x')}
+        ),
+        _note(seen),
+    )
     assert seen == ['-1-', '1-e']
 
 

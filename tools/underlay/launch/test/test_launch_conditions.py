@@ -17,8 +17,9 @@ from launch.substitutions import LaunchConfiguration
 import pytest
 
 
-@pytest.mark.parametrize('text, value', [
-    ('true', True), (' TRUE ', True), ('1', True), ('False', False), ('0', False)])
+@pytest.mark.parametrize(
+    'text, value', [('true', True), (' TRUE ', True), ('1', True), ('False', False), ('0', False)]
+)
 def test_if_and_unless(context: LaunchContext, text: str, value: bool) -> None:
     """Four words are understood, in any case."""
     assert IfCondition(text).evaluate(context) is value
@@ -29,9 +30,13 @@ def test_if_and_unless(context: LaunchContext, text: str, value: bool) -> None:
 def test_other_words(context: LaunchContext, text: str) -> None:
     """Anything else is an error that tells what it was and where it comes from."""
     context.launch_configurations['x'] = text
-    with pytest.raises(Exception, match=(
+    with pytest.raises(
+        Exception,
+        match=(
             rf"one of \[true, 1, false, 0\] but got '{text.lower()}', expanded from "
-            r"'LaunchConfig\('x'\)'")):
+            r"'LaunchConfig\('x'\)'"
+        ),
+    ):
         IfCondition(LaunchConfiguration('x')).evaluate(context)
 
 
@@ -41,12 +46,22 @@ def test_argument_must_be_like_a_text() -> None:
         IfCondition(True)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize('current, expected, equal', [
-    ('a', 'a', True), ('a', 'b', False), (None, 'a', False), (None, None, True),
-    ('a', None, False)])
+@pytest.mark.parametrize(
+    'current, expected, equal',
+    [
+        ('a', 'a', True),
+        ('a', 'b', False),
+        (None, 'a', False),
+        (None, None, True),
+        ('a', None, False),
+    ],
+)
 @pytest.mark.filterwarnings('ignore:LaunchConfiguration.*deprecated')
 def test_launch_configuration_equals(
-    context: LaunchContext, current: Optional[str], expected: Optional[str], equal: bool,
+    context: LaunchContext,
+    current: Optional[str],
+    expected: Optional[str],
+    equal: bool,
 ) -> None:
     """None stands for a launch configuration that is not set."""
     if current is not None:
@@ -70,8 +85,7 @@ def test_own_condition(context: LaunchContext) -> None:
 
 def test_condition_of_an_action(context: LaunchContext) -> None:
     """An action is executed only if its condition is fulfilled when it is visited."""
-    action = SetLaunchConfiguration(
-        'y', 'set', condition=IfCondition(LaunchConfiguration('x')))
+    action = SetLaunchConfiguration('y', 'set', condition=IfCondition(LaunchConfiguration('x')))
     context.launch_configurations['x'] = 'false'
     action.visit(context)
     assert 'y' not in context.launch_configurations

@@ -72,6 +72,7 @@ def test_pop_without_push(context: LaunchContext, action: PopEnvironment) -> Non
 def test_reset_of_launch_configurations(context: LaunchContext) -> None:
     """Values to keep are evaluated before the others are removed."""
     from launch.substitutions import LaunchConfiguration
+
     context.launch_configurations.update(a='1', b='2')
     ResetLaunchConfigurations({'c': [LaunchConfiguration('a'), 'x']}).visit(context)
     assert context.launch_configurations == {'c': '1x'}
@@ -94,7 +95,7 @@ def test_locals(context: LaunchContext) -> None:
     context._pop_locals()
     assert context.get_locals_as_dict() == {'b': 2}
     with pytest.raises(AttributeError, match="'a'; the available ones are: 'b'"):
-        context.locals.a
+        _ = context.locals.a
     with pytest.raises(AttributeError, match='extend_locals'):
         context.locals.b = 3
 

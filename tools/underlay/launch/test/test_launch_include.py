@@ -38,34 +38,46 @@ Run = Callable[..., Any]
 def test_include_is_no_scope(run: Run, write: Write) -> None:
     """What an include sets is set for the includes that follow, too."""
     path = write('sub/child.launch.py', CHILD)
-    result = run(IncludeLaunchDescription(path, launch_arguments={'who': 'you'}.items()),
-                 IncludeLaunchDescription(path), LogInfo(msg=LaunchConfiguration('who')))
+    result = run(
+        IncludeLaunchDescription(path, launch_arguments={'who': 'you'}.items()),
+        IncludeLaunchDescription(path),
+        LogInfo(msg=LaunchConfiguration('who')),
+    )
     folder = path.rpartition('/')[0]
     assert result.lines == [
         f'[INFO] [launch.user]: hello you in {folder}',
-        f'[INFO] [launch.user]: hello you in {folder}', '[INFO] [launch.user]: you']
+        f'[INFO] [launch.user]: hello you in {folder}',
+        '[INFO] [launch.user]: you',
+    ]
 
 
 def test_arguments_see_those_before_them(run: Run, write: Write) -> None:
     """The values of arguments are evaluated one after the other."""
     path = write('child.launch.py', CHILD)
-    result = run(IncludeLaunchDescription(path, launch_arguments=[
-        ('a', 'x'), ('who', [LaunchConfiguration('a'), 'y'])]))
+    result = run(
+        IncludeLaunchDescription(
+            path, launch_arguments=[('a', 'x'), ('who', [LaunchConfiguration('a'), 'y'])]
+        )
+    )
     assert 'hello xy in' in result.text
 
 
 def test_including_file_is_restored(run: Run, write: Write) -> None:
     """After an include, the folder is again that of the including file."""
     write('sub/child.launch.py', CHILD)
-    top = write('top.launch.py', (
-        'from launch import LaunchDescription\n'
-        'from launch.actions import IncludeLaunchDescription, LogInfo\n'
-        'from launch.substitutions import ThisLaunchFileDir\n'
-        'def generate_launch_description():\n'
-        '    return LaunchDescription([IncludeLaunchDescription([ThisLaunchFileDir(),'
-        ' "/sub/child.launch.py"]), LogInfo(msg=ThisLaunchFileDir())])\n'))
+    top = write(
+        'top.launch.py',
+        (
+            'from launch import LaunchDescription\n'
+            'from launch.actions import IncludeLaunchDescription, LogInfo\n'
+            'from launch.substitutions import ThisLaunchFileDir\n'
+            'def generate_launch_description():\n'
+            '    return LaunchDescription([IncludeLaunchDescription([ThisLaunchFileDir(),'
+            ' "/sub/child.launch.py"]), LogInfo(msg=ThisLaunchFileDir())])\n'
+        ),
+    )
     result = run(IncludeLaunchDescription(top))
-    assert result.lines[-1] == f"[INFO] [launch.user]: {top.rpartition('/')[0]}"
+    assert result.lines[-1] == f'[INFO] [launch.user]: {top.rpartition("/")[0]}'
 
 
 def test_location_of_a_description_without_file(run: Run) -> None:
@@ -79,14 +91,17 @@ def test_required_argument_must_be_given_to_the_include(run: Run, write: Write) 
     path = write('child.launch.py', REQUIRED)
     result = run(IncludeLaunchDescription(path, launch_arguments=[('other', '1')]))
     assert result.status == 1
-    assert ("Included launch description missing required argument 'must' "
-            "(description: 'so'), given: [other]") in result.text
+    assert (
+        "Included launch description missing required argument 'must' "
+        "(description: 'so'), given: [other]"
+    ) in result.text
     assert run(IncludeLaunchDescription(path, launch_arguments=[('must', '1')])).status == 0
 
 
 def test_file_is_loaded_once(run: Run, write: Write) -> None:
     """Looking for arguments and including need only one run of the file."""
-    child = write('child.launch.py', "open(__file__ + '.log', 'a').write('x')\n" + CHILD)
+    count = "with open(__file__ + '.log', 'a') as log:\n    log.write('x')\n"
+    child = write('child.launch.py', count + CHILD)
     top = LaunchDescription([IncludeLaunchDescription(child)])
     source = LaunchDescriptionSource(top)
     assert run(IncludeLaunchDescription(source)).status == 0
@@ -96,23 +111,31 @@ def test_file_is_loaded_once(run: Run, write: Write) -> None:
 
 def test_file_is_loaded_again_in_another_environment(run: Run, write: Write) -> None:
     """A file may depend on the environment, which the launch may change before."""
-    child = write('child.launch.py', (
-        'import os\nfrom launch import LaunchDescription\nfrom launch.actions import LogInfo\n'
-        "found = os.environ.get('LAUNCH_TEST', 'nothing')\n"
-        'def generate_launch_description():\n'
-        '    return LaunchDescription([LogInfo(msg=found)])\n'))
-    top = LaunchDescription([
-        SetEnvironmentVariable('LAUNCH_TEST', 'something'), IncludeLaunchDescription(child)])
+    child = write(
+        'child.launch.py',
+        (
+            'import os\nfrom launch import LaunchDescription\nfrom launch.actions import LogInfo\n'
+            "found = os.environ.get('LAUNCH_TEST', 'nothing')\n"
+            'def generate_launch_description():\n'
+            '    return LaunchDescription([LogInfo(msg=found)])\n'
+        ),
+    )
+    top = LaunchDescription(
+        [SetEnvironmentVariable('LAUNCH_TEST', 'something'), IncludeLaunchDescription(child)]
+    )
     result = run(IncludeLaunchDescription(LaunchDescriptionSource(top)))
     assert result.lines == ['[INFO] [launch.user]: something']
 
 
-@pytest.mark.parametrize('body, text', [
-    ('x = 1\n', "does not contain the required function 'generate_launch_description()'"),
-    ('def generate_launch_description():\n    return None\n', "has no attribute 'visit'"),
-    ('import no_such_module\n', "ModuleNotFoundError: No module named 'no_such_module'"),
-    ('def f(:\n', 'SyntaxError: '),
-])
+@pytest.mark.parametrize(
+    'body, text',
+    [
+        ('x = 1\n', "does not contain the required function 'generate_launch_description()'"),
+        ('def generate_launch_description():\n    return None\n', "has no attribute 'visit'"),
+        ('import no_such_module\n', "ModuleNotFoundError: No module named 'no_such_module'"),
+        ('def f(:\n', 'SyntaxError: '),
+    ],
+)
 def test_broken_files(run: Run, write: Write, body: str, text: str) -> None:
     """The error tells what each loader found."""
     result = run(IncludeLaunchDescription(write('bad.launch.py', body)))
@@ -128,16 +151,21 @@ def test_error_names_the_line(run: Run, write: Write) -> None:
     result = run(IncludeLaunchDescription(PythonLaunchDescriptionSource(path)))
     assert result.lines == [
         '[ERROR] [launch]: Caught exception in launch (see debug for traceback): because',
-        f"[ERROR] [launch]: It comes from '{path}', line 3"]
+        f"[ERROR] [launch]: It comes from '{path}', line 3",
+    ]
 
 
 def test_error_names_the_line_of_the_action(run: Run, write: Write) -> None:
     """An error of an action is reported with the line that creates it."""
-    path = write('bad.launch.py', (
-        'from launch import LaunchDescription\nfrom launch.actions import LogInfo\n'
-        'from launch.substitutions import LaunchConfiguration\n'
-        'def generate_launch_description():\n    return LaunchDescription([\n'
-        '        LogInfo(msg=LaunchConfiguration("typo"))])\n'))
+    path = write(
+        'bad.launch.py',
+        (
+            'from launch import LaunchDescription\nfrom launch.actions import LogInfo\n'
+            'from launch.substitutions import LaunchConfiguration\n'
+            'def generate_launch_description():\n    return LaunchDescription([\n'
+            '        LogInfo(msg=LaunchConfiguration("typo"))])\n'
+        ),
+    )
     result = run(IncludeLaunchDescription(path))
     assert result.lines[-1] == f"[ERROR] [launch]: It comes from '{path}', line 6 (LogInfo)"
 
@@ -153,12 +181,14 @@ def test_other_formats_are_refused(write: Write, context: LaunchContext) -> None
     """A file in another format is refused with the reason."""
     with pytest.raises(Exception, match='its format is unknown: .* only format that this version'):
         AnyLaunchDescriptionSource(write('x.launch.xml', '<launch/>')).get_launch_description(
-            context)
+            context
+        )
 
 
 def test_file_as_module(write: Write) -> None:
     """A file can be loaded as a module, which is not registered."""
     import sys
+
     path = write('x.launch.py', 'def f():\n    return __file__, __name__\n')
     module = load_python_launch_file_as_module(path)
     assert module.f() == (path, 'python_launch_file')

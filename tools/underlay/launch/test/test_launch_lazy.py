@@ -11,10 +11,19 @@ from launch._lazy import snake_case
 import pytest
 
 PACKAGES = (
-    'launch', 'launch.actions', 'launch.conditions', 'launch.descriptions',
-    'launch.event_handlers', 'launch.events', 'launch.events.process', 'launch.frontend',
-    'launch.launch_description_sources', 'launch.logging', 'launch.substitutions',
-    'launch.utilities')
+    'launch',
+    'launch.actions',
+    'launch.conditions',
+    'launch.descriptions',
+    'launch.event_handlers',
+    'launch.events',
+    'launch.events.process',
+    'launch.frontend',
+    'launch.launch_description_sources',
+    'launch.logging',
+    'launch.substitutions',
+    'launch.utilities',
+)
 
 
 @pytest.mark.parametrize('package', PACKAGES)
@@ -26,14 +35,17 @@ def test_every_public_name_can_be_imported(package: str) -> None:
         assert getattr(module, name) is not None, name
 
 
-@pytest.mark.parametrize('name', [
-    'launch.actions.include_launch_description.IncludeLaunchDescription',
-    'launch.substitutions.path_join_substitution.PathJoinSubstitution',
-    'launch.event_handlers.on_process_io.OnProcessIO',
-    'launch.launch_context.LaunchContext',
-    'launch.some_substitutions_type.SomeSubstitutionsType',
-    'launch.utilities.type_utils.perform_typed_substitution',
-])
+@pytest.mark.parametrize(
+    'name',
+    [
+        'launch.actions.include_launch_description.IncludeLaunchDescription',
+        'launch.substitutions.path_join_substitution.PathJoinSubstitution',
+        'launch.event_handlers.on_process_io.OnProcessIO',
+        'launch.launch_context.LaunchContext',
+        'launch.some_substitutions_type.SomeSubstitutionsType',
+        'launch.utilities.type_utils.perform_typed_substitution',
+    ],
+)
 def test_deep_paths(name: str) -> None:
     """A class is also found under its own module."""
     module, _, attribute = name.rpartition('.')
@@ -43,12 +55,15 @@ def test_deep_paths(name: str) -> None:
 def test_misspelt_name() -> None:
     """A name that is not there is answered with the closest one."""
     import launch.actions
+
     with pytest.raises(AttributeError, match="Did you mean: 'ExecuteProcess'"):
-        launch.actions.ExecutProcess
+        _ = launch.actions.ExecutProcess
 
 
-@pytest.mark.parametrize('name, module', [
-    ('LogInfo', 'log_info'), ('SetROSLogDir', 'set_ros_log_dir'), ('Command', 'command')])
+@pytest.mark.parametrize(
+    'name, module',
+    [('LogInfo', 'log_info'), ('SetROSLogDir', 'set_ros_log_dir'), ('Command', 'command')],
+)
 def test_snake_case(name: str, module: str) -> None:
     """A run of capitals counts as one word."""
     assert snake_case(name) == module
@@ -60,6 +75,7 @@ def test_bare_import_reaches_everything_and_loads_little() -> None:
         'import launch, sys; launch.actions.LogInfo(msg=launch.substitutions.LaunchConfiguration'
         '("x")); launch.actions.ExecuteProcess(cmd=["x"]); launch.LaunchDescription([]);'
         'bad = {"asyncio", "yaml", "rclpy", "subprocess"} & set(sys.modules); '
-        'sys.exit(str(bad) if bad else 0)')
+        'sys.exit(str(bad) if bad else 0)'
+    )
     result = subprocess.run([sys.executable, '-c', code], stderr=subprocess.PIPE, text=True)
     assert (result.returncode, result.stderr) == (0, '')

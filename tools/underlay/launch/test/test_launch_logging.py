@@ -20,11 +20,15 @@ import pytest
 Run = Callable[..., Any]
 
 
-@pytest.mark.parametrize('variables, folder', [
-    ({'ROS_LOG_DIR': '/a/b'}, '/a/b'),
-    ({'ROS_LOG_DIR': '', 'ROS_HOME': '/a'}, '/a/log'),
-    ({'ROS_LOG_DIR': '~/b', 'HOME': '/h'}, '/h/b'),
-    ({'ROS_LOG_DIR': '', 'ROS_HOME': '', 'HOME': '/h'}, '/h/.ros/log')])
+@pytest.mark.parametrize(
+    'variables, folder',
+    [
+        ({'ROS_LOG_DIR': '/a/b'}, '/a/b'),
+        ({'ROS_LOG_DIR': '', 'ROS_HOME': '/a'}, '/a/log'),
+        ({'ROS_LOG_DIR': '~/b', 'HOME': '/h'}, '/h/b'),
+        ({'ROS_LOG_DIR': '', 'ROS_HOME': '', 'HOME': '/h'}, '/h/.ros/log'),
+    ],
+)
 def test_base_directory(variables: Any, folder: str) -> None:
     """Environment variables say where the log files are; those that are empty do not count."""
     os.environ.update(variables)
@@ -40,7 +44,8 @@ def test_run_directory(run: Run, tmp_path: Path) -> None:
     assert len(list((tmp_path / 'log').iterdir())) == 3
     assert os.readlink(latest) == launch_config.log_dir
     assert re.fullmatch(
-        rf'[-0-9]{{26}}-{os.uname().nodename}-{os.getpid()}', latest.resolve().name)
+        rf'[-0-9]{{26}}-{os.uname().nodename}-{os.getpid()}', latest.resolve().name
+    )
     last = (latest / 'launch.log').read_text().splitlines()[-1]
     assert re.fullmatch(r'\d+\.\d{7} \[INFO\] \[launch.user\]: second', last)
 
@@ -57,13 +62,17 @@ def test_folder_that_cannot_be_made(tmp_path: Path) -> None:
     (tmp_path / 'file').touch()
     os.environ['ROS_LOG_DIR'] = str(tmp_path / 'file' / 'log')
     with pytest.raises(RuntimeError, match='set ROS_LOG_DIR to a folder'):
-        launch_config.log_dir
+        _ = launch_config.log_dir
 
 
-@pytest.mark.parametrize('text, line', [
-    ('default', r'\[INFO\] \[x\]: hi'),
-    ('default_with_timestamp', r'\d+\.\d{7} \[INFO\] \[x\]: hi'),
-    (r'{name}\t{message}', 'x\thi')])
+@pytest.mark.parametrize(
+    'text, line',
+    [
+        ('default', r'\[INFO\] \[x\]: hi'),
+        ('default_with_timestamp', r'\d+\.\d{7} \[INFO\] \[x\]: hi'),
+        (r'{name}\t{message}', 'x\thi'),
+    ],
+)
 def test_screen_format(capfd: pytest.CaptureFixture[str], text: str, line: str) -> None:
     """The format of the screen can be set, with the names of some formats."""
     launch_config.set_screen_format(text)
@@ -108,5 +117,8 @@ def test_log_file_that_cannot_be_written(capfd: pytest.CaptureFixture[str]) -> N
 def test_output_config() -> None:
     """The names of settings stand for destinations of each stream."""
     assert normalize_output_config('log') == {
-        'stdout': frozenset(), 'stderr': {'screen'}, 'both': {'log'}}
+        'stdout': frozenset(),
+        'stderr': {'screen'},
+        'both': {'log'},
+    }
     assert normalize_output_config({'stdout': ('log', 'screen')})['stdout'] == {'log', 'screen'}

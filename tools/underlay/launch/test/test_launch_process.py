@@ -7,7 +7,7 @@ from collections.abc import Callable
 import os
 from pathlib import Path
 import sys
-from typing import Any, List
+from typing import Any
 
 from launch import LaunchContext
 from launch.actions import (
@@ -52,11 +52,13 @@ def _label_number(action: ExecuteProcess) -> int:
 
 # How a process is started.
 
+
 def test_each_item_is_one_argument(context: LaunchContext) -> None:
     """Arguments are neither split nor dropped, and may have parts."""
     context.launch_configurations['x'] = 'a b'
     action = _prepared(
-        context, cmd=['/bin/echo', '', LaunchConfiguration('x'), ['c', LaunchConfiguration('x')]])
+        context, cmd=['/bin/echo', '', LaunchConfiguration('x'), ['c', LaunchConfiguration('x')]]
+    )
     assert action.cmd == ['/bin/echo', '', 'a b', 'ca b']
 
 
@@ -77,8 +79,9 @@ def test_prefix(context: LaunchContext) -> None:
 @pytest.mark.parametrize('pattern, prefixed', [('ec', True), ('cho', False)])
 def test_prefix_of_all_processes(context: LaunchContext, pattern: str, prefixed: bool) -> None:
     """A launch configuration gives a prefix to the programs whose names match a filter."""
-    context.launch_configurations.update({
-        'launch-prefix': 'nice', 'launch-prefix-filter': pattern})
+    context.launch_configurations.update(
+        {'launch-prefix': 'nice', 'launch-prefix-filter': pattern}
+    )
     assert (_prepared(context, cmd=['/bin/echo']).cmd[0] == 'nice') is prefixed
     assert _prepared(context, cmd=['/bin/echo'], prefix='env').cmd[0] == 'env'
 
@@ -86,8 +89,11 @@ def test_prefix_of_all_processes(context: LaunchContext, pattern: str, prefixed:
 def test_environment(context: LaunchContext) -> None:
     """The environment is that of the visit, with additions, or only what is given."""
     os.environ['LAUNCH_TEST'] = 'a'
-    inherited = _prepared(context, cmd=['x'], additional_env={
-        'LAUNCH_MORE': ['b', EnvironmentVariable('LAUNCH_TEST')]})
+    inherited = _prepared(
+        context,
+        cmd=['x'],
+        additional_env={'LAUNCH_MORE': ['b', EnvironmentVariable('LAUNCH_TEST')]},
+    )
     given = _prepared(context, cmd=['x'], env={'A': 'b'}, additional_env={'C': 'd'})
     os.environ['LAUNCH_TEST'] = 'later'
     assert inherited.env['LAUNCH_TEST'] == 'a' and inherited.env['LAUNCH_MORE'] == 'ba'
@@ -121,9 +127,15 @@ def test_unknown_keyword() -> None:
 
 def test_folder_and_shell(run: Run, tmp_path: Path) -> None:
     """A shell reads the words joined by spaces, in the folder that is given."""
-    result = run(ExecuteProcess(
-        cmd=['echo "$(pwd)"', '$((1 + 1))'], shell=True, cwd=tmp_path, output='screen',
-        name='it'))
+    result = run(
+        ExecuteProcess(
+            cmd=['echo "$(pwd)"', '$((1 + 1))'],
+            shell=True,
+            cwd=tmp_path,
+            output='screen',
+            name='it',
+        )
+    )
     assert f'] {tmp_path} 2' in result.text
 
 
@@ -135,8 +147,12 @@ def test_execute_local(run: Run) -> None:
 
 def test_process_starts_after_the_walk(run: Run) -> None:
     """All that is visited comes before the first start; the environment is that of the visit."""
-    result = run(SetEnvironmentVariable('LAUNCH_TEST', 'early'), _shell('echo $LAUNCH_TEST'),
-                 SetEnvironmentVariable('LAUNCH_TEST', 'late'), LogInfo(msg='walk'))
+    result = run(
+        SetEnvironmentVariable('LAUNCH_TEST', 'early'),
+        _shell('echo $LAUNCH_TEST'),
+        SetEnvironmentVariable('LAUNCH_TEST', 'late'),
+        LogInfo(msg='walk'),
+    )
     assert result.lines[0] == '[INFO] [launch.user]: walk'
     assert '] early\n' in result.text
 
@@ -148,23 +164,32 @@ def test_executed_twice(run: Run) -> None:
     assert result.status == 1 and 'executed more than once' in result.text
 
 
-@pytest.mark.parametrize('kwargs, text', [
-    ({'cmd': ['no_such_program']}, "the program 'no_such_program' was not found on the PATH"),
-    ({'cmd': ['/no/program']}, "the program '/no/program' does not exist"),
-    ({'cmd': ['true'], 'cwd': '/no'}, "the folder '/no', in which 'true' was to be started"),
-])
+@pytest.mark.parametrize(
+    'kwargs, text',
+    [
+        ({'cmd': ['no_such_program']}, "the program 'no_such_program' was not found on the PATH"),
+        ({'cmd': ['/no/program']}, "the program '/no/program' does not exist"),
+        ({'cmd': ['true'], 'cwd': '/no'}, "the folder '/no', in which 'true' was to be started"),
+    ],
+)
 def test_spawn_failures(run: Run, kwargs: Any, text: str) -> None:
     """A process that cannot be started is reported; the launch goes on."""
-    seen: List[Any] = []
-    result = run(ExecuteProcess(**kwargs), RegisterEventHandler(
-        OnProcessExit(on_exit=lambda event, context: seen.append(event))))
+    seen: list[Any] = []
+    result = run(
+        ExecuteProcess(**kwargs),
+        RegisterEventHandler(OnProcessExit(on_exit=lambda event, context: seen.append(event))),
+    )
     assert (result.status, seen) == (0, [])
     assert f'exception occurred while executing process: {text}' in result.text
 
 
-@pytest.mark.parametrize('mode, text', [
-    (0o644, "may not be executed; 'chmod +x' makes it executable"),
-    (0o755, 'is a script whose first line does not name an interpreter')])
+@pytest.mark.parametrize(
+    'mode, text',
+    [
+        (0o644, "may not be executed; 'chmod +x' makes it executable"),
+        (0o755, 'is a script whose first line does not name an interpreter'),
+    ],
+)
 def test_file_that_is_no_program(run: Run, tmp_path: Path, mode: int, text: str) -> None:
     """The log tells what a file lacks to be a program."""
     path = tmp_path / 'script'
@@ -175,13 +200,16 @@ def test_file_that_is_no_program(run: Run, tmp_path: Path, mode: int, text: str)
 
 # Output.
 
+
 def _where_it_goes(run: Run, tmp_path: Path, output: Any) -> str:
     """Return letters for where the standard output and error of a process have gone."""
     text = run(_shell('echo out; echo err >&2', output=output, name='it')).text
     folder = tmp_path / 'log' / 'latest'
     main = (folder / 'launch.log').read_text()
-    own = {path.name.partition('.')[0].rpartition('-')[2]: path.read_text()
-           for path in folder.glob('it-*.log')}
+    own = {
+        path.name.partition('.')[0].rpartition('-')[2]: path.read_text()
+        for path in folder.glob('it-*.log')
+    }
     found = ''
     for word in ('out', 'err'):
         found += 'S' * (f'] {word}\n' in text) + 'L' * (f'] {word}\n' in main)
@@ -191,11 +219,19 @@ def _where_it_goes(run: Run, tmp_path: Path, output: Any) -> str:
     return found.strip(' ') if found.strip() else found
 
 
-@pytest.mark.parametrize('output, where', [
-    ('log', 'L SL'), ('screen', 'S S'), ('both', 'SL SL'), ('own_log', 'OB OB'),
-    ('full', 'SLOB SLOB'), ({'stdout': 'screen', 'stderr': 'log'}, 'S L'),
-    ({'both': ['log', 'own_log'], 'stderr': 'screen'}, 'LB SLB'),
-    ([LaunchConfiguration('o', default='both')], 'SL SL')])
+@pytest.mark.parametrize(
+    'output, where',
+    [
+        ('log', 'L SL'),
+        ('screen', 'S S'),
+        ('both', 'SL SL'),
+        ('own_log', 'OB OB'),
+        ('full', 'SLOB SLOB'),
+        ({'stdout': 'screen', 'stderr': 'log'}, 'S L'),
+        ({'both': ['log', 'own_log'], 'stderr': 'screen'}, 'LB SLB'),
+        ([LaunchConfiguration('o', default='both')], 'SL SL'),
+    ],
+)
 def test_output(run: Run, tmp_path: Path, output: Any, where: str) -> None:
     """Each stream goes to the screen, to the main log and to own logs, as it is set."""
     assert _where_it_goes(run, tmp_path, output) == where
@@ -237,48 +273,76 @@ def test_cached_output(run: Run) -> None:
         ExecuteProcess(cmd=['x']).get_stdout()
 
 
-@pytest.mark.parametrize('kwargs, configuration, terminal', [
-    ({}, None, False), ({'emulate_tty': True}, None, True), ({}, 'true', True),
-    ({'emulate_tty': True}, 'false', False)])
+@pytest.mark.parametrize(
+    'kwargs, configuration, terminal',
+    [
+        ({}, None, False),
+        ({'emulate_tty': True}, None, True),
+        ({}, 'true', True),
+        ({'emulate_tty': True}, 'false', False),
+    ],
+)
 def test_terminal(run: Run, kwargs: Any, configuration: Any, terminal: bool) -> None:
     """The output can be a terminal for the process; a launch configuration overrides it."""
-    settings = [] if configuration is None else [
-        SetLaunchConfiguration('emulate_tty', configuration)]
+    settings = (
+        [] if configuration is None else [SetLaunchConfiguration('emulate_tty', configuration)]
+    )
     script = 'test -t 1 && test -t 2 && echo yes || echo no'
     result = run(*settings, _shell(script, output_format='<{line}>', **kwargs))
-    assert f"<{'yes' if terminal else 'no'}>" in result.lines
+    assert f'<{"yes" if terminal else "no"}>' in result.lines
 
 
 def test_io_events(run: Run) -> None:
     """A handler gets the bytes of a stream, and may bring in more."""
     action = _shell('echo out; echo err >&2')
-    seen: List[bytes] = []
+    seen: list[bytes] = []
 
     def on_stdout(event: Any) -> LogInfo:
         seen.append(event.text)
         assert event.from_stdout and not event.from_stderr
         return LogInfo(msg='reaction')
-    result = run(action, RegisterEventHandler(OnProcessIO(
-        target_action=action, on_stdout=on_stdout, on_stderr=lambda event: seen.append(
-            event.text))))
+
+    result = run(
+        action,
+        RegisterEventHandler(
+            OnProcessIO(
+                target_action=action,
+                on_stdout=on_stdout,
+                on_stderr=lambda event: seen.append(event.text),
+            )
+        ),
+    )
     assert sorted(seen) == [b'err\n', b'out\n'] and 'reaction' in result.text
 
 
 def test_standard_input(run: Run) -> None:
     """A process waits for input that an event may bring."""
     action = _shell('read line; echo "<$line>"')
-    result = run(action, RegisterEventHandler(OnProcessStart(
-        target_action=action, on_start=lambda event, context: EmitEvent(event=ProcessStdin(
-            text=b'hello\n', action=action, name='', cmd=[], cwd=None, env=None, pid=0)))))
+    result = run(
+        action,
+        RegisterEventHandler(
+            OnProcessStart(
+                target_action=action,
+                on_start=lambda event, context: EmitEvent(
+                    event=ProcessStdin(
+                        text=b'hello\n', action=action, name='', cmd=[], cwd=None, env=None, pid=0
+                    )
+                ),
+            )
+        ),
+    )
     assert '] <hello>' in result.text
 
 
 # The end.
 
+
 def test_end_of_a_process(run: Run) -> None:
     """The log tells how a process ended; the launch does not fail because of it."""
-    result = run(ExecuteProcess(cmd=['sh', '-c', 'exit 3'], name='bad', log_cmd=True),
-                 ExecuteProcess(cmd=['true'], name='good'))
+    result = run(
+        ExecuteProcess(cmd=['sh', '-c', 'exit 3'], name='bad', log_cmd=True),
+        ExecuteProcess(cmd=['true'], name='good'),
+    )
     assert result.status == 0
     assert ", exit code 3, cmd 'sh -c exit 3']." in result.text
     assert "process details: cmd='sh -c exit 3', cwd='None', custom_env?=True" in result.text
@@ -288,16 +352,24 @@ def test_end_of_a_process(run: Run) -> None:
 def test_on_exit(run: Run) -> None:
     """The own reaction to the end comes after handlers that were registered later."""
     action = ExecuteProcess(cmd=['true'], on_exit=[LogInfo(msg='own')])
-    result = run(action, RegisterEventHandler(OnProcessExit(
-        target_action=action, on_exit=lambda event, context: LogInfo(msg='other'))))
+    result = run(
+        action,
+        RegisterEventHandler(
+            OnProcessExit(
+                target_action=action, on_exit=lambda event, context: LogInfo(msg='other')
+            )
+        ),
+    )
     texts = [line for line in result.lines if 'launch.user' in line]
     assert texts == ['[INFO] [launch.user]: other', '[INFO] [launch.user]: own']
 
 
 def test_required_process(run: Run) -> None:
     """The end of a required process ends the launch."""
-    result = run(ExecuteProcess(cmd=['true'], name='needed', on_exit=Shutdown()),
-                 ExecuteProcess(cmd=['sleep', '60']))
+    result = run(
+        ExecuteProcess(cmd=['true'], name='needed', on_exit=Shutdown()),
+        ExecuteProcess(cmd=['sleep', '60']),
+    )
     assert '[INFO] [launch]: process[needed-' in result.text
     assert 'was required: shutting down launched system' in result.text
 
@@ -309,9 +381,13 @@ def test_empty_on_exit(run: Run) -> None:
 
 def test_respawn(run: Run) -> None:
     """A process is started again after a clean end too, as often as is allowed."""
-    codes: List[int] = []
-    result = run(_shell('exit 0', respawn=True, respawn_max_retries=2), RegisterEventHandler(
-        OnProcessExit(on_exit=lambda event, context: codes.append(event.returncode))))
+    codes: list[int] = []
+    result = run(
+        _shell('exit 0', respawn=True, respawn_max_retries=2),
+        RegisterEventHandler(
+            OnProcessExit(on_exit=lambda event, context: codes.append(event.returncode))
+        ),
+    )
     assert codes == [0, 0, 0]
     labels = {line.split(']')[1] for line in result.lines if 'started' in line}
     assert len(labels) == 1
@@ -319,16 +395,30 @@ def test_respawn(run: Run) -> None:
 
 def test_shutdown_cuts_the_wait_before_a_respawn(run: Run) -> None:
     """A process that waits for its next start is not started during the shutdown."""
-    result = run(_shell('exit 1', respawn='true', respawn_delay=60.0),
-                 TimerAction(period=0.3, actions=[Shutdown()]))
+    result = run(
+        _shell('exit 1', respawn='true', respawn_delay=60.0),
+        TimerAction(period=0.3, actions=[Shutdown()]),
+    )
     assert result.text.count('process started') == 1
 
 
 def test_signal_event(run: Run) -> None:
     """An event sends a signal to the processes that match."""
     action = ExecuteProcess(cmd=['sleep', '60'], name='it')
-    result = run(action, TimerAction(period=0.1, actions=[EmitEvent(event=SignalProcess(
-        signal_number='SIGTERM', process_matcher=lambda each: matches_name(action.name)(each)))]))
+    result = run(
+        action,
+        TimerAction(
+            period=0.1,
+            actions=[
+                EmitEvent(
+                    event=SignalProcess(
+                        signal_number='SIGTERM',
+                        process_matcher=lambda each: matches_name(action.name)(each),
+                    )
+                )
+            ],
+        ),
+    )
     assert "sending signal 'SIGTERM' to process[it-" in result.text
     assert 'exit code -15' in result.text
 
@@ -336,8 +426,17 @@ def test_signal_event(run: Run) -> None:
 def test_signal_before_the_start(run: Run) -> None:
     """A process that is not running cannot get a signal."""
     action = ExecuteProcess(cmd=['no_such_program'])
-    result = run(action, TimerAction(period=0.1, actions=[EmitEvent(event=SignalProcess(
-        signal_number=2, process_matcher=matches_action(action)))]))
+    result = run(
+        action,
+        TimerAction(
+            period=0.1,
+            actions=[
+                EmitEvent(
+                    event=SignalProcess(signal_number=2, process_matcher=matches_action(action))
+                )
+            ],
+        ),
+    )
     assert result.status == 1 and 'is not running' in result.text
 
 
@@ -345,21 +444,41 @@ def test_shutdown_of_one_process(run: Run) -> None:
     """A process that is ended by an event is not started again; others go on."""
     action = ExecuteProcess(cmd=['sleep', '60'], respawn=True)
     other = _shell('sleep 0.5; echo other')
-    result = run(action, other, RegisterEventHandler(OnProcessStart(
-        target_action=action, on_start=[EmitEvent(event=ShutdownProcess(
-            process_matcher=matches_action(action)))])))
+    result = run(
+        action,
+        other,
+        RegisterEventHandler(
+            OnProcessStart(
+                target_action=action,
+                on_start=[
+                    EmitEvent(event=ShutdownProcess(process_matcher=matches_action(action)))
+                ],
+            )
+        ),
+    )
     assert result.text.count('process started') == 2
     assert '] other' in result.text
 
 
 def test_events_know_the_process(run: Run) -> None:
     """The events of a process carry the facts about it."""
-    seen: List[Any] = []
+    seen: list[Any] = []
     action = ExecuteProcess(cmd=['true'], name='it', additional_env={'A': 'b'})
-    run(action, RegisterEventHandler(OnProcessStart(
-        target_action=lambda target: target is action,
-        on_start=lambda event, context: seen.append(event))))
+    run(
+        action,
+        RegisterEventHandler(
+            OnProcessStart(
+                target_action=lambda target: target is action,
+                on_start=lambda event, context: seen.append(event),
+            )
+        ),
+    )
     event = seen[0]
     assert (event.process_name, event.cmd, event.cwd, event.env['A'], event.action) == (
-        action.name, ['true'], None, 'b', action)
+        action.name,
+        ['true'],
+        None,
+        'b',
+        action,
+    )
     assert event.pid == (action.process_details or {})['pid']

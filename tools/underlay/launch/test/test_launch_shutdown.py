@@ -10,7 +10,7 @@ import re
 import signal
 import subprocess
 import time
-from typing import Any, List
+from typing import Any
 
 from launch._supervision.process_group import living_members
 import pytest
@@ -32,10 +32,14 @@ def _group(text: str) -> int:
     return int(found.group(1))
 
 
-@pytest.mark.parametrize('number, text', [
-    (signal.SIGINT, 'user interrupted with ctrl-c (SIGINT)'),
-    (signal.SIGTERM, 'asked to end by a signal (SIGTERM)'),
-    (signal.SIGHUP, 'asked to end by a signal (SIGHUP)')])
+@pytest.mark.parametrize(
+    'number, text',
+    [
+        (signal.SIGINT, 'user interrupted with ctrl-c (SIGINT)'),
+        (signal.SIGTERM, 'asked to end by a signal (SIGTERM)'),
+        (signal.SIGHUP, 'asked to end by a signal (SIGHUP)'),
+    ],
+)
 def test_signals(launcher: Start, number: signal.Signals, text: str) -> None:
     """A signal ends the launch and its processes at once, with status 0."""
     launch = launcher(_process('exec sleep 60'))
@@ -62,17 +66,24 @@ def test_second_interrupt_is_ignored(launcher: Start) -> None:
 
 def test_escalation(launcher: Start) -> None:
     """A process that ignores signals is killed when both timeouts are over."""
-    launch = launcher(_process(
-        'trap "" INT TERM; while :; do sleep 0.1; done',
-        "sigterm_timeout='0.3', sigkill_timeout='0.2'"))
+    launch = launcher(
+        _process(
+            'trap "" INT TERM; while :; do sleep 0.1; done',
+            "sigterm_timeout='0.3', sigkill_timeout='0.2'",
+        )
+    )
     launch.wait_for('] ready')
     launch.process.send_signal(signal.SIGINT)
     assert launch.end() == 0
     text = launch.text
-    assert ("failed to terminate '0.3' seconds after receiving 'SIGINT', escalating to 'SIGTERM'"
-            in text)
-    assert ("failed to terminate '0.5' seconds after receiving 'SIGTERM', escalating to 'SIGKILL'"
-            in text)
+    assert (
+        "failed to terminate '0.3' seconds after receiving 'SIGINT', escalating to 'SIGTERM'"
+        in text
+    )
+    assert (
+        "failed to terminate '0.5' seconds after receiving 'SIGTERM', escalating to 'SIGKILL'"
+        in text
+    )
     assert 'exit code -9' in text and living_members(_group(text)) == []
 
 
@@ -105,16 +116,21 @@ def test_killed_launch(launcher: Start, wait_until: Wait) -> None:
 
 
 def test_closed_output(
-    tmp_path: Path, write: Callable[[str, str], str], launch_command: List[str],
+    tmp_path: Path,
+    write: Callable[[str, str], str],
+    launch_command: list[str],
 ) -> None:
     """A launch whose output nobody reads any more ends quietly."""
-    path = write('it.launch.py', (
-        'from launch import LaunchDescription\nfrom launch.actions import *\n'
-        'def generate_launch_description():\n    return LaunchDescription([ExecuteProcess('
-        "cmd=['sh', '-c', 'while :; do echo x; sleep 0.05; done'], output='screen')])\n"))
+    path = write(
+        'it.launch.py',
+        (
+            'from launch import LaunchDescription\nfrom launch.actions import *\n'
+            'def generate_launch_description():\n    return LaunchDescription([ExecuteProcess('
+            "cmd=['sh', '-c', 'while :; do echo x; sleep 0.05; done'], output='screen')])\n"
+        ),
+    )
     with open(tmp_path / 'errors', 'wb') as errors:
-        process = subprocess.Popen(
-            [*launch_command, path], stdout=subprocess.PIPE, stderr=errors)
+        process = subprocess.Popen([*launch_command, path], stdout=subprocess.PIPE, stderr=errors)
     assert process.stdout is not None
     process.stdout.readline()
     process.stdout.close()
@@ -126,19 +142,27 @@ def test_closed_output(
 
 
 def test_sigint_that_was_ignored_reaches_the_processes(
-    tmp_path: Path, write: Callable[[str, str], str], launch_command: List[str],
+    tmp_path: Path,
+    write: Callable[[str, str], str],
+    launch_command: list[str],
     wait_until: Wait,
 ) -> None:
     """A launch that a script has put into the background can be interrupted all the same."""
-    path = write('it.launch.py', (
-        'from launch import LaunchDescription\nfrom launch.actions import *\n'
-        'def generate_launch_description():\n    return LaunchDescription(['
-        f"{_process('exec sleep 60')}])\n"))
+    path = write(
+        'it.launch.py',
+        (
+            'from launch import LaunchDescription\nfrom launch.actions import *\n'
+            'def generate_launch_description():\n    return LaunchDescription(['
+            f'{_process("exec sleep 60")}])\n'
+        ),
+    )
     output = tmp_path / 'output'
     with open(output, 'wb') as file:
         process = subprocess.Popen(
             ['sh', '-c', 'trap "" INT; exec "$@"', 'sh', *launch_command, path],
-            stdout=file, stderr=subprocess.STDOUT)
+            stdout=file,
+            stderr=subprocess.STDOUT,
+        )
     try:
         wait_until(lambda: '] ready' in output.read_text())
         process.send_signal(signal.SIGINT)
@@ -152,6 +176,7 @@ def test_sigint_that_was_ignored_reaches_the_processes(
 def test_no_child_is_left(run: Callable[..., Any]) -> None:
     """When a run is over, this process has no child, not even a dead one."""
     from launch.actions import ExecuteProcess, Shutdown
+
     run(ExecuteProcess(cmd=['true'], on_exit=Shutdown()), ExecuteProcess(cmd=['sleep', '60']))
     with pytest.raises(ChildProcessError):
         os.waitpid(-1, os.WNOHANG)
@@ -160,6 +185,7 @@ def test_no_child_is_left(run: Callable[..., Any]) -> None:
 def test_no_descriptor_is_left(run: Callable[..., Any]) -> None:
     """A run closes all that it has opened."""
     from launch.actions import ExecuteProcess
+
     run(ExecuteProcess(cmd=['true'], emulate_tty=True))
     before = len(os.listdir('/proc/self/fd'))
     run(ExecuteProcess(cmd=['true'], emulate_tty=True), ExecuteProcess(cmd=['true']))

@@ -55,10 +55,14 @@ def test_text_must_be_a_text() -> None:
         TextSubstitution(text=1)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize('default, text', [
-    (False, 'False'), (1.5, '1.5'), ('x', 'x'), (['a', 1], 'a1'), (Path('/p'), '/p')])
+@pytest.mark.parametrize(
+    'default, text',
+    [(False, 'False'), (1.5, '1.5'), ('x', 'x'), (['a', 1], 'a1'), (Path('/p'), '/p')],
+)
 def test_default_of_a_launch_configuration(
-    context: LaunchContext, default: Any, text: str,
+    context: LaunchContext,
+    default: Any,
+    text: str,
 ) -> None:
     """The default may be anything that has a text."""
     assert LaunchConfiguration('x', default=default).perform(context) == text
@@ -67,8 +71,10 @@ def test_default_of_a_launch_configuration(
 def test_missing_launch_configuration(context: LaunchContext) -> None:
     """The failure names the closest launch configuration."""
     context.launch_configurations['use_sim_time'] = 'true'
-    with pytest.raises(SubstitutionFailure, match=(
-            "launch configuration 'use_simtime' does not exist. Did you mean 'use_sim_time'")):
+    with pytest.raises(
+        SubstitutionFailure,
+        match=("launch configuration 'use_simtime' does not exist. Did you mean 'use_sim_time'"),
+    ):
         LaunchConfiguration(['use_', 'simtime']).perform(context)
 
 
@@ -108,21 +114,29 @@ def test_command_keeps_the_line_break(context: LaunchContext) -> None:
     assert Command(['echo ', "'a  b' $HOME"]).perform(context) == 'a  b $HOME\n'
 
 
-@pytest.mark.parametrize('mode, result', [
-    ('ignore', 'out\n'), ('warn', 'out\n'), ('capture', 'err\nout\n')])
+@pytest.mark.parametrize(
+    'mode, result', [('ignore', 'out\n'), ('warn', 'out\n'), ('capture', 'err\nout\n')]
+)
 def test_command_with_errors_allowed(context: LaunchContext, mode: str, result: str) -> None:
     """What a command writes to its standard error may be dropped or taken in."""
     command = Command("sh -c 'echo err >&2; echo out'", on_stderr=mode)
     assert command.perform(context) == result
 
 
-@pytest.mark.parametrize('command, mode, text', [
-    ("sh -c 'echo err >&2'", 'fail', 'showed stderr output. Command: sh .*\n.*err'),
-    ("sh -c 'echo why >&2; exit 3'", 'ignore', 'executed command failed. Command: sh .*\n.*why'),
-    ('no_such_program x', 'fail', 'file not found: .*no_such_program'),
-    ('echo', 'nonsense', "invalid on_stderr 'nonsense'"),
-    ("echo 'x", 'fail', 'cannot be run: No closing quotation'),
-])
+@pytest.mark.parametrize(
+    'command, mode, text',
+    [
+        ("sh -c 'echo err >&2'", 'fail', 'showed stderr output. Command: sh .*\n.*err'),
+        (
+            "sh -c 'echo why >&2; exit 3'",
+            'ignore',
+            'executed command failed. Command: sh .*\n.*why',
+        ),
+        ('no_such_program x', 'fail', 'file not found: .*no_such_program'),
+        ('echo', 'nonsense', "invalid on_stderr 'nonsense'"),
+        ("echo 'x", 'fail', 'cannot be run: No closing quotation'),
+    ],
+)
 def test_command_failures(context: LaunchContext, command: str, mode: str, text: str) -> None:
     """A failure tells the command and what it said."""
     with pytest.raises(SubstitutionFailure, match=text):
@@ -175,13 +189,21 @@ def test_file_content(context: LaunchContext, tmp_path: Path) -> None:
         FileContent('/nope').perform(context)
 
 
-@pytest.mark.parametrize('substitution, text', [
-    (NotSubstitution('yes'), 'false'), (NotSubstitution('0'), 'true'),
-    (AndSubstitution('on', '1'), 'true'), (AndSubstitution('true', 'False'), 'false'),
-    (OrSubstitution('off', 'no'), 'false'), (OrSubstitution('off', 'TRUE'), 'true'),
-    (AnySubstitution('0', '0', '1'), 'true'), (AnySubstitution(), 'false'),
-    (AllSubstitution('1', '1', '0'), 'false'), (AllSubstitution(), 'true'),
-])
+@pytest.mark.parametrize(
+    'substitution, text',
+    [
+        (NotSubstitution('yes'), 'false'),
+        (NotSubstitution('0'), 'true'),
+        (AndSubstitution('on', '1'), 'true'),
+        (AndSubstitution('true', 'False'), 'false'),
+        (OrSubstitution('off', 'no'), 'false'),
+        (OrSubstitution('off', 'TRUE'), 'true'),
+        (AnySubstitution('0', '0', '1'), 'true'),
+        (AnySubstitution(), 'false'),
+        (AllSubstitution('1', '1', '0'), 'false'),
+        (AllSubstitution(), 'true'),
+    ],
+)
 def test_logic(context: LaunchContext, substitution: Any, text: str) -> None:
     """Truth values are read by YAML rules and written in lower case."""
     assert substitution.perform(context) == text
@@ -193,9 +215,19 @@ def test_logic_on_something_else(context: LaunchContext) -> None:
         NotSubstitution('perhaps').perform(context)
 
 
-@pytest.mark.parametrize('left, right, equal', [
-    ('1.0', '1', True), (True, '1', True), (None, '', True), (0.1 + 0.2, 0.3, True),
-    ('True', 'true', True), ('a', 'A', False), ('1', '2', False), (False, 'x', False)])
+@pytest.mark.parametrize(
+    'left, right, equal',
+    [
+        ('1.0', '1', True),
+        (True, '1', True),
+        (None, '', True),
+        (0.1 + 0.2, 0.3, True),
+        ('True', 'true', True),
+        ('a', 'A', False),
+        ('1', '2', False),
+        (False, 'x', False),
+    ],
+)
 def test_comparison(context: LaunchContext, left: Any, right: Any, equal: bool) -> None:
     """Values are compared as truth values, as numbers, or else as texts."""
     assert EqualsSubstitution(left, right).perform(context) == str(equal).lower()
@@ -211,20 +243,27 @@ def test_if_else(context: LaunchContext) -> None:
         IfElseSubstitution('yes')
 
 
-@pytest.mark.parametrize('substitution, text', [
-    (TextSubstitution(text='a'), "'a'"),
-    (LaunchConfiguration('x'), "LaunchConfig('x')"),
-    (EnvironmentVariable('HOME'), "EnvVar('HOME')"),
-    (PathJoinSubstitution([LaunchConfiguration('p'), 'x']),
-     "PathJoin('LaunchConfig('p') + 'x'')"),
-    (PythonExpression(['1+', LaunchConfiguration('b')]),
-     "PythonExpr('1+' + LaunchConfig('b'), ['math'])"),
-    (Command(['echo ', 'hi']), "Command('echo ' + 'hi')"),
-    (FindExecutable(name='xacro'), "FindExec('xacro')"),
-    (AnonName('x'), "AnonName('x')"),
-    (ThisLaunchFileDir(), 'ThisLaunchFileDir()'),
-    (LocalSubstitution('event.pid', 'pid'), "LocalVar('pid')"),
-])
+@pytest.mark.parametrize(
+    'substitution, text',
+    [
+        (TextSubstitution(text='a'), "'a'"),
+        (LaunchConfiguration('x'), "LaunchConfig('x')"),
+        (EnvironmentVariable('HOME'), "EnvVar('HOME')"),
+        (
+            PathJoinSubstitution([LaunchConfiguration('p'), 'x']),
+            "PathJoin('LaunchConfig('p') + 'x'')",
+        ),
+        (
+            PythonExpression(['1+', LaunchConfiguration('b')]),
+            "PythonExpr('1+' + LaunchConfig('b'), ['math'])",
+        ),
+        (Command(['echo ', 'hi']), "Command('echo ' + 'hi')"),
+        (FindExecutable(name='xacro'), "FindExec('xacro')"),
+        (AnonName('x'), "AnonName('x')"),
+        (ThisLaunchFileDir(), 'ThisLaunchFileDir()'),
+        (LocalSubstitution('event.pid', 'pid'), "LocalVar('pid')"),
+    ],
+)
 def test_descriptions(substitution: Any, text: str) -> None:
     """The descriptions are what `--show-args` shows as defaults."""
     assert substitution.describe() == text

@@ -32,20 +32,23 @@ def test_line_splitter() -> None:
 def test_exit_watch(monkeypatch: pytest.MonkeyPatch, with_descriptor: bool) -> None:
     """The end of a child is noticed, also where the system has no descriptors for processes."""
     if not with_descriptor:
+
         def unsupported(pid: int) -> int:
             raise OSError('not supported')
+
         monkeypatch.setattr(os, 'pidfd_open', unsupported)
 
     async def watch() -> int:
         child = subprocess.Popen(['sh', '-c', 'exit 7'])
         return await asyncio.wait_for(watch_exit(child, asyncio.get_running_loop()), 10)
+
     assert asyncio.run(watch()) == 7
 
 
-def _group_leader(script: str) -> 'subprocess.Popen[bytes]':
+def _group_leader(script: str) -> subprocess.Popen[bytes]:
     child = subprocess.Popen(
-        ['sh', '-c', f'{script}\necho ready\nwait'], stdout=subprocess.PIPE,
-        start_new_session=True)
+        ['sh', '-c', f'{script}\necho ready\nwait'], stdout=subprocess.PIPE, start_new_session=True
+    )
     assert child.stdout is not None
     child.stdout.readline()
     child.stdout.close()
@@ -107,11 +110,11 @@ def test_guard_spares_what_was_removed() -> None:
 def test_guard_that_was_killed() -> None:
     """Losing the guard does not disturb the launch."""
     guard = OrphanGuard()
-    guard.add(2 ** 22 + 1)
+    guard.add(2**22 + 1)
     assert guard.pid is not None
     os.kill(guard.pid, signal.SIGKILL)
     os.waitid(os.P_PID, guard.pid, os.WEXITED | os.WNOWAIT)
-    guard.remove(2 ** 22 + 1)
+    guard.remove(2**22 + 1)
     guard.close()
 
 

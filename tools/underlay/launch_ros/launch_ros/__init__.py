@@ -8,11 +8,7 @@ from typing import TYPE_CHECKING
 from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from . import actions
-    from . import descriptions
-    from . import parameter_descriptions
-    from . import substitutions
-    from . import utilities
+    from launch_ros import actions, descriptions, parameter_descriptions, substitutions, utilities
 
 __all__ = [
     'actions',

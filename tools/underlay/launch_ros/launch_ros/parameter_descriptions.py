@@ -61,8 +61,9 @@ class Parameter:
 
     def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
         """Return the name and the value now."""
-        from .utilities.parameter_values import checked
-        from .utilities.yaml_text import flow_text
+        from launch_ros.utilities.parameter_values import checked
+        from launch_ros.utilities.yaml_text import flow_text
+
         name = perform_substitutions(context, self.__name)
         value = checked(self.__value.evaluate(context), name)
         self.__rule = f'{name}:={flow_text(value)}'
@@ -81,7 +82,8 @@ class ParameterFile:
     def __init__(self, param_file: SomeSubstitutionsType, *, allow_substs: bool = False) -> None:
         """Create the description of the file at a path."""
         ensure_argument_type(
-            param_file, SomeSubstitutionsType_types_tuple, 'param_file', 'ParameterFile')
+            param_file, SomeSubstitutionsType_types_tuple, 'param_file', 'ParameterFile'
+        )
         ensure_argument_type(allow_substs, bool, 'allow_substs', 'ParameterFile')
         self.__param_file = normalize_to_list_of_substitutions(param_file)
         self.__allow_substs = allow_substs
@@ -97,5 +99,6 @@ class ParameterFile:
         if self.__allow_substs:
             raise NotImplementedError(
                 f"the parameter file '{path}' is to be read with allow_substs=True, which this "
-                'version does not support yet; write the values into the launch file instead')
+                'version does not support yet; write the values into the launch file instead'
+            )
         return path

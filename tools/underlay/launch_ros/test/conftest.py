@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 import os
 from pathlib import Path
 import shlex
-from typing import Any, List
+from typing import Any
 
 from launch import LaunchContext, LaunchDescription, LaunchService
 import launch.logging
@@ -37,31 +37,36 @@ def context() -> LaunchContext:
 
 
 @pytest.fixture
-def words(context: LaunchContext) -> Callable[..., List[str]]:
+def words(context: LaunchContext) -> Callable[..., list[str]]:
     """Return a function that gives the words of a node's command line behind the program."""
-    def of_node(*before: Any, **kwargs: Any) -> List[str]:
+
+    def of_node(*before: Any, **kwargs: Any) -> list[str]:
         for entity in before:
             visit_all_entities_and_collect_futures(entity, context)
         node = Node(executable='/bin/true', **kwargs)
         node.prepare(context)
         return list(node.cmd[1:])
+
     return of_node
 
 
 @pytest.fixture
 def run(capfd: pytest.CaptureFixture[str]) -> Callable[..., Any]:
     """Return a function that launches some entities and gives the status and the text."""
+
     def launch_entities(*entities: Any) -> Any:
         service = LaunchService(noninteractive=True)
         service.include_launch_description(LaunchDescription(entities))
         status = service.run()
         return status, capfd.readouterr().out
+
     return launch_entities
 
 
 @pytest.fixture
 def prefix(tmp_path: Path) -> Prefix:
     """Return a function that installs a package, with executables that print their words."""
+
     def install(package: str, *executables: str) -> Path:
         root = tmp_path / 'prefix'
         index = root / 'share/ament_index/resource_index/packages'
@@ -75,4 +80,5 @@ def prefix(tmp_path: Path) -> Prefix:
             path.chmod(0o755)
         os.environ['AMENT_PREFIX_PATH'] = str(root)
         return root
+
     return install

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 import subprocess
 import sys
-from typing import Any, List, Optional
+from typing import Any, Optional
 
 from launch import LaunchContext
 from launch.actions import GroupAction
@@ -14,7 +14,7 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node, PushRosNamespace, SetParameter, SetRemap
 import pytest
 
-Words = Callable[..., List[str]]
+Words = Callable[..., list[str]]
 Run = Callable[..., Any]
 
 
@@ -26,23 +26,61 @@ def test_plain_program(words: Words) -> None:
 def test_order_of_the_command_line(words: Words) -> None:
     """Own arguments come first, then names, then what holds for all nodes, then the rest."""
     from launch_ros.parameter_descriptions import Parameter
+
     found = words(
-        PushRosNamespace('robot'), SetParameter('a', 1), SetRemap('x', 'y'),
-        name='n', namespace='left', arguments=['-v', ['b', LaunchConfiguration('c', default=2)]],
-        ros_arguments=['--log-level', 'debug'], remappings=[('in', 'out')],
-        parameters=[Parameter('p', 2.0)])
+        PushRosNamespace('robot'),
+        SetParameter('a', 1),
+        SetRemap('x', 'y'),
+        name='n',
+        namespace='left',
+        arguments=['-v', ['b', LaunchConfiguration('c', default=2)]],
+        ros_arguments=['--log-level', 'debug'],
+        remappings=[('in', 'out')],
+        parameters=[Parameter('p', 2.0)],
+    )
     assert found == [
-        '-v', 'b2', '--ros-args', '--log-level', 'debug',
-        '--ros-args', '-r', '__node:=n', '-r', '__ns:=/robot/left', '-p', 'a:=1', '-p', 'p:=2.0',
-        '-r', 'x:=y', '-r', 'in:=out']
+        '-v',
+        'b2',
+        '--ros-args',
+        '--log-level',
+        'debug',
+        '--ros-args',
+        '-r',
+        '__node:=n',
+        '-r',
+        '__ns:=/robot/left',
+        '-p',
+        'a:=1',
+        '-p',
+        'p:=2.0',
+        '-r',
+        'x:=y',
+        '-r',
+        'in:=out',
+    ]
 
 
-@pytest.mark.parametrize('pushed, own, namespace', [
-    (None, None, None), (None, 'a', '/a'), (None, '', '/'), (None, '/a/', '/a'), (None, '/', '/'),
-    ('a', None, '/a'), ('a', 'b', '/a/b'), ('a', '/b', '/b'), ('/a/', 'b/', '/a/b'),
-    ('', None, '/'), ('a', '', '/a')])
+@pytest.mark.parametrize(
+    'pushed, own, namespace',
+    [
+        (None, None, None),
+        (None, 'a', '/a'),
+        (None, '', '/'),
+        (None, '/a/', '/a'),
+        (None, '/', '/'),
+        ('a', None, '/a'),
+        ('a', 'b', '/a/b'),
+        ('a', '/b', '/b'),
+        ('/a/', 'b/', '/a/b'),
+        ('', None, '/'),
+        ('a', '', '/a'),
+    ],
+)
 def test_namespace(
-    words: Words, pushed: Optional[str], own: Optional[str], namespace: Optional[str],
+    words: Words,
+    pushed: Optional[str],
+    own: Optional[str],
+    namespace: Optional[str],
 ) -> None:
     """The namespace is below the one that was pushed, unless it is absolute."""
     before = [] if pushed is None else [PushRosNamespace(pushed)]
@@ -50,25 +88,29 @@ def test_namespace(
     assert found == ['--ros-args'] + ([] if namespace is None else ['-r', f'__ns:={namespace}'])
 
 
-@pytest.mark.parametrize('kwargs, text', [
-    ({'name': 'a-b'}, "the name 'a-b' has the character '-'; only letters"),
-    ({'name': '1a'}, 'begins with a digit'),
-    ({'name': ''}, 'has an empty part'),
-    ({'namespace': 'a//b'}, 'has an empty part'),
-    ({'namespace': '/a/b c'}, "has the character ' '")])
+@pytest.mark.parametrize(
+    'kwargs, text',
+    [
+        ({'name': 'a-b'}, "the name 'a-b' has the character '-'; only letters"),
+        ({'name': '1a'}, 'begins with a digit'),
+        ({'name': ''}, 'has an empty part'),
+        ({'namespace': 'a//b'}, 'has an empty part'),
+        ({'namespace': '/a/b c'}, "has the character ' '"),
+    ],
+)
 def test_invalid_names(run: Run, kwargs: Any, text: str) -> None:
     """An invalid name is an error that tells which node it is of."""
     status, out = run(Node(executable='/bin/true', **kwargs))
     assert status == 1 and text in out
     assert 'Error while expanding or validating node name or namespace for' in out
-    assert f"package=None, executable=/bin/true, name={kwargs.get('name')}" in out
+    assert f'package=None, executable=/bin/true, name={kwargs.get("name")}' in out
 
 
 def test_names_before_and_after(context: LaunchContext) -> None:
     """The full name is known when the node is executed, with placeholders for what is missing."""
     node = Node(executable='/bin/true', name='n', remappings={('a', 'b')})
     with pytest.raises(RuntimeError, match='not known before'):
-        node.node_name
+        _ = node.node_name
     node.prepare(context)
     assert node.node_name == '<node_namespace_unspecified>/n'
     assert not node.is_node_name_fully_specified()
@@ -81,21 +123,27 @@ def test_names_before_and_after(context: LaunchContext) -> None:
 
 def test_two_nodes_of_one_name(run: Run) -> None:
     """A second node with the same full name is reported before it is started."""
+
     def node() -> Node:
         return Node(executable='/bin/true', name='n', namespace='a', exec_name='it')
+
     status, out = run(node(), GroupAction([node()]), Node(executable='/bin/true', name='n'))
     assert status == 0
     assert out.count('there are now at least 2 nodes with the name /a/n created within') == 1
     assert out.index('at least 2 nodes') < out.index('process started')
 
 
-@pytest.mark.parametrize('kwargs, text', [
-    ({'arguments': '-d x'}, r"must be a list, .* write arguments=\['-d', 'x'\]"),
-    ({'remappings': [['a', 'b']]}, 'must be a tuple'),
-    ({'remappings': [('a',)]}, 'must be a tuple'),
-    ({'parameters': {'a': 1}}, 'put it in square brackets'),
-    ({'parameters': [1]}, 'must be a dictionary, the path of a file, or a Parameter'),
-    ({'node_name': 'x'}, 'node_name')])
+@pytest.mark.parametrize(
+    'kwargs, text',
+    [
+        ({'arguments': '-d x'}, r"must be a list, .* write arguments=\['-d', 'x'\]"),
+        ({'remappings': [['a', 'b']]}, 'must be a tuple'),
+        ({'remappings': [('a',)]}, 'must be a tuple'),
+        ({'parameters': {'a': 1}}, 'put it in square brackets'),
+        ({'parameters': [1]}, 'must be a dictionary, the path of a file, or a Parameter'),
+        ({'node_name': 'x'}, 'node_name'),
+    ],
+)
 def test_wrong_arguments(kwargs: Any, text: str) -> None:
     """What cannot work is refused when the node is created."""
     with pytest.raises(TypeError, match=text):
@@ -115,7 +163,8 @@ def test_importing_needs_no_ros() -> None:
         'import sys, launch_ros, launch_ros.actions as a, launch_ros.substitutions as s;'
         'a.Node(package="p", executable="e", parameters=[{"a": 1}]); s.FindPackageShare("p");'
         'launch_ros.parameter_descriptions.ParameterValue("1", value_type=int);'
-        'bad = {"asyncio", "yaml", "rclpy"} & set(sys.modules); sys.exit(str(bad) if bad else 0)')
+        'bad = {"asyncio", "yaml", "rclpy"} & set(sys.modules); sys.exit(str(bad) if bad else 0)'
+    )
     result = subprocess.run([sys.executable, '-c', code], stderr=subprocess.PIPE, text=True)
     assert (result.returncode, result.stderr) == (0, '')
 
@@ -127,10 +176,13 @@ def test_deep_paths() -> None:
     import launch_ros.parameter_descriptions
     import launch_ros.substitutions
     import launch_ros.utilities
+
     for package in (launch_ros.actions, launch_ros.substitutions, launch_ros.utilities):
         for name in package.__all__:
             assert getattr(package, name) is not None
     from launch_ros.actions.push_ros_namespace import PushRosNamespace as deep
+
     assert deep is launch_ros.actions.PushROSNamespace
     assert launch_ros.descriptions.ParameterValue is (
-        launch_ros.parameter_descriptions.ParameterValue)
+        launch_ros.parameter_descriptions.ParameterValue
+    )

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 import math
 from pathlib import Path
-from typing import Any, Dict, List
+from typing import Any
 
 from launch import LaunchContext
 from launch.actions import SetLaunchConfiguration
@@ -18,7 +18,7 @@ from launch_ros.utilities.yaml_text import flow_text
 import pytest
 import yaml
 
-Words = Callable[..., List[str]]
+Words = Callable[..., list[str]]
 
 
 def _sub(text: str) -> TextSubstitution:
@@ -32,38 +32,63 @@ def _evaluated(context: LaunchContext, value: Any) -> Any:
     return found['p']
 
 
-def _file(words: List[str]) -> Dict[str, Any]:
+def _file(words: list[str]) -> dict[str, Any]:
     """Return the content of the only parameter file on a command line."""
     path = words[words.index('--params-file') + 1]
-    content: Dict[str, Any] = yaml.safe_load(Path(path).read_text(encoding='utf-8'))
+    content: dict[str, Any] = yaml.safe_load(Path(path).read_text(encoding='utf-8'))
     return content
 
 
-@pytest.mark.parametrize('value, expected', [
-    (True, True), (5, 5), (1.5, 1.5), ('true', 'true'), ('1.0', '1.0'), ('', ''),
-    ([1, 2], [1, 2]), ((1, 2.5), [1.0, 2.5]), ([True], [True]), (['a', '1'], ['a', '1']),
-    (Path('/a'), '/a'),
-    (_sub('5'), 5), (_sub('yes'), True), (_sub('1.5'), 1.5), (_sub('1e-3'), 0.001),
-    (_sub('word'), 'word'), (_sub(''), ''), (_sub('[1, 2.5]'), [1.0, 2.5]),
-    ([_sub('1'), '2'], 12), ([[_sub('a'), 'b'], ['c']], ['ab', 'c']),
-    ([[_sub('1')], ['2']], [1, 2]),
-    (ParameterValue(_sub('5'), value_type=str), '5'), (ParameterValue('5'), 5),
-    (ParameterValue(_sub('5'), value_type=float), 5.0), (ParameterValue(3), 3),
-    (ParameterValue(_sub('[1]'), value_type=List[float]), [1.0]),
-])
+@pytest.mark.parametrize(
+    'value, expected',
+    [
+        (True, True),
+        (5, 5),
+        (1.5, 1.5),
+        ('true', 'true'),
+        ('1.0', '1.0'),
+        ('', ''),
+        ([1, 2], [1, 2]),
+        ((1, 2.5), [1.0, 2.5]),
+        ([True], [True]),
+        (['a', '1'], ['a', '1']),
+        (Path('/a'), '/a'),
+        (_sub('5'), 5),
+        (_sub('yes'), True),
+        (_sub('1.5'), 1.5),
+        (_sub('1e-3'), 0.001),
+        (_sub('word'), 'word'),
+        (_sub(''), ''),
+        (_sub('[1, 2.5]'), [1.0, 2.5]),
+        ([_sub('1'), '2'], 12),
+        ([[_sub('a'), 'b'], ['c']], ['ab', 'c']),
+        ([[_sub('1')], ['2']], [1, 2]),
+        (ParameterValue(_sub('5'), value_type=str), '5'),
+        (ParameterValue('5'), 5),
+        (ParameterValue(_sub('5'), value_type=float), 5.0),
+        (ParameterValue(3), 3),
+        (ParameterValue(_sub('[1]'), value_type=list[float]), [1.0]),
+    ],
+)
 def test_types(context: LaunchContext, value: Any, expected: Any) -> None:
     """A text stays a text; a substitution gets its type by YAML rules; others stay."""
     assert repr(_evaluated(context, value)) == repr(expected)
 
 
-@pytest.mark.parametrize('value, text', [
-    (None, "Unexpected type for parameter value None of the parameter 'p'"),
-    ([], 'non-empty sequence'), ([1, 'a'], 'Got inconsistent input for "p"'),
-    ([1, True], 'inconsistent'), (_sub('{a: 1}'), """Got <class 'dict'> for "p". If the param"""),
-    (_sub('null'), "Got <class 'NoneType'>"), (_sub('[1, a]'), 'inconsistent'),
-    (_sub('a: b: c'), 'Unable to parse the value of parameter p as yaml. If the parameter is'),
-    ([['a'], [_sub('1')]], 'inconsistent'),
-])
+@pytest.mark.parametrize(
+    'value, text',
+    [
+        (None, "Unexpected type for parameter value None of the parameter 'p'"),
+        ([], 'non-empty sequence'),
+        ([1, 'a'], 'Got inconsistent input for "p"'),
+        ([1, True], 'inconsistent'),
+        (_sub('{a: 1}'), """Got <class 'dict'> for "p". If the param"""),
+        (_sub('null'), "Got <class 'NoneType'>"),
+        (_sub('[1, a]'), 'inconsistent'),
+        (_sub('a: b: c'), 'Unable to parse the value of parameter p as yaml. If the parameter is'),
+        ([['a'], [_sub('1')]], 'inconsistent'),
+    ],
+)
 def test_wrong_values(context: LaunchContext, value: Any, text: str) -> None:
     """The error of a value that is not allowed names the parameter."""
     with pytest.raises(TypeError) as error:
@@ -79,9 +104,16 @@ def test_value_of_another_type(context: LaunchContext) -> None:
         ParameterValue(1.5, value_type=int)
 
 
-@pytest.mark.parametrize('kwargs, key', [
-    ({}, '/**'), ({'name': 'n'}, '/**'), ({'namespace': 'a'}, '/**'),
-    ({'name': 'n', 'namespace': 'a'}, '/a/n'), ({'name': 'n', 'namespace': ''}, '/n')])
+@pytest.mark.parametrize(
+    'kwargs, key',
+    [
+        ({}, '/**'),
+        ({'name': 'n'}, '/**'),
+        ({'namespace': 'a'}, '/**'),
+        ({'name': 'n', 'namespace': 'a'}, '/a/n'),
+        ({'name': 'n', 'namespace': ''}, '/n'),
+    ],
+)
 def test_file_of_a_dictionary(words: Words, kwargs: Any, key: str) -> None:
     """A dictionary becomes a file for the node, or for any if its full name is not known."""
     found = _file(words(parameters=[{'b': {'c': 1, 'd': {'e': "it's"}}, 'a': True}], **kwargs))
@@ -96,8 +128,9 @@ def test_pushed_namespace_counts_as_known(words: Words) -> None:
 
 def test_names_may_be_substitutions(words: Words) -> None:
     """The name of a parameter may have parts that are known later."""
-    found = _file(words(SetLaunchConfiguration('x', 'y'), parameters=[
-        {(LaunchConfiguration('x'), '.z'): 1}]))
+    found = _file(
+        words(SetLaunchConfiguration('x', 'y'), parameters=[{(LaunchConfiguration('x'), '.z'): 1}])
+    )
     assert found['/**']['ros__parameters'] == {'y.z': 1}
 
 
@@ -106,16 +139,25 @@ def test_files_keep_their_place(words: Words, tmp_path: Path) -> None:
     first, second = tmp_path / 'first.yaml', tmp_path / 'second.yaml'
     first.touch()
     second.touch()
-    found = words(parameters=[
-        str(first), {'a': 1}, '/no.yaml', ParameterFile([_sub(str(tmp_path)), '/second.yaml']),
-        Parameter('p', 'true'), Parameter('q', _sub('[1, 2]'))])
+    found = words(
+        parameters=[
+            str(first),
+            {'a': 1},
+            '/no.yaml',
+            ParameterFile([_sub(str(tmp_path)), '/second.yaml']),
+            Parameter('p', 'true'),
+            Parameter('q', _sub('[1, 2]')),
+        ]
+    )
     files = [found[i + 1] for i, word in enumerate(found) if word == '--params-file']
     assert [files[0], files[2]] == [str(first), str(second)] and len(files) == 3
     assert found[-4:] == ['-p', 'p:=true', '-p', 'q:=[1, 2]']
 
 
 def test_missing_file_is_reported(
-    words: Words, tmp_path: Path, capfd: pytest.CaptureFixture[str],
+    words: Words,
+    tmp_path: Path,
+    capfd: pytest.CaptureFixture[str],
 ) -> None:
     """The warning names the file."""
     words(parameters=[tmp_path / 'no.yaml'])
@@ -136,10 +178,39 @@ def test_rule_before_evaluation() -> None:
         Parameter('a', 1).get_parameter_rule()
 
 
-@pytest.mark.parametrize('value', [
-    True, 0, -5, 1.0, 1e-07, 1.5e300, -0.0, math.inf, -math.inf, '', 'a', "it's", 'true', '1e3',
-    '0x10', 'a: b', '# x', 'a\nb', '\t', '\x7f\x85\u2028', '\u00e9\U0001f600', '"', '\\n', '~',
-    [1, 2], ['a', 'b, c'], [1.5], b'\x00\xff'])
+@pytest.mark.parametrize(
+    'value',
+    [
+        True,
+        0,
+        -5,
+        1.0,
+        1e-07,
+        1.5e300,
+        -0.0,
+        math.inf,
+        -math.inf,
+        '',
+        'a',
+        "it's",
+        'true',
+        '1e3',
+        '0x10',
+        'a: b',
+        '# x',
+        'a\nb',
+        '\t',
+        '\x7f\x85\u2028',
+        '\u00e9\U0001f600',
+        '"',
+        '\\n',
+        '~',
+        [1, 2],
+        ['a', 'b, c'],
+        [1.5],
+        b'\x00\xff',
+    ],
+)
 def test_written_values(value: Any) -> None:
     """What is written is read again as the same value of the same type."""
     assert repr(yaml.safe_load(flow_text(value))) == repr(value)

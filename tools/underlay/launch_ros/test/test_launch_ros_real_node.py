@@ -7,7 +7,7 @@ from collections.abc import Callable
 import json
 from pathlib import Path
 import sys
-from typing import Any, Dict
+from typing import Any
 
 from launch.actions import GroupAction
 from launch.substitutions import TextSubstitution
@@ -37,29 +37,54 @@ rclpy.shutdown()
 """
 
 
-def _told(run: Callable[..., Any], tmp_path: Path, *before: Any, **kwargs: Any) -> Dict[str, Any]:
+def _told(run: Callable[..., Any], tmp_path: Path, *before: Any, **kwargs: Any) -> dict[str, Any]:
     """Return what a real node knows of itself."""
     script = tmp_path / 'node.py'
     script.write_text(SCRIPT)
-    node = Node(executable=sys.executable, arguments=[str(script)], output='screen',
-                output_format='{line}', **kwargs)
+    node = Node(
+        executable=sys.executable,
+        arguments=[str(script)],
+        output='screen',
+        output_format='{line}',
+        **kwargs,
+    )
     status, out = run(GroupAction([*before, node]))
     assert status == 0
-    answer: Dict[str, Any] = json.loads(
-        next(line for line in out.splitlines() if line.startswith('{')))
+    answer: dict[str, Any] = json.loads(
+        next(line for line in out.splitlines() if line.startswith('{'))
+    )
     return answer
 
 
 def test_node(run: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Names, remappings and the types of parameters arrive."""
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'OFF')
-    plain = {'flag': True, 'number': 5, 'ratio': 1e-07, 'text': 'true', 'empty': '',
-             'digits': '0x10', 'exponent': '1e3', 'quote': "it's \n \u00e9",
-             'list': [1, 2], 'texts': ['a', '1'], 'ratios': [1, 2.5]}
+    plain = {
+        'flag': True,
+        'number': 5,
+        'ratio': 1e-07,
+        'text': 'true',
+        'empty': '',
+        'digits': '0x10',
+        'exponent': '1e3',
+        'quote': "it's \n \u00e9",
+        'list': [1, 2],
+        'texts': ['a', '1'],
+        'ratios': [1, 2.5],
+    }
     answer = _told(
-        run, tmp_path, PushRosNamespace('robot'), SetParameter('all', [1.5, 2.0]),
-        SetRemap('a', 'b'), name='walker', parameters=[
-            plain, {'nested': {'deep': TextSubstitution(text='1e3')}}, Parameter('single', 'no')])
+        run,
+        tmp_path,
+        PushRosNamespace('robot'),
+        SetParameter('all', [1.5, 2.0]),
+        SetRemap('a', 'b'),
+        name='walker',
+        parameters=[
+            plain,
+            {'nested': {'deep': TextSubstitution(text='1e3')}},
+            Parameter('single', 'no'),
+        ],
+    )
     assert (answer['name'], answer['topic']) == ('/robot/walker', '/robot/b')
     parameters = answer['parameters']
     assert {name: parameters[name] for name in plain} == {**plain, 'ratios': [1.0, 2.5]}
@@ -68,7 +93,20 @@ def test_node(run: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.Monke
 
 
 NAMES = (
-    'a', 'a1', '_a', '', '1a', 'a-b', 'a b', 'a/b', 'a' * 255, 'a' * 256, '\u00e9', '~a', 'A_b')
+    'a',
+    'a1',
+    '_a',
+    '',
+    '1a',
+    'a-b',
+    'a b',
+    'a/b',
+    'a' * 255,
+    'a' * 256,
+    '\u00e9',
+    '~a',
+    'A_b',
+)
 NAMESPACES = ('/', '/a', '/a/b', 'a', '', '/a/', '//a', '/a//b', '/1a', '/a b', '/_a', '/a-b')
 
 
@@ -77,8 +115,10 @@ def test_names_of_nodes(name: str) -> None:
     """A name is valid if rclpy finds it valid."""
     from rclpy.exceptions import InvalidNodeNameException
     from rclpy.validate_node_name import validate_node_name as judge
+
     assert _is_valid(validate_node_name, name, InvalidNameError) == _is_valid(
-        judge, name, InvalidNodeNameException)
+        judge, name, InvalidNodeNameException
+    )
 
 
 @pytest.mark.parametrize('namespace', NAMESPACES)
@@ -86,8 +126,10 @@ def test_namespaces(namespace: str) -> None:
     """A namespace is valid if rclpy finds it valid."""
     from rclpy.exceptions import InvalidNamespaceException
     from rclpy.validate_namespace import validate_namespace as judge
+
     assert _is_valid(validate_namespace, namespace, InvalidNameError) == _is_valid(
-        judge, namespace, InvalidNamespaceException)
+        judge, namespace, InvalidNamespaceException
+    )
 
 
 def _is_valid(check: Callable[[str], Any], name: str, error: Any) -> bool:

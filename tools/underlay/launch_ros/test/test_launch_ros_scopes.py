@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 import os
 from pathlib import Path
-from typing import Any, List
+from typing import Any
 
 from launch import LaunchContext
 from launch.actions import GroupAction
@@ -22,20 +22,30 @@ from launch_ros.actions import (
 from launch_ros.substitutions import Parameter
 import pytest
 
-Words = Callable[..., List[str]]
+Words = Callable[..., list[str]]
 
 
 def test_nothing_leaks_from_a_group(words: Words) -> None:
     """What is set in a group ends with it, also if something was set before."""
     found = words(
-        SetParameter('a', 1), SetRemap('x', 'y'),
-        GroupAction([PushRosNamespace('ns'), SetParameter('b', 2), SetRemap('z', 'w')]))
+        SetParameter('a', 1),
+        SetRemap('x', 'y'),
+        GroupAction([PushRosNamespace('ns'), SetParameter('b', 2), SetRemap('z', 'w')]),
+    )
     assert found == ['--ros-args', '-p', 'a:=1', '-r', 'x:=y']
 
 
-@pytest.mark.parametrize('value, text', [
-    (True, 'True'), (2.5, '2.5'), ('text', 'text'), ([1, 2], '[1, 2]'),
-    (TextSubstitution(text='true'), 'True'), (TextSubstitution(text='5'), '5')])
+@pytest.mark.parametrize(
+    'value, text',
+    [
+        (True, 'True'),
+        (2.5, '2.5'),
+        ('text', 'text'),
+        ([1, 2], '[1, 2]'),
+        (TextSubstitution(text='true'), 'True'),
+        (TextSubstitution(text='5'), '5'),
+    ],
+)
 def test_values_on_the_command_line(words: Words, value: Any, text: str) -> None:
     """Values are written so that ROS reads them."""
     assert words(SetParameter('a', value)) == ['--ros-args', '-p', f'a:={text}']
@@ -45,8 +55,11 @@ def test_parameters_and_files_keep_their_order(words: Words, tmp_path: Path) -> 
     """What is set later comes later."""
     path = tmp_path / 'p.yaml'
     path.touch()
-    found = words(SetParameter(name='a', value=1), SetParametersFromFile([str(path)]),
-                  SetParameter(LaunchConfiguration('n', default='b'), 2))
+    found = words(
+        SetParameter(name='a', value=1),
+        SetParametersFromFile([str(path)]),
+        SetParameter(LaunchConfiguration('n', default='b'), 2),
+    )
     assert found == ['--ros-args', '-p', 'a:=1', '--params-file', str(path), '-p', 'b:=2']
 
 
@@ -59,8 +72,10 @@ def test_missing_file(context: LaunchContext) -> None:
 def test_invalid_namespace(context: LaunchContext) -> None:
     """The error tells both namespaces and what is wrong."""
     context.launch_configurations['ros_namespace'] = '/a'
-    with pytest.raises(RuntimeError, match=(
-            r"invalid: \[previous_namespace='/a', pushed_namespace='1bad'\]. .*a digit")):
+    with pytest.raises(
+        RuntimeError,
+        match=(r"invalid: \[previous_namespace='/a', pushed_namespace='1bad'\]. .*a digit"),
+    ):
         PushRosNamespace('1bad').visit(context)
 
 

@@ -49,12 +49,22 @@ def test_executable(context: LaunchContext, prefix: Install) -> None:
     assert found.describe() == "ExecInPkg(pkg='pkg', exec='talker')"
 
 
-@pytest.mark.parametrize('executables, text', [
-    (['talker'], "executable 'listener' not found on the libexec directory '{root}/lib/pkg' "),
-    ([], "package 'pkg' found at '{root}', but libexec directory '{root}/lib/pkg' does not exist"),
-])
+@pytest.mark.parametrize(
+    'executables, text',
+    [
+        (['talker'], "executable 'listener' not found on the libexec directory '{root}/lib/pkg' "),
+        (
+            [],
+            "package 'pkg' found at '{root}', but libexec directory "
+            "'{root}/lib/pkg' does not exist",
+        ),
+    ],
+)
 def test_missing_executable(
-    context: LaunchContext, prefix: Install, executables: Any, text: str,
+    context: LaunchContext,
+    prefix: Install,
+    executables: Any,
+    text: str,
 ) -> None:
     """The error tells whether the folder or the file is missing."""
     root = prefix('pkg', *executables)

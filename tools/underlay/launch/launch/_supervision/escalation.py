@@ -7,7 +7,6 @@ import asyncio
 from collections.abc import Callable
 import logging
 import signal
-from typing import List
 
 
 class Escalation:
@@ -29,16 +28,18 @@ class Escalation:
         self._sigterm_timeout = sigterm_timeout
         self._sigterm_s = _seconds('sigterm_timeout', sigterm_timeout)
         self._sigkill_s = self._sigterm_s + _seconds('sigkill_timeout', sigkill_timeout)
-        self._timers: List[asyncio.TimerHandle] = []
+        self._timers: list[asyncio.TimerHandle] = []
 
     def begin(self, loop: asyncio.AbstractEventLoop) -> None:
         """Send SIGINT now and plan the rest."""
         self.send_logged(signal.SIGINT)
         self._timers = [
-            loop.call_later(self._sigterm_s, self._step, self._sigterm_timeout, signal.SIGINT,
-                            signal.SIGTERM),
-            loop.call_later(self._sigkill_s, self._step, self._sigkill_s, signal.SIGTERM,
-                            signal.SIGKILL),
+            loop.call_later(
+                self._sigterm_s, self._step, self._sigterm_timeout, signal.SIGINT, signal.SIGTERM
+            ),
+            loop.call_later(
+                self._sigkill_s, self._step, self._sigkill_s, signal.SIGTERM, signal.SIGKILL
+            ),
         ]
 
     def cancel(self) -> None:
@@ -54,7 +55,12 @@ class Escalation:
     def _step(self, waited: object, last: signal.Signals, following: signal.Signals) -> None:
         self._logger.error(
             "process[%s] failed to terminate '%s' seconds after receiving '%s', escalating to "
-            "'%s'", self._label, waited, last.name, following.name)
+            "'%s'",
+            self._label,
+            waited,
+            last.name,
+            following.name,
+        )
         self.send_logged(following)
 
 
@@ -63,4 +69,5 @@ def _seconds(name: str, text: str) -> float:
         return float(text)
     except ValueError:
         raise ValueError(
-            f"the {name} of a process must be a number of seconds, but it is '{text}'") from None
+            f"the {name} of a process must be a number of seconds, but it is '{text}'"
+        ) from None

@@ -10,7 +10,8 @@ import threading
 
 
 def watch_exit(
-    child: subprocess.Popen[bytes], loop: asyncio.AbstractEventLoop,
+    child: subprocess.Popen[bytes],
+    loop: asyncio.AbstractEventLoop,
 ) -> asyncio.Future[int]:
     """Return a future of the return code of a child process."""
     future: asyncio.Future[int] = loop.create_future()
@@ -40,12 +41,14 @@ def _watch_in_thread(
     future: asyncio.Future[int],
 ) -> None:
     """Wait in a thread, where the system cannot tell the event loop of a child's end."""
+
     def wait() -> None:
         code = child.wait()
         try:
             loop.call_soon_threadsafe(_finish, future, code)
         except RuntimeError:  # the loop is closed: nobody waits any more
             pass
+
     threading.Thread(target=wait, name=f'wait for {child.pid}', daemon=True).start()
 
 

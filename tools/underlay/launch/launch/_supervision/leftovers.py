@@ -6,7 +6,7 @@ from __future__ import annotations
 import asyncio
 import signal
 
-from .process_group import is_empty, send_signal
+from launch._supervision.process_group import is_empty, send_signal
 
 _STEPS = ((signal.SIGINT, 0.5), (signal.SIGTERM, 1.0), (signal.SIGKILL, 1.0))
 _LOOK_EVERY_S = 0.02

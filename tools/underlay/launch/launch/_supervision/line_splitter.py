@@ -3,17 +3,15 @@
 
 from __future__ import annotations
 
-from typing import List
-
 
 class LineSplitter:
     """Collects bytes and returns the lines that are complete."""
 
     def __init__(self) -> None:
         """Create an empty splitter."""
-        self._pieces: List[bytes] = []
+        self._pieces: list[bytes] = []
 
-    def feed(self, data: bytes) -> List[str]:
+    def feed(self, data: bytes) -> list[str]:
         """Return the lines that are complete with these bytes."""
         if b'\n' not in data:
             self._pieces.append(data)
@@ -22,7 +20,7 @@ class LineSplitter:
         self._pieces = [rest] if rest else []
         return [_decode(line) for line in lines]
 
-    def flush(self) -> List[str]:
+    def flush(self) -> list[str]:
         """Return what stands behind the last line break, as a line if there is something."""
         rest = b''.join(self._pieces)
         self._pieces = []

@@ -68,9 +68,14 @@ class OrphanGuard:
         reading_end, self._pipe = os.pipe()
         try:
             self._shell = subprocess.Popen(
-                ['/bin/sh', '-c', _SCRIPT], stdin=reading_end, stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL, cwd='/', env={'PATH': '/usr/bin:/bin'},
-                start_new_session=True)
+                ['/bin/sh', '-c', _SCRIPT],
+                stdin=reading_end,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                cwd='/',
+                env={'PATH': '/usr/bin:/bin'},
+                start_new_session=True,
+            )
         finally:
             os.close(reading_end)
 

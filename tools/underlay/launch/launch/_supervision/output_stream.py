@@ -15,7 +15,10 @@ class OutputStream:
     """Hands what comes out of a pipe or a pseudo terminal to a function."""
 
     def __init__(
-        self, loop: asyncio.AbstractEventLoop, descriptor: int, use: Callable[[bytes], None],
+        self,
+        loop: asyncio.AbstractEventLoop,
+        descriptor: int,
+        use: Callable[[bytes], None],
     ) -> None:
         """Start to read from a descriptor, which the stream owns from now on."""
         self._loop = loop

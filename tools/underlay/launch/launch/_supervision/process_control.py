@@ -5,17 +5,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..event import Event
-from ..event_handler import BaseEventHandler
-from ..events.process.process_stdin import ProcessStdin
-from ..events.process.process_targeted_event import ProcessTargetedEvent
-from ..events.process.signal_process import SignalProcess
-from ..events.shutdown import Shutdown
+from launch.event import Event
+from launch.event_handler import BaseEventHandler
+from launch.events.process.process_stdin import ProcessStdin
+from launch.events.process.process_targeted_event import ProcessTargetedEvent
+from launch.events.process.signal_process import SignalProcess
+from launch.events.shutdown import Shutdown
 
 if TYPE_CHECKING:
-    from .supervisor import Supervisor
-    from ..actions.execute_local import ExecuteLocal
-    from ..launch_context import LaunchContext
+    from launch._supervision.supervisor import Supervisor
+    from launch.actions.execute_local import ExecuteLocal
+    from launch.launch_context import LaunchContext
 
 
 class ProcessControl(BaseEventHandler):

@@ -5,11 +5,10 @@ from __future__ import annotations
 
 import os
 import signal
-from typing import List
 
-_TO_THE_GROUP = frozenset((
-    signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGKILL, signal.SIGSTOP,
-    signal.SIGCONT))
+_TO_THE_GROUP = frozenset(
+    (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGKILL, signal.SIGSTOP, signal.SIGCONT)
+)
 
 
 def send_signal(pid: int, number: signal.Signals) -> None:
@@ -39,7 +38,7 @@ def is_empty(group: int) -> bool:
     return not living_members(group)
 
 
-def living_members(group: int) -> List[int]:
+def living_members(group: int) -> list[int]:
     """Return the ids of the processes of a group that are not dead."""
     pids = [int(name) for name in os.listdir('/proc') if name.isdigit()]
     return [pid for pid in pids if _is_living_member(pid, group)]

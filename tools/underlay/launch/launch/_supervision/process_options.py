@@ -4,15 +4,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, List, Optional, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING
 
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
-from ..utilities.type_utils import perform_typed_substitution
+from launch.substitution import Substitution
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities.type_utils import perform_typed_substitution
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 @dataclass(frozen=True)
@@ -25,8 +27,8 @@ class ProcessOptions:
     log_cmd: bool
     output: Any
     output_format: str
-    sigterm_timeout: List[Substitution]
-    sigkill_timeout: List[Substitution]
+    sigterm_timeout: list[Substitution]
+    sigkill_timeout: list[Substitution]
     respawn: Any
     respawn_delay: Optional[float]
     respawn_max_retries: int
@@ -42,9 +44,13 @@ class ProcessOptions:
         override = context.launch_configurations.get('emulate_tty')
         if override is None:
             return self.emulate_tty
-        from ..conditions.evaluate_condition_expression_impl import evaluate_condition_expression
+        from launch.conditions.evaluate_condition_expression_impl import (
+            evaluate_condition_expression,
+        )
+
         return evaluate_condition_expression(
-            context, normalize_to_list_of_substitutions(str(override)))
+            context, normalize_to_list_of_substitutions(str(override))
+        )
 
     def where_output_goes(self, context: LaunchContext) -> Any:
         """Return the performed `output`."""
@@ -53,10 +59,11 @@ class ProcessOptions:
         return perform_substitutions(context, self.output)
 
 
-def timeout_substitutions(value: Any) -> List[Substitution]:
+def timeout_substitutions(value: Any) -> list[Substitution]:
     """Return a timeout, which may be a plain number, as substitutions."""
     return normalize_to_list_of_substitutions(
-        str(value) if isinstance(value, (int, float)) else value)
+        str(value) if isinstance(value, (int, float)) else value
+    )
 
 
 def output_substitutions(value: Any) -> Any:

@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Dict, List
+from typing import Any
 
-from .line_splitter import LineSplitter
-from ..logging import get_output_loggers
+from launch._supervision.line_splitter import LineSplitter
+from launch.logging import get_output_loggers
 
 _STREAMS = (1, 2)
 
@@ -16,14 +16,19 @@ class ProcessOutput:
     """Logs the lines that a process writes, and keeps the text if that is wanted."""
 
     def __init__(
-        self, label: str, config: Any, format_line: Callable[[str], str], *, keep: bool,
+        self,
+        label: str,
+        config: Any,
+        format_line: Callable[[str], str],
+        *,
+        keep: bool,
     ) -> None:
         """Create the output of a process from where it goes and how a line looks."""
         self._loggers = dict(zip(_STREAMS, get_output_loggers(label, config)))
         self._splitters = {stream: LineSplitter() for stream in _STREAMS}
         self._format_line = format_line
         self._keep = keep
-        self._kept: Dict[int, List[bytes]] = {stream: [] for stream in _STREAMS}
+        self._kept: dict[int, list[bytes]] = {stream: [] for stream in _STREAMS}
 
     def feed(self, stream: int, data: bytes) -> None:
         """Take bytes from a stream, 1 or 2."""
@@ -40,6 +45,6 @@ class ProcessOutput:
         """Return all the text of a stream."""
         return b''.join(self._kept[stream]).decode('utf-8', 'replace')
 
-    def _log(self, stream: int, lines: List[str]) -> None:
+    def _log(self, stream: int, lines: list[str]) -> None:
         for line in lines:
             self._loggers[stream].info('%s', self._format_line(line))

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from typing import Set, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
-from .orphan_guard import OrphanGuard
+from launch._supervision.orphan_guard import OrphanGuard
 
 if TYPE_CHECKING:
-    from .running_process import RunningProcess
+    from launch._supervision.running_process import RunningProcess
 
 
 class ProcessRegistry:
@@ -16,7 +16,7 @@ class ProcessRegistry:
 
     def __init__(self) -> None:
         """Create an empty registry."""
-        self._processes: Set[RunningProcess] = set()
+        self._processes: set[RunningProcess] = set()
         self._guard = OrphanGuard()
 
     def add(self, process: RunningProcess) -> None:

@@ -9,11 +9,11 @@ from functools import partial
 import os
 import signal
 import subprocess
-from typing import Optional, Tuple
+from typing import Optional
 
-from .exit_watch import watch_exit
-from .output_stream import OutputStream
-from .process_group import send_signal
+from launch._supervision.exit_watch import watch_exit
+from launch._supervision.output_stream import OutputStream
+from launch._supervision.process_group import send_signal
 
 OnOutput = Callable[[int, bytes], None]
 
@@ -36,9 +36,16 @@ class RunningProcess:
         readers, writers = zip(*[_channel(emulate_tty) for _ in range(2)])
         try:
             self._child: subprocess.Popen[bytes] = subprocess.Popen(
-                ' '.join(command) if shell else list(command), shell=shell, cwd=cwd, env=env,
-                stdin=subprocess.PIPE, stdout=writers[0], stderr=writers[1], bufsize=0,
-                start_new_session=True)
+                ' '.join(command) if shell else list(command),
+                shell=shell,
+                cwd=cwd,
+                env=env,
+                stdin=subprocess.PIPE,
+                stdout=writers[0],
+                stderr=writers[1],
+                bufsize=0,
+                start_new_session=True,
+            )
         except BaseException:
             _close(readers)
             raise
@@ -46,7 +53,8 @@ class RunningProcess:
             _close(writers)
         self._streams = [
             OutputStream(loop, reader, partial(on_output, number))
-            for number, reader in zip((1, 2), readers)]
+            for number, reader in zip((1, 2), readers)
+        ]
         self.exited = watch_exit(self._child, loop)
 
     @property
@@ -85,7 +93,7 @@ class RunningProcess:
         self.close()
 
 
-def _channel(emulate_tty: bool) -> Tuple[int, int]:
+def _channel(emulate_tty: bool) -> tuple[int, int]:
     """Return the end to read from and the end to write to."""
     return os.openpty() if emulate_tty else os.pipe()
 

@@ -6,24 +6,24 @@ from __future__ import annotations
 import asyncio
 import logging
 import signal
-from typing import Any, Dict, Optional, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING
 
-from .escalation import Escalation
-from .leftovers import end_leftovers
-from .process_options import ProcessOptions
-from .process_output import ProcessOutput
-from .running_process import RunningProcess
-from .spawn_failure import explain_spawn_failure
-from ..events.process.process_exited import ProcessExited
-from ..events.process.process_started import ProcessStarted
-from ..events.process.process_stderr import ProcessStderr
-from ..events.process.process_stdout import ProcessStdout
-from ..logging import get_logger
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch._supervision.escalation import Escalation
+from launch._supervision.leftovers import end_leftovers
+from launch._supervision.process_options import ProcessOptions
+from launch._supervision.process_output import ProcessOutput
+from launch._supervision.running_process import RunningProcess
+from launch._supervision.spawn_failure import explain_spawn_failure
+from launch.events.process.process_exited import ProcessExited
+from launch.events.process.process_started import ProcessStarted
+from launch.events.process.process_stderr import ProcessStderr
+from launch.events.process.process_stdout import ProcessStdout
+from launch.logging import get_logger
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..actions.execute_local import ExecuteLocal
-    from ..launch_context import LaunchContext
+    from launch.actions.execute_local import ExecuteLocal
+    from launch.launch_context import LaunchContext
 
 
 class Supervisor:
@@ -41,12 +41,15 @@ class Supervisor:
         self._options = options
         self._context = context
         self._loop = loop
-        self._details: Dict[str, Any] = action.description_of_process()
+        self._details: dict[str, Any] = action.description_of_process()
         self._label: str = self._details['name']
         self._logger: logging.Logger = get_logger(self._label)
         self.output = ProcessOutput(
-            self._label, options.where_output_goes(context), action.format_line,
-            keep=options.cached_output)
+            self._label,
+            options.where_output_goes(context),
+            action.format_line,
+            keep=options.cached_output,
+        )
         self.return_code: Optional[int] = None
         self._process: Optional[RunningProcess] = None
         self._escalation: Optional[Escalation] = None
@@ -54,7 +57,7 @@ class Supervisor:
         self.task = loop.create_task(self._supervise())
 
     @property
-    def details(self) -> Dict[str, Any]:
+    def details(self) -> dict[str, Any]:
         """Return the facts about the process; `pid` is there when it was started."""
         return self._details
 
@@ -72,7 +75,8 @@ class Supervisor:
         if self._process is None:
             raise RuntimeError(
                 f"the signal '{number.name}' cannot be sent to process[{self._label}], which is "
-                'not running')
+                'not running'
+            )
         self._logger.info("sending signal '%s' to process[%s]", number.name, self._label)
         self._process.send_signal(number)
 
@@ -119,9 +123,14 @@ class Supervisor:
         details = self._details
         try:
             process = RunningProcess(
-                details['cmd'], cwd=details['cwd'], env=details['env'],
-                shell=self._options.shell, emulate_tty=self._options.wants_tty(self._context),
-                loop=self._loop, on_output=self._on_output)
+                details['cmd'],
+                cwd=details['cwd'],
+                env=details['env'],
+                shell=self._options.shell,
+                emulate_tty=self._options.wants_tty(self._context),
+                loop=self._loop,
+                on_output=self._on_output,
+            )
         except (OSError, ValueError) as error:
             self._logger.error('%s', explain_spawn_failure(details, error))
             self._logger.debug('the traceback of it', exc_info=True)
@@ -134,8 +143,11 @@ class Supervisor:
         self._details['pid'] = process.pid
         if self._options.log_cmd:
             self._logger.info(
-                "process details: cmd='%s', cwd='%s', custom_env?=%s", self._command_line(),
-                self._details['cwd'], self._details['env'] is not None)
+                "process details: cmd='%s', cwd='%s', custom_env?=%s",
+                self._command_line(),
+                self._details['cwd'],
+                self._details['env'] is not None,
+            )
         self._logger.info('process started with pid [%s]', process.pid)
         self._context.emit_event_sync(ProcessStarted(**self._event_details()))
         if self._stopped.done():
@@ -150,10 +162,14 @@ class Supervisor:
             self._logger.info('process has finished cleanly [pid %s]', process.pid)
         else:
             self._logger.error(
-                "process has died [pid %s, exit code %s, cmd '%s'].", process.pid,
-                self.return_code, self._command_line())
+                "process has died [pid %s, exit code %s, cmd '%s'].",
+                process.pid,
+                self.return_code,
+                self._command_line(),
+            )
         self._context.emit_event_sync(
-            ProcessExited(returncode=self.return_code or 0, **self._event_details()))
+            ProcessExited(returncode=self.return_code or 0, **self._event_details())
+        )
 
     def _forget(self, process: RunningProcess) -> None:
         """Let go of a process that has ended; one that has not is left to the registry."""
@@ -175,14 +191,20 @@ class Supervisor:
         if process is None:
             return
         self._escalation = Escalation(
-            label=self._label, logger=self._logger, send=process.send_signal,
+            label=self._label,
+            logger=self._logger,
+            send=process.send_signal,
             sigterm_timeout=perform_substitutions(self._context, self._options.sigterm_timeout),
-            sigkill_timeout=perform_substitutions(self._context, self._options.sigkill_timeout))
+            sigkill_timeout=perform_substitutions(self._context, self._options.sigkill_timeout),
+        )
         self._escalation.begin(self._loop)
 
     def _command_line(self) -> str:
         return ' '.join(self._details['cmd'])
 
-    def _event_details(self) -> Dict[str, Any]:
-        return {'action': self._action, 'pid': self._process.pid if self._process else 0,
-                **{key: self._details[key] for key in ('name', 'cmd', 'cwd', 'env')}}
+    def _event_details(self) -> dict[str, Any]:
+        return {
+            'action': self._action,
+            'pid': self._process.pid if self._process else 0,
+            **{key: self._details[key] for key in ('name', 'cmd', 'cwd', 'env')},
+        }

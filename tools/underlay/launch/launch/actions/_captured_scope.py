@@ -3,18 +3,18 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
-from ..launch_description_entity import LaunchDescriptionEntity
+from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class EnterScope(LaunchDescriptionEntity):
     """Opens a scope of launch configurations as they were earlier."""
 
-    def __init__(self, configurations: Dict[str, Any], local_variables: Dict[str, Any]) -> None:
+    def __init__(self, configurations: dict[str, Any], local_variables: dict[str, Any]) -> None:
         """Create the entity from what was captured."""
         self._configurations = configurations
         self._locals = local_variables

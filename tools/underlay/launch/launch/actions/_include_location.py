@@ -4,18 +4,18 @@
 from __future__ import annotations
 
 import os
-from typing import Dict, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
-from ..launch_description_entity import LaunchDescriptionEntity
+from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 _PATH = 'current_launch_file_path'
 _FOLDER = 'current_launch_file_directory'
 
 
-def enter_launch_file(context: LaunchContext, path: str) -> Dict[str, str]:
+def enter_launch_file(context: LaunchContext, path: str) -> dict[str, str]:
     """Make a file the one that is being read; return what leaving it has to restore."""
     known = context.get_locals_as_dict()
     before = {name: known[name] for name in (_PATH, _FOLDER) if name in known}
@@ -26,7 +26,7 @@ def enter_launch_file(context: LaunchContext, path: str) -> Dict[str, str]:
 class LeaveLaunchFile(LaunchDescriptionEntity):
     """Makes the including file the one that is being read again."""
 
-    def __init__(self, before: Dict[str, str]) -> None:
+    def __init__(self, before: dict[str, str]) -> None:
         """Create the entity from what was known before."""
         self._before = before
 

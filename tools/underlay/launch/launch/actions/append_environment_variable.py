@@ -4,17 +4,19 @@
 from __future__ import annotations
 
 import os
-from typing import Any, List, TYPE_CHECKING, Union
+from typing import Any, TYPE_CHECKING, Union
 
-from ..action import Action
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
-from ..utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+from launch.action import Action
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class AppendEnvironmentVariable(Action):
@@ -36,17 +38,17 @@ class AppendEnvironmentVariable(Action):
         self.__separator = normalize_to_list_of_substitutions(separator)
 
     @property
-    def name(self) -> List[Substitution]:
+    def name(self) -> list[Substitution]:
         """Return the parts of the name."""
         return self.__name
 
     @property
-    def value(self) -> List[Substitution]:
+    def value(self) -> list[Substitution]:
         """Return the parts of the value."""
         return self.__value
 
     @property
-    def separator(self) -> List[Substitution]:
+    def separator(self) -> list[Substitution]:
         """Return the parts of the separator."""
         return self.__separator
 

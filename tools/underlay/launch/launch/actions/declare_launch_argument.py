@@ -5,16 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable
 import os
-from typing import Any, List, NoReturn, Optional, TYPE_CHECKING
+from typing import Any, NoReturn, Optional, TYPE_CHECKING
 
-from ..action import Action
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.action import Action
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class DeclareLaunchArgument(Action):
@@ -36,19 +38,24 @@ class DeclareLaunchArgument(Action):
         self.__choices: Any = choices
         self.__description = _describe(description, choices)
         self.__default_value = (
-            None if default_value is None else normalize_to_list_of_substitutions(default_value))
+            None if default_value is None else normalize_to_list_of_substitutions(default_value)
+        )
         self._check_choices(default_value)
 
     def _check_choices(self, default_value: Any) -> None:
         if self.__choices is None:
             return
         if not list(self.__choices):
-            _fail(f'The argument "{self.__name}" has an empty list of choices; give at least one '
-                  'value, or leave the choices out.')
+            _fail(
+                f'The argument "{self.__name}" has an empty list of choices; give at least one '
+                'value, or leave the choices out.'
+            )
         plain = isinstance(default_value, (str, os.PathLike))
         if plain and os.fspath(default_value) not in self.__choices:
-            _fail(f'Provided default_value "{default_value}" is not in provided choices '
-                  f'"{self.__choices}".')
+            _fail(
+                f'Provided default_value "{default_value}" is not in provided choices '
+                f'"{self.__choices}".'
+            )
 
     @property
     def name(self) -> str:
@@ -56,7 +63,7 @@ class DeclareLaunchArgument(Action):
         return self.__name
 
     @property
-    def default_value(self) -> Optional[List[Substitution]]:
+    def default_value(self) -> Optional[list[Substitution]]:
         """Return the parts of the default, or None if the argument must be given."""
         return self.__default_value
 
@@ -75,14 +82,19 @@ class DeclareLaunchArgument(Action):
         """Set the launch configuration to the default unless it is set; check its value."""
         if self.__name not in context.launch_configurations:
             if self.__default_value is None:
-                _fail(f'Required launch argument "{self.__name}" (description: '
-                      f'"{self.__description}") was not provided')
+                _fail(
+                    f'Required launch argument "{self.__name}" (description: '
+                    f'"{self.__description}") was not provided'
+                )
             context.launch_configurations[self.__name] = perform_substitutions(
-                context, self.__default_value)
+                context, self.__default_value
+            )
         value = context.launch_configurations[self.__name]
         if self.__choices is not None and value not in self.__choices:
-            _fail(f'Argument "{self.__name}" provided value "{value}" is not valid. '
-                  f'Valid options are: {self.__choices}')
+            _fail(
+                f'Argument "{self.__name}" provided value "{value}" is not valid. '
+                f'Valid options are: {self.__choices}'
+            )
 
 
 def _describe(description: Optional[str], choices: Optional[Iterable[str]]) -> str:
@@ -96,6 +108,7 @@ def _describe(description: Optional[str], choices: Optional[Iterable[str]]) -> s
 
 
 def _fail(text: str) -> NoReturn:
-    from ..logging import get_logger
+    from launch.logging import get_logger
+
     get_logger('launch.actions.declare_launch_argument').error('%s', text)
     raise RuntimeError(text)

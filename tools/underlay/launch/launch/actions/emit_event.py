@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from typing import Any, TYPE_CHECKING
 
-from ..action import Action
-from ..event import Event
+from launch.action import Action
+from launch.event import Event
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class EmitEvent(Action):
@@ -21,7 +21,8 @@ class EmitEvent(Action):
         if not isinstance(event, Event):
             raise RuntimeError(
                 f"EmitEvent expected an event, but got '{event!r}' of type "
-                f"'{type(event).__name__}'")
+                f"'{type(event).__name__}'"
+            )
         self.__event = event
 
     @property

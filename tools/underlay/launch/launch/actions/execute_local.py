@@ -5,24 +5,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 import os
-from typing import Any, Dict, List, Optional, TYPE_CHECKING, Union
+from typing import Any, Optional, TYPE_CHECKING, Union
 
-from ..action import Action
-from ..descriptions.executable import Executable
-from ..launch_description_entity import LaunchDescriptionEntity
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitutions.launch_configuration import LaunchConfiguration
-from ..utilities.type_utils import normalize_typed_substitution
+from launch.action import Action
+from launch.descriptions.executable import Executable
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitutions.launch_configuration import LaunchConfiguration
+from launch.utilities.type_utils import normalize_typed_substitution
 
 if TYPE_CHECKING:
     import asyncio
 
-    from .._supervision.supervisor import Supervisor
-    from ..launch_context import LaunchContext
+    from launch._supervision.supervisor import Supervisor
+    from launch.launch_context import LaunchContext
 
-OnExit = Union[
-    LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity], Callable[..., Any]]
-Output = Union[SomeSubstitutionsType, Dict[str, Any]]
+OnExit = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity], Callable[..., Any]]
+Output = Union[SomeSubstitutionsType, dict[str, Any]]
 
 _OVERRIDE_OUTPUT = 'OVERRIDE_LAUNCH_PROCESS_OUTPUT'
 
@@ -36,9 +35,11 @@ class ExecuteLocal(Action):
         process_description: Executable,
         shell: bool = False,
         sigterm_timeout: Union[float, SomeSubstitutionsType] = LaunchConfiguration(
-            'sigterm_timeout', default=5),
+            'sigterm_timeout', default=5
+        ),
         sigkill_timeout: Union[float, SomeSubstitutionsType] = LaunchConfiguration(
-            'sigkill_timeout', default=5),
+            'sigkill_timeout', default=5
+        ),
         emulate_tty: bool = False,
         output: Output = 'log',
         output_format: str = '[{this.process_description.final_name}] {line}',
@@ -68,20 +69,26 @@ class ExecuteLocal(Action):
         :param respawn_max_retries: how many times at most; negative stands for always
         """
         super().__init__(**kwargs)
-        from .._supervision.process_options import (
+        from launch._supervision.process_options import (
             output_substitutions,
             ProcessOptions,
             timeout_substitutions,
         )
+
         self.__process_description = process_description
         self.__options = ProcessOptions(
-            shell=shell, emulate_tty=emulate_tty, cached_output=cached_output, log_cmd=log_cmd,
+            shell=shell,
+            emulate_tty=emulate_tty,
+            cached_output=cached_output,
+            log_cmd=log_cmd,
             output=output_substitutions(os.environ.get(_OVERRIDE_OUTPUT) or output),
             output_format=output_format,
             sigterm_timeout=timeout_substitutions(sigterm_timeout),
             sigkill_timeout=timeout_substitutions(sigkill_timeout),
-            respawn=normalize_typed_substitution(respawn, bool), respawn_delay=respawn_delay,
-            respawn_max_retries=respawn_max_retries)
+            respawn=normalize_typed_substitution(respawn, bool),
+            respawn_delay=respawn_delay,
+            respawn_max_retries=respawn_max_retries,
+        )
         self.__on_exit = on_exit
         self.__executed = False
         self.__supervisor: Optional[Supervisor] = None
@@ -131,7 +138,7 @@ class ExecuteLocal(Action):
     # What became of it.
 
     @property
-    def process_details(self) -> Optional[Dict[str, Any]]:
+    def process_details(self) -> Optional[dict[str, Any]]:
         """Return name, cmd, cwd, env and pid of the process, None before it was executed."""
         return self.__supervisor.details if self.__supervisor is not None else None
 
@@ -151,7 +158,8 @@ class ExecuteLocal(Action):
     def _kept_output(self, stream: int) -> str:
         if not self.__options.cached_output:
             raise RuntimeError(
-                f'the output of {self!r} was not kept: create the action with cached_output=True')
+                f'the output of {self!r} was not kept: create the action with cached_output=True'
+            )
         return '' if self.__supervisor is None else self.__supervisor.output.kept(stream)
 
     # What it does.
@@ -160,17 +168,21 @@ class ExecuteLocal(Action):
         """Return a line of the output as it is logged."""
         return self.__options.output_format.format(line=line, this=self)
 
-    def description_of_process(self) -> Dict[str, Any]:
+    def description_of_process(self) -> dict[str, Any]:
         """Return the final name, cmd, cwd and env."""
         description = self.__process_description
-        return {'name': description.final_name, 'cmd': description.final_cmd,
-                'cwd': description.final_cwd, 'env': description.final_env}
+        return {
+            'name': description.final_name,
+            'cmd': description.final_cmd,
+            'cwd': description.final_cwd,
+            'env': description.final_env,
+        }
 
     def prepare(self, context: LaunchContext) -> None:
         """Find out the final form of the description."""
         self.__process_description.prepare(context, self, shell=self.__options.shell)
 
-    def get_sub_entities(self) -> List[LaunchDescriptionEntity]:
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the entities that are visited when the process has ended."""
         if isinstance(self.__on_exit, LaunchDescriptionEntity):
             return [self.__on_exit]
@@ -178,12 +190,13 @@ class ExecuteLocal(Action):
             return []
         return list(self.__on_exit)
 
-    def execute(self, context: LaunchContext) -> Optional[List[LaunchDescriptionEntity]]:
+    def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
         """Start the process as soon as all that is being visited is done."""
         if self.__executed:
             raise RuntimeError(
                 f"ExecuteProcess action '{self.name}': executed more than once: {self!r}; a "
-                'process that is to run again needs an action of its own, or respawn=True')
+                'process that is to run again needs an action of its own, or respawn=True'
+            )
         self.prepare(context)
         self.__executed = True
         if not context.is_shutdown:
@@ -191,18 +204,22 @@ class ExecuteLocal(Action):
         return None
 
     def _begin_supervision(self, context: LaunchContext) -> None:
-        from .._supervision.process_control import ProcessControl
-        from .._supervision.supervisor import Supervisor
+        from launch._supervision.process_control import ProcessControl
+        from launch._supervision.supervisor import Supervisor
+
         loop = context.asyncio_loop
         if loop is None:
             raise RuntimeError(
-                f"the process '{self.name}' can only be started by a running launch")
+                f"the process '{self.name}' can only be started by a running launch"
+            )
         self.__supervisor = Supervisor(self, self.__options, context, loop)
         context.register_event_handler(ProcessControl(self, self.__supervisor))
         if self.__on_exit is not None:
-            from ..event_handlers.on_process_exit import OnProcessExit
+            from launch.event_handlers.on_process_exit import OnProcessExit
+
             context.register_event_handler(
-                OnProcessExit(target_action=self, on_exit=self.__on_exit))
+                OnProcessExit(target_action=self, on_exit=self.__on_exit)
+            )
 
     def get_asyncio_future(self) -> Optional[asyncio.Future[None]]:
         """Return a future that is done when the process has ended for good."""

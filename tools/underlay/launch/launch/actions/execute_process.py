@@ -6,9 +6,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Optional
 
-from .execute_local import ExecuteLocal
-from ..descriptions.executable import Executable, SomeVariables
-from ..some_substitutions_type import SomeSubstitutionsType
+from launch.actions.execute_local import ExecuteLocal
+from launch.descriptions.executable import Executable, SomeVariables
+from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class ExecuteProcess(ExecuteLocal):
@@ -36,5 +36,6 @@ class ExecuteProcess(ExecuteLocal):
         :param additional_env: what is added to its environment
         """
         description = Executable(
-            cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env)
+            cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env
+        )
         super().__init__(process_description=description, **kwargs)

@@ -4,21 +4,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any, List, Optional, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING
 
-from .pop_environment import PopEnvironment
-from .pop_launch_configurations import PopLaunchConfigurations
-from .push_environment import PushEnvironment
-from .push_launch_configurations import PushLaunchConfigurations
-from .reset_environment import ResetEnvironment
-from .reset_launch_configurations import ResetLaunchConfigurations
-from .set_launch_configuration import SetLaunchConfiguration
-from ..action import Action
-from ..launch_description_entity import LaunchDescriptionEntity
-from ..some_substitutions_type import SomeSubstitutionsType
+from launch.action import Action
+from launch.actions.pop_environment import PopEnvironment
+from launch.actions.pop_launch_configurations import PopLaunchConfigurations
+from launch.actions.push_environment import PushEnvironment
+from launch.actions.push_launch_configurations import PushLaunchConfigurations
+from launch.actions.reset_environment import ResetEnvironment
+from launch.actions.reset_launch_configurations import ResetLaunchConfigurations
+from launch.actions.set_launch_configuration import SetLaunchConfiguration
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.some_substitutions_type import SomeSubstitutionsType
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class GroupAction(Action):
@@ -31,7 +31,8 @@ class GroupAction(Action):
         scoped: bool = True,
         forwarding: bool = True,
         launch_configurations: Optional[
-            Mapping[SomeSubstitutionsType, SomeSubstitutionsType]] = None,
+            Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
+        ] = None,
         **left_over_kwargs: Any,
     ) -> None:
         """Create the group; without `forwarding` only `launch_configurations` get into it."""
@@ -40,27 +41,30 @@ class GroupAction(Action):
         self.__scoped = scoped
         self.__forwarding = forwarding
         self.__launch_configurations = dict(launch_configurations or {})
-        self.__entities: Optional[List[LaunchDescriptionEntity]] = None
+        self.__entities: Optional[list[LaunchDescriptionEntity]] = None
 
-    def get_sub_entities(self) -> List[LaunchDescriptionEntity]:
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the actions, with those around them that make the scope."""
         if self.__entities is None:
-            self.__entities = self._in_scope() if self.__scoped else [
-                *self._settings(), *self.__actions]
+            self.__entities = (
+                self._in_scope() if self.__scoped else [*self._settings(), *self.__actions]
+            )
         return self.__entities
 
-    def _settings(self) -> List[LaunchDescriptionEntity]:
-        return [SetLaunchConfiguration(name, value)
-                for name, value in self.__launch_configurations.items()]
+    def _settings(self) -> list[LaunchDescriptionEntity]:
+        return [
+            SetLaunchConfiguration(name, value)
+            for name, value in self.__launch_configurations.items()
+        ]
 
-    def _in_scope(self) -> List[LaunchDescriptionEntity]:
-        start: List[LaunchDescriptionEntity] = [PushLaunchConfigurations(), PushEnvironment()]
+    def _in_scope(self) -> list[LaunchDescriptionEntity]:
+        start: list[LaunchDescriptionEntity] = [PushLaunchConfigurations(), PushEnvironment()]
         if self.__forwarding:
             start += self._settings()
         else:
             start += [ResetEnvironment(), ResetLaunchConfigurations(self.__launch_configurations)]
         return [*start, *self.__actions, PopEnvironment(), PopLaunchConfigurations()]
 
-    def execute(self, context: LaunchContext) -> List[LaunchDescriptionEntity]:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Return the actions, which are visited next."""
         return self.get_sub_entities()

@@ -5,22 +5,24 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 import os
-from typing import Any, List, Optional, Tuple, TYPE_CHECKING, Union
+from typing import Any, Optional, TYPE_CHECKING, Union
 
-from ._include_location import enter_launch_file, LeaveLaunchFile
-from .set_launch_configuration import SetLaunchConfiguration
-from ..action import Action
-from ..launch_description import LaunchDescription
-from ..launch_description_entity import LaunchDescriptionEntity
-from ..launch_description_source import LaunchDescriptionSource
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.action import Action
+from launch.actions._include_location import enter_launch_file, LeaveLaunchFile
+from launch.actions.set_launch_configuration import SetLaunchConfiguration
+from launch.launch_description import LaunchDescription
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.launch_description_source import LaunchDescriptionSource
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
-Arguments = Iterable[Tuple[SomeSubstitutionsType, SomeSubstitutionsType]]
+Arguments = Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]]
 
 
 class IncludeLaunchDescription(Action):
@@ -36,9 +38,10 @@ class IncludeLaunchDescription(Action):
         """Create the action; a source that is only a path is read in any format."""
         super().__init__(**kwargs)
         if not isinstance(launch_description_source, LaunchDescriptionSource):
-            from ..launch_description_sources.any_launch_description_source import (
+            from launch.launch_description_sources.any_launch_description_source import (
                 AnyLaunchDescriptionSource,
             )
+
             launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
         self.__source = launch_description_source
         self.__launch_arguments = () if launch_arguments is None else tuple(launch_arguments)
@@ -51,7 +54,7 @@ class IncludeLaunchDescription(Action):
     @property
     def launch_arguments(
         self,
-    ) -> Tuple[Tuple[SomeSubstitutionsType, SomeSubstitutionsType], ...]:
+    ) -> tuple[tuple[SomeSubstitutionsType, SomeSubstitutionsType], ...]:
         """Return the launch arguments."""
         return self.__launch_arguments
 
@@ -59,21 +62,22 @@ class IncludeLaunchDescription(Action):
         """Return a short description for people."""
         return f'IncludeLaunchDescription({self.__source.location})'
 
-    def get_sub_entities(self) -> List[LaunchDescriptionEntity]:
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the launch description if it can be loaded without a context."""
         description = self.__source.try_get_launch_description_without_context()
         return [] if description is None else [description]
 
-    def execute(self, context: LaunchContext) -> List[LaunchDescriptionEntity]:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Load the file and return its description, with the arguments before it."""
         description = self.__source.get_launch_description(context)
         leave = enter_launch_file(context, os.path.abspath(self.__source.location))
         self._check_required(description, context)
-        arguments = [SetLaunchConfiguration(name, value)
-                     for name, value in self.__launch_arguments]
+        arguments = [
+            SetLaunchConfiguration(name, value) for name, value in self.__launch_arguments
+        ]
         return [*arguments, description, LeaveLaunchFile(leave)]
 
-    def given_names(self, context: Optional[LaunchContext] = None) -> List[str]:
+    def given_names(self, context: Optional[LaunchContext] = None) -> list[str]:
         """Return the names of the launch arguments that are given here."""
         return [_text(name, context) for name, _ in self.__launch_arguments]
 
@@ -88,16 +92,19 @@ class IncludeLaunchDescription(Action):
             if argument.name not in names:
                 raise RuntimeError(
                     f"Included launch description missing required argument '{argument.name}' "
-                    f"(description: '{argument.description}'), given: [{', '.join(names)}]")
+                    f"(description: '{argument.description}'), given: [{', '.join(names)}]"
+                )
 
 
 def _text(name: SomeSubstitutionsType, context: Optional[LaunchContext]) -> str:
     """Return the name of an argument; without a context, as far as it is known."""
-    from ..launch_context import LaunchContext
-    from ..substitutions.substitution_failure import SubstitutionFailure
+    from launch.launch_context import LaunchContext
+    from launch.substitutions.substitution_failure import SubstitutionFailure
+
     try:
         return perform_substitutions(
-            context or LaunchContext(), normalize_to_list_of_substitutions(name))
+            context or LaunchContext(), normalize_to_list_of_substitutions(name)
+        )
     except SubstitutionFailure:
         if context is not None:
             raise

@@ -3,16 +3,18 @@
 
 from __future__ import annotations
 
-from typing import Any, List, TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
-from ..action import Action
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.action import Action
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class LogInfo(Action):
@@ -24,11 +26,12 @@ class LogInfo(Action):
         self.__msg = normalize_to_list_of_substitutions(msg)
 
     @property
-    def msg(self) -> List[Substitution]:
+    def msg(self) -> list[Substitution]:
         """Return the parts of the text."""
         return self.__msg
 
     def execute(self, context: LaunchContext) -> None:
         """Log the text."""
-        from ..logging import get_logger
+        from launch.logging import get_logger
+
         get_logger('launch.user').info('%s', perform_substitutions(context, self.__msg))

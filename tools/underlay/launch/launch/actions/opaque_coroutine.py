@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Iterable, Mapping
 from typing import Any, Optional, TYPE_CHECKING
 
-from ..action import Action
-from ..event_handlers.on_shutdown import OnShutdown
+from launch.action import Action
+from launch.event_handlers.on_shutdown import OnShutdown
 
 if TYPE_CHECKING:
     import asyncio
 
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class OpaqueCoroutine(Action):
@@ -31,7 +31,8 @@ class OpaqueCoroutine(Action):
         super().__init__(**left_over_kwargs)
         if not callable(coroutine):
             raise TypeError(
-                f"OpaqueCoroutine expected a coroutine function, but got '{coroutine!r}'")
+                f"OpaqueCoroutine expected a coroutine function, but got '{coroutine!r}'"
+            )
         self.__coroutine = coroutine
         self.__args = tuple(args or ())
         self.__kwargs = dict(kwargs or {})

@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Optional, TYPE_CHECKING
 
-from ..action import Action
-from ..launch_description_entity import LaunchDescriptionEntity
+from launch.action import Action
+from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class OpaqueFunction(Action):
@@ -28,7 +28,8 @@ class OpaqueFunction(Action):
         super().__init__(**left_over_kwargs)
         if not callable(function):
             raise TypeError(
-                f"OpaqueFunction expected a callable as its function, but got '{function!r}'")
+                f"OpaqueFunction expected a callable as its function, but got '{function!r}'"
+            )
         self.__function = function
         self.__args = tuple(args or ())
         self.__kwargs = dict(kwargs or {})
@@ -40,5 +41,6 @@ class OpaqueFunction(Action):
             name = getattr(self.__function, '__name__', repr(self.__function))
             raise TypeError(
                 f"'{type(result).__name__}' object is not iterable: the function '{name}' of an "
-                'OpaqueFunction must return a list of actions or None')
+                'OpaqueFunction must return a list of actions or None'
+            )
         return result

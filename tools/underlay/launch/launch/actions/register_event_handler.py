@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, List, Tuple, TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
-from ..action import Action
-from ..event_handler import BaseEventHandler
-from ..launch_description_entity import LaunchDescriptionEntity
+from launch.action import Action
+from launch.event_handler import BaseEventHandler
+from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class RegisterEventHandler(Action):
@@ -33,7 +33,7 @@ class RegisterEventHandler(Action):
 
     def describe_conditional_sub_entities(
         self,
-    ) -> List[Tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """Return the entities of the handler, which wait for an event."""
         text, entities = self.__event_handler.describe()
         return [(text, entities)] if entities else []

@@ -6,13 +6,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Optional, TYPE_CHECKING
 
-from ..action import Action
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.action import Action
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class ResetLaunchConfigurations(Action):
@@ -21,18 +23,22 @@ class ResetLaunchConfigurations(Action):
     def __init__(
         self,
         launch_configurations: Optional[
-            Mapping[SomeSubstitutionsType, SomeSubstitutionsType]] = None,
+            Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
+        ] = None,
         **kwargs: Any,
     ) -> None:
         """Create the action; values may refer to configurations that are removed."""
         super().__init__(**kwargs)
         self.__kept = [
             (normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value))
-            for name, value in (launch_configurations or {}).items()]
+            for name, value in (launch_configurations or {}).items()
+        ]
 
     def execute(self, context: LaunchContext) -> None:
         """Remove them."""
-        kept = {perform_substitutions(context, name): perform_substitutions(context, value)
-                for name, value in self.__kept}
+        kept = {
+            perform_substitutions(context, name): perform_substitutions(context, value)
+            for name, value in self.__kept
+        }
         context.launch_configurations.clear()
         context.launch_configurations.update(kept)

@@ -5,22 +5,27 @@ from __future__ import annotations
 
 from typing import Any, TYPE_CHECKING
 
-from ..action import Action
-from ..events.process.process_exited import ProcessExited
-from ..events.shutdown import Shutdown as ShutdownEvent
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.action import Action
+from launch.events.process.process_exited import ProcessExited
+from launch.events.shutdown import Shutdown as ShutdownEvent
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class Shutdown(Action):
     """Ends the launch; as the `on_exit` of a process it makes that one a required process."""
 
     def __init__(
-        self, *, reason: SomeSubstitutionsType = 'reason not given', **kwargs: Any,
+        self,
+        *,
+        reason: SomeSubstitutionsType = 'reason not given',
+        **kwargs: Any,
     ) -> None:
         """Create the action, with the reason for people."""
         super().__init__(**kwargs)
@@ -30,8 +35,10 @@ class Shutdown(Action):
         """Emit the event of the shutdown."""
         event = context.get_locals_as_dict().get('event')
         if isinstance(event, ProcessExited):
-            from ..logging import get_logger
+            from launch.logging import get_logger
+
             get_logger('launch').info(
-                'process[%s] was required: shutting down launched system', event.process_name)
+                'process[%s] was required: shutting down launched system', event.process_name
+            )
         reason = perform_substitutions(context, self.__reason)
         context.emit_event_sync(ShutdownEvent(reason=reason))

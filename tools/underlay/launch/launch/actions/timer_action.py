@@ -4,21 +4,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, Dict, List, Optional, Tuple, TYPE_CHECKING, Union
+from typing import Any, Optional, TYPE_CHECKING, Union
 
-from ._captured_scope import EnterScope, LeaveScope
-from ..action import Action
-from ..event_handler import EventHandler
-from ..event_handlers.on_shutdown import OnShutdown
-from ..events.timer_event import TimerEvent
-from ..launch_description_entity import LaunchDescriptionEntity
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+from launch.action import Action
+from launch.actions._captured_scope import EnterScope, LeaveScope
+from launch.event_handler import EventHandler
+from launch.event_handlers.on_shutdown import OnShutdown
+from launch.events.timer_event import TimerEvent
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
 if TYPE_CHECKING:
     import asyncio
 
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class TimerAction(Action):
@@ -47,7 +47,7 @@ class TimerAction(Action):
         return self.__period
 
     @property
-    def actions(self) -> List[LaunchDescriptionEntity]:
+    def actions(self) -> list[LaunchDescriptionEntity]:
         """Return the actions."""
         return self.__actions
 
@@ -57,7 +57,7 @@ class TimerAction(Action):
 
     def describe_conditional_sub_entities(
         self,
-    ) -> List[Tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """Return the actions, which wait for the timer."""
         return [(f'after {self.__period} second(s)', self.__actions)]
 
@@ -76,12 +76,17 @@ class TimerAction(Action):
 
     def _reaction(self, context: LaunchContext) -> EventHandler:
         """Return the handler that visits the actions in the scope of now."""
-        configurations: Dict[str, Any] = dict(context.launch_configurations)
-        entities = [EnterScope(configurations, context.get_locals_as_dict()),
-                    *self.__actions, LeaveScope()]
+        configurations: dict[str, Any] = dict(context.launch_configurations)
+        entities = [
+            EnterScope(configurations, context.get_locals_as_dict()),
+            *self.__actions,
+            LeaveScope(),
+        ]
         return EventHandler(
             matcher=lambda event: isinstance(event, TimerEvent) and event.timer_action is self,
-            entities=entities, handle_once=True)
+            entities=entities,
+            handle_once=True,
+        )
 
     def _run_out(self, context: LaunchContext) -> None:
         if not self.__canceled:
@@ -109,5 +114,6 @@ def _checked_period(period: Any) -> Any:
     if isinstance(period, int):
         raise TypeError(
             'the period of a TimerAction must be a float or a substitution, but it is the '
-            f'{type(period).__name__} {period}: write {float(period)} instead')
+            f'{type(period).__name__} {period}: write {float(period)} instead'
+        )
     return normalize_typed_substitution(period, float)

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from typing import Any, TYPE_CHECKING
 
-from ..action import Action
-from ..event_handler import BaseEventHandler
+from launch.action import Action
+from launch.event_handler import BaseEventHandler
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class UnregisterEventHandler(Action):

@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._lazy import lazy_exports
+from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .evaluate_condition_expression_impl import evaluate_condition_expression
-    from .if_condition import IfCondition
-    from .launch_configuration_equals import LaunchConfigurationEquals
-    from .launch_configuration_not_equals import LaunchConfigurationNotEquals
-    from .unless_condition import UnlessCondition
+    from launch.conditions.evaluate_condition_expression_impl import evaluate_condition_expression
+    from launch.conditions.if_condition import IfCondition
+    from launch.conditions.launch_configuration_equals import LaunchConfigurationEquals
+    from launch.conditions.launch_configuration_not_equals import LaunchConfigurationNotEquals
+    from launch.conditions.unless_condition import UnlessCondition
 
 __all__ = [
     'IfCondition',

@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from ..substitution import Substitution
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.substitution import Substitution
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 VALID_TRUE_EXPRESSIONS = ['true', '1']
 VALID_FALSE_EXPRESSIONS = ['false', '0']
@@ -22,12 +22,14 @@ class InvalidConditionExpressionError(Exception):
     def __init__(self, expression: str, expected: Iterable[str], origin: str) -> None:
         """Create the error from what the expression became, and what it was made from."""
         super().__init__(
-            f"invalid condition expression, expected one of [{', '.join(expected)}] "
-            f"but got '{expression}', expanded from '{origin}'")
+            f'invalid condition expression, expected one of [{", ".join(expected)}] '
+            f"but got '{expression}', expanded from '{origin}'"
+        )
 
 
 def evaluate_condition_expression(
-    context: LaunchContext, expression: Iterable[Substitution],
+    context: LaunchContext,
+    expression: Iterable[Substitution],
 ) -> bool:
     """Return the truth value of an expression: true, 1, false or 0, in any case."""
     parts = list(expression)
@@ -37,5 +39,7 @@ def evaluate_condition_expression(
     if text in VALID_FALSE_EXPRESSIONS:
         return False
     raise InvalidConditionExpressionError(
-        text, VALID_TRUE_EXPRESSIONS + VALID_FALSE_EXPRESSIONS,
-        ', '.join(part.describe() for part in parts))
+        text,
+        VALID_TRUE_EXPRESSIONS + VALID_FALSE_EXPRESSIONS,
+        ', '.join(part.describe() for part in parts),
+    )

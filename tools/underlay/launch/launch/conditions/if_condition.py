@@ -5,14 +5,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .evaluate_condition_expression_impl import evaluate_condition_expression
-from ..condition import Condition
-from ..some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
-from ..utilities.ensure_argument_type_impl import ensure_argument_type
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from launch.condition import Condition
+from launch.conditions.evaluate_condition_expression_impl import evaluate_condition_expression
+from launch.some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
+from launch.utilities.ensure_argument_type_impl import ensure_argument_type
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class IfCondition(Condition):
@@ -21,8 +23,11 @@ class IfCondition(Condition):
     def __init__(self, predicate_expression: SomeSubstitutionsType) -> None:
         """Create the condition from anything like a text."""
         ensure_argument_type(
-            predicate_expression, SomeSubstitutionsType_types_tuple,
-            'predicate_expression', type(self).__name__)
+            predicate_expression,
+            SomeSubstitutionsType_types_tuple,
+            'predicate_expression',
+            type(self).__name__,
+        )
         self.__expression = normalize_to_list_of_substitutions(predicate_expression)
         super().__init__(predicate=self._evaluate)
 

@@ -6,13 +6,15 @@ from __future__ import annotations
 from typing import Optional, TYPE_CHECKING
 import warnings
 
-from ..condition import Condition
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.condition import Condition
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class LaunchConfigurationEquals(Condition):
@@ -26,13 +28,16 @@ class LaunchConfigurationEquals(Condition):
         """Create the condition; IfCondition(EqualsSubstitution(...)) is the newer way."""
         self._name = launch_configuration_name
         self._expected = (
-            None if expected_value is None
-            else normalize_to_list_of_substitutions(expected_value))
+            None if expected_value is None else normalize_to_list_of_substitutions(expected_value)
+        )
         super().__init__(predicate=self._evaluate)
         warnings.warn(
             f'{type(self).__name__} is deprecated; write '
             "IfCondition(EqualsSubstitution(LaunchConfiguration('name'), 'value')) instead, or "
-            'with NotEqualsSubstitution', UserWarning, stacklevel=2)
+            'with NotEqualsSubstitution',
+            UserWarning,
+            stacklevel=2,
+        )
 
     def _equals(self, context: LaunchContext) -> bool:
         value = context.launch_configurations.get(self._name)

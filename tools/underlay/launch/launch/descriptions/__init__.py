@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._lazy import lazy_exports
+from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .executable import Executable
+    from launch.descriptions.executable import Executable
 
 __all__ = [
     'Executable',

@@ -8,19 +8,21 @@ from itertools import count
 import os
 import re
 import shlex
-from typing import Any, Dict, List, Optional, Tuple, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING
 
-from .._supervision.python_output import runs_python
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch._supervision.python_output import runs_python
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..action import Action
-    from ..launch_context import LaunchContext
+    from launch.action import Action
+    from launch.launch_context import LaunchContext
 
-Variables = List[Tuple[List[Substitution], List[Substitution]]]
+Variables = list[tuple[list[Substitution], list[Substitution]]]
 SomeVariables = Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
 
 _numbers = count(1)
@@ -48,28 +50,28 @@ class Executable:
         self.__cwd = _normalize(cwd)
         self.__env = None if env is None else _normalize_variables(env)
         self.__additional_env = _normalize_variables(additional_env or {})
-        self.__final_cmd: Optional[List[str]] = None
+        self.__final_cmd: Optional[list[str]] = None
         self.__final_name: Optional[str] = None
         self.__final_cwd: Optional[str] = None
-        self.__final_env: Optional[Dict[str, str]] = None
+        self.__final_env: Optional[dict[str, str]] = None
 
     @property
-    def cmd(self) -> List[List[Substitution]]:
+    def cmd(self) -> list[list[Substitution]]:
         """Return the parts of each argument."""
         return self.__cmd
 
     @property
-    def prefix(self) -> Optional[List[Substitution]]:
+    def prefix(self) -> Optional[list[Substitution]]:
         """Return the parts of the prefix."""
         return self.__prefix
 
     @property
-    def name(self) -> Optional[List[Substitution]]:
+    def name(self) -> Optional[list[Substitution]]:
         """Return the parts of the name."""
         return self.__name
 
     @property
-    def cwd(self) -> Optional[List[Substitution]]:
+    def cwd(self) -> Optional[list[Substitution]]:
         """Return the parts of the folder."""
         return self.__cwd
 
@@ -84,7 +86,7 @@ class Executable:
         return self.__additional_env
 
     @property
-    def final_cmd(self) -> Optional[List[str]]:
+    def final_cmd(self) -> Optional[list[str]]:
         """Return the arguments, once they are known."""
         return self.__final_cmd
 
@@ -99,7 +101,7 @@ class Executable:
         return self.__final_cwd
 
     @property
-    def final_env(self) -> Optional[Dict[str, str]]:
+    def final_env(self) -> Optional[dict[str, str]]:
         """Return the environment, once it is known."""
         return self.__final_env
 
@@ -116,14 +118,18 @@ class Executable:
         if not command:
             raise ValueError(f'the command of {action or self!r} is empty: it needs a program')
         self.__final_cmd = [*self._prefix_words(context, command), *command, *extra_arguments]
-        name = (perform_substitutions(context, self.__name) if self.__name is not None
-                else os.path.basename(self.__final_cmd[0]))
+        name = (
+            perform_substitutions(context, self.__name)
+            if self.__name is not None
+            else os.path.basename(self.__final_cmd[0])
+        )
         self.__final_name = f'{name}-{next(_numbers)}'
         self.__final_cwd = (
-            None if self.__cwd is None else perform_substitutions(context, self.__cwd))
+            None if self.__cwd is None else perform_substitutions(context, self.__cwd)
+        )
         self.__final_env = self._environment(context, shell)
 
-    def _prefix_words(self, context: LaunchContext, command: List[str]) -> List[str]:
+    def _prefix_words(self, context: LaunchContext, command: list[str]) -> list[str]:
         """Return the prefix given here, or that of the whole launch if its filter matches."""
         if self.__prefix is not None:
             return shlex.split(perform_substitutions(context, self.__prefix))
@@ -132,7 +138,7 @@ class Executable:
             return []
         return shlex.split(context.launch_configurations.get('launch-prefix', ''))
 
-    def _environment(self, context: LaunchContext, shell: bool) -> Dict[str, str]:
+    def _environment(self, context: LaunchContext, shell: bool) -> dict[str, str]:
         if self.__env is not None:
             environment = _perform_variables(context, self.__env)
         else:
@@ -142,15 +148,19 @@ class Executable:
         return {**environment, **_perform_variables(context, self.__additional_env)}
 
 
-def _normalize(value: Optional[SomeSubstitutionsType]) -> Optional[List[Substitution]]:
+def _normalize(value: Optional[SomeSubstitutionsType]) -> Optional[list[Substitution]]:
     return None if value is None else normalize_to_list_of_substitutions(value)
 
 
 def _normalize_variables(variables: Mapping[Any, Any]) -> Variables:
-    return [(normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value))
-            for name, value in variables.items()]
+    return [
+        (normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value))
+        for name, value in variables.items()
+    ]
 
 
-def _perform_variables(context: LaunchContext, variables: Variables) -> Dict[str, str]:
-    return {perform_substitutions(context, name): perform_substitutions(context, value)
-            for name, value in variables}
+def _perform_variables(context: LaunchContext, variables: Variables) -> dict[str, str]:
+    return {
+        perform_substitutions(context, name): perform_substitutions(context, value)
+        for name, value in variables
+    }

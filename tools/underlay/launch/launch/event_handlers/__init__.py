@@ -5,16 +5,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._lazy import lazy_exports
+from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .event_named import event_named
-    from .on_action_event_base import OnActionEventBase
-    from .on_execution_complete import OnExecutionComplete
-    from .on_process_exit import OnProcessExit
-    from .on_process_io import OnProcessIO
-    from .on_process_start import OnProcessStart
-    from .on_shutdown import OnShutdown
+    from launch.event_handlers.event_named import event_named
+    from launch.event_handlers.on_action_event_base import OnActionEventBase
+    from launch.event_handlers.on_execution_complete import OnExecutionComplete
+    from launch.event_handlers.on_process_exit import OnProcessExit
+    from launch.event_handlers.on_process_io import OnProcessIO
+    from launch.event_handlers.on_process_start import OnProcessStart
+    from launch.event_handlers.on_shutdown import OnShutdown
 
 __all__ = [
     'OnActionEventBase',

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..event import Event
+from launch.event import Event
 
 
 def event_named(name: str) -> Callable[[Event], bool]:

@@ -4,16 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any, List, Optional, Tuple, Type, TYPE_CHECKING, Union
+from typing import Any, Optional, TYPE_CHECKING, Union
 
-from ..event import Event
-from ..event_handler import BaseEventHandler
-from ..launch_description_entity import LaunchDescriptionEntity
-from ..some_entities_type import SomeEntitiesType
+from launch.event import Event
+from launch.event_handler import BaseEventHandler
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:
-    from ..action import Action
-    from ..launch_context import LaunchContext
+    from launch.action import Action
+    from launch.launch_context import LaunchContext
 
 Reaction = Union[SomeEntitiesType, Callable[..., Optional[SomeEntitiesType]]]
 
@@ -26,17 +26,21 @@ class OnActionEventBase(BaseEventHandler):
         *,
         action_matcher: Optional[Union[Callable[[Action], bool], Action]],
         on_event: Reaction,
-        target_event_cls: Type[Any],
-        target_action_cls: Type[Action],
+        target_event_cls: type[Any],
+        target_action_cls: type[Action],
         **kwargs: Any,
     ) -> None:
         """Create a handler; `action_matcher` is an action, a predicate, or None for all."""
-        if not (action_matcher is None or isinstance(action_matcher, target_action_cls)
-                or callable(action_matcher)):
+        if not (
+            action_matcher is None
+            or isinstance(action_matcher, target_action_cls)
+            or callable(action_matcher)
+        ):
             raise TypeError(
                 f'expected the target_action of {type(self).__name__} to be a '
                 f"'{target_action_cls.__name__}', a callable or None, "
-                f"but got '{action_matcher!r}'")
+                f"but got '{action_matcher!r}'"
+            )
         self.__target = action_matcher
         self.__target_event_cls = target_event_cls
         self.__reaction, self.__entities = checked_reaction(on_event, type(self).__name__)
@@ -47,7 +51,7 @@ class OnActionEventBase(BaseEventHandler):
         """Return which events the handler accepts, for people."""
         return f'event == {self.__target_event_cls.__name__} and event.action == {self.__target}'
 
-    def describe(self) -> Tuple[str, List[Any]]:
+    def describe(self) -> tuple[str, list[Any]]:
         """Return a short description for people, and the entities behind it."""
         return super().describe()[0], list(self.__entities)
 
@@ -57,7 +61,8 @@ class OnActionEventBase(BaseEventHandler):
             return False
         if self.__target is None or event.action is self.__target:
             return True
-        from ..action import Action
+        from launch.action import Action
+
         if isinstance(self.__target, Action):
             return False
         return bool(self.__target(event.action))
@@ -71,9 +76,11 @@ class OnActionEventBase(BaseEventHandler):
 
 
 def checked_reaction(
-    reaction: Any, owner: str,
-) -> Tuple[
-    Optional[Callable[..., Optional[SomeEntitiesType]]], List[LaunchDescriptionEntity],
+    reaction: Any,
+    owner: str,
+) -> tuple[
+    Optional[Callable[..., Optional[SomeEntitiesType]]],
+    list[LaunchDescriptionEntity],
 ]:
     """Split a reaction into a callable or a list of entities; a TypeError names its owner."""
     if isinstance(reaction, LaunchDescriptionEntity):
@@ -85,5 +92,6 @@ def checked_reaction(
         if not isinstance(entity, LaunchDescriptionEntity):
             raise TypeError(
                 f'expected {owner} to be given an action, a list of actions or a callable, '
-                f"but got '{entity!r}' of type '{type(entity).__name__}'")
+                f"but got '{entity!r}' of type '{type(entity).__name__}'"
+            )
     return None, entities

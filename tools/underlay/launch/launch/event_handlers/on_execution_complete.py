@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from .on_action_event_base import OnActionEventBase, Reaction
-from ..events.execution_complete import ExecutionComplete
+from launch.event_handlers.on_action_event_base import OnActionEventBase, Reaction
+from launch.events.execution_complete import ExecutionComplete
 
 if TYPE_CHECKING:
-    from ..action import Action
+    from launch.action import Action
 
 
 class OnExecutionComplete(OnActionEventBase):
@@ -24,7 +24,8 @@ class OnExecutionComplete(OnActionEventBase):
         **kwargs: Any,
     ) -> None:
         """Create a handler for one action, for those that a predicate accepts, or for all."""
-        from ..action import Action
+        from launch.action import Action
+
         super().__init__(
             action_matcher=target_action,
             on_event=on_completion,

@@ -4,15 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Dict, Optional, TYPE_CHECKING, Union
+from typing import Any, Optional, TYPE_CHECKING, Union
 
-from .on_action_event_base import OnActionEventBase
-from ..events.process.process_io import ProcessIO
-from ..some_entities_type import SomeEntitiesType
+from launch.event_handlers.on_action_event_base import OnActionEventBase
+from launch.events.process.process_io import ProcessIO
+from launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:
-    from ..actions.execute_local import ExecuteLocal
-    from ..launch_context import LaunchContext
+    from launch.actions.execute_local import ExecuteLocal
+    from launch.launch_context import LaunchContext
 
 IOReaction = Callable[[ProcessIO], Optional[SomeEntitiesType]]
 
@@ -30,14 +30,19 @@ class OnProcessIO(OnActionEventBase):
         **kwargs: Any,
     ) -> None:
         """Create a handler; each reaction is called with the event."""
-        from ..actions.execute_local import ExecuteLocal
-        self.__reactions: Dict[int, Optional[IOReaction]] = {
-            0: on_stdin, 1: on_stdout, 2: on_stderr}
+        from launch.actions.execute_local import ExecuteLocal
+
+        self.__reactions: dict[int, Optional[IOReaction]] = {
+            0: on_stdin,
+            1: on_stdout,
+            2: on_stderr,
+        }
         for reaction in self.__reactions.values():
             if reaction is not None and not callable(reaction):
                 raise TypeError(
                     'expected the reactions of OnProcessIO to be callables that take the event, '
-                    f"but got '{reaction!r}'")
+                    f"but got '{reaction!r}'"
+                )
         super().__init__(
             action_matcher=target_action,
             on_event=self._react,

@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, Optional, TYPE_CHECKING, Union
 
-from .on_action_event_base import OnActionEventBase, Reaction
-from ..events.process.process_started import ProcessStarted
+from launch.event_handlers.on_action_event_base import OnActionEventBase, Reaction
+from launch.events.process.process_started import ProcessStarted
 
 if TYPE_CHECKING:
-    from ..actions.execute_local import ExecuteLocal
+    from launch.actions.execute_local import ExecuteLocal
 
 
 class OnProcessStart(OnActionEventBase):
@@ -24,7 +24,8 @@ class OnProcessStart(OnActionEventBase):
         **kwargs: Any,
     ) -> None:
         """Create a handler for one action, for those that a predicate accepts, or for all."""
-        from ..actions.execute_local import ExecuteLocal
+        from launch.actions.execute_local import ExecuteLocal
+
         super().__init__(
             action_matcher=target_action,
             on_event=on_start,

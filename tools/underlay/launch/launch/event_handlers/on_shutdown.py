@@ -3,16 +3,16 @@
 
 from __future__ import annotations
 
-from typing import Any, List, Optional, Tuple, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING
 
-from .on_action_event_base import checked_reaction, Reaction
-from ..event_handler import BaseEventHandler
-from ..events.shutdown import Shutdown
-from ..some_entities_type import SomeEntitiesType
+from launch.event_handler import BaseEventHandler
+from launch.event_handlers.on_action_event_base import checked_reaction, Reaction
+from launch.events.shutdown import Shutdown
+from launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:
-    from ..event import Event
-    from ..launch_context import LaunchContext
+    from launch.event import Event
+    from launch.launch_context import LaunchContext
 
 
 class OnShutdown(BaseEventHandler):
@@ -28,7 +28,7 @@ class OnShutdown(BaseEventHandler):
         """Return which events the handler accepts, for people."""
         return 'event is Shutdown'
 
-    def describe(self) -> Tuple[str, List[Any]]:
+    def describe(self) -> tuple[str, list[Any]]:
         """Return a short description for people, and the entities behind it."""
         return super().describe()[0], list(self.__entities)
 

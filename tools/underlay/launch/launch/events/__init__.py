@@ -5,15 +5,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._lazy import lazy_exports
+from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from . import process
-    from .execution_complete import ExecutionComplete
-    from .include_launch_description import IncludeLaunchDescription
-    from .matchers import matches_action
-    from .shutdown import Shutdown
-    from .timer_event import TimerEvent
+    from launch.events import process
+    from launch.events.execution_complete import ExecutionComplete
+    from launch.events.include_launch_description import IncludeLaunchDescription
+    from launch.events.matchers import matches_action
+    from launch.events.shutdown import Shutdown
+    from launch.events.timer_event import TimerEvent
 
 __all__ = [
     'ExecutionComplete',

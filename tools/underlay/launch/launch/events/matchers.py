@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any, TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..actions.execute_local import ExecuteLocal
+    from launch.actions.execute_local import ExecuteLocal
 
 
 def matches_action(target_action: ExecuteLocal) -> Callable[[Any], bool]:

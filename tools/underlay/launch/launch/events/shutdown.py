@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from ..event import Event
+from launch.event import Event
 
 
 class Shutdown(Event):
@@ -12,7 +12,10 @@ class Shutdown(Event):
     name = 'launch.events.Shutdown'
 
     def __init__(
-        self, *, reason: str = 'reason not given', due_to_sigint: bool = False,
+        self,
+        *,
+        reason: str = 'reason not given',
+        due_to_sigint: bool = False,
     ) -> None:
         """Create the event, with the reason for people."""
         self.__reason = reason

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._lazy import lazy_exports
+from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
+    from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
 
 __all__ = [
     'InvalidFrontendLaunchFileError',

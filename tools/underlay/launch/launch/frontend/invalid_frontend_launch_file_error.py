@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from ..invalid_launch_file_error import InvalidLaunchFileError
+from launch.invalid_launch_file_error import InvalidLaunchFileError
 
 
 class InvalidFrontendLaunchFileError(InvalidLaunchFileError):

@@ -5,15 +5,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._lazy import lazy_exports
+from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .any_launch_description_source import AnyLaunchDescriptionSource
-    from .any_launch_file_utilities import get_launch_description_from_any_launch_file
-    from .python_launch_description_source import PythonLaunchDescriptionSource
-    from .python_launch_file_utilities import get_launch_description_from_python_launch_file
-    from .python_launch_file_utilities import InvalidPythonLaunchFileError
-    from .python_launch_file_utilities import load_python_launch_file_as_module
+    from launch.launch_description_sources.any_launch_description_source import (
+        AnyLaunchDescriptionSource,
+    )
+    from launch.launch_description_sources.any_launch_file_utilities import (
+        get_launch_description_from_any_launch_file,
+    )
+    from launch.launch_description_sources.python_launch_description_source import (
+        PythonLaunchDescriptionSource,
+    )
+    from launch.launch_description_sources.python_launch_file_utilities import (
+        get_launch_description_from_python_launch_file,
+        InvalidPythonLaunchFileError,
+        load_python_launch_file_as_module,
+    )
 
 __all__ = [
     'AnyLaunchDescriptionSource',

@@ -4,21 +4,20 @@
 from __future__ import annotations
 
 import os
-from typing import List
 
-from .python_launch_file_utilities import (
+from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
+from launch.invalid_launch_file_error import InvalidLaunchFileError
+from launch.launch_description import LaunchDescription
+from launch.launch_description_sources.python_launch_file_utilities import (
     get_launch_description_from_python_launch_file,
     missing_file,
 )
-from ..frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
-from ..invalid_launch_file_error import InvalidLaunchFileError
-from ..launch_description import LaunchDescription
 
 _OTHER_FORMATS = ('.xml', '.launch', '.yaml', '.yml')
 
 
 def get_launch_description_from_any_launch_file(
-    launch_file_path: 'str | os.PathLike[str]',
+    launch_file_path: str | os.PathLike[str],
 ) -> LaunchDescription:
     """Return the launch description of a file, whatever its format."""
     path = os.fspath(launch_file_path)
@@ -28,7 +27,8 @@ def get_launch_description_from_any_launch_file(
     if extension in _OTHER_FORMATS:
         raise InvalidFrontendLaunchFileError(
             f"The launch file may have a syntax error, or its format is unknown: '{path}' is not "
-            'a launch file in Python, the only format that this version reads')
+            'a launch file in Python, the only format that this version reads'
+        )
     try:
         return get_launch_description_from_python_launch_file(path)
     except Exception as error:
@@ -39,5 +39,5 @@ def _both(path: str, extension: str, error: Exception) -> InvalidLaunchFileError
     """Return the error of a file that is neither Python nor anything else."""
     if extension != '.py' and isinstance(error, SyntaxError):
         return InvalidFrontendLaunchFileError()
-    errors: List[BaseException] = [error, InvalidFrontendLaunchFileError()]
+    errors: list[BaseException] = [error, InvalidFrontendLaunchFileError()]
     return InvalidLaunchFileError(extension, likely_errors=errors)

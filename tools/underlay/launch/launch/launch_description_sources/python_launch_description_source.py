@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
-from .python_launch_file_utilities import get_launch_description_from_python_launch_file
-from ..launch_description import LaunchDescription
-from ..launch_description_source import LaunchDescriptionSource
-from ..some_substitutions_type import SomeSubstitutionsType
+from launch.launch_description import LaunchDescription
+from launch.launch_description_source import LaunchDescriptionSource
+from launch.launch_description_sources.python_launch_file_utilities import (
+    get_launch_description_from_python_launch_file,
+)
+from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):

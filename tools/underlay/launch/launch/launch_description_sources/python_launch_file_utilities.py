@@ -9,9 +9,9 @@ import os
 from traceback import walk_tb
 from types import ModuleType
 
-from .._call_site import CallSite
-from ..invalid_launch_file_error import InvalidLaunchFileError
-from ..launch_description import LaunchDescription
+from launch._call_site import CallSite
+from launch.invalid_launch_file_error import InvalidLaunchFileError
+from launch.launch_description import LaunchDescription
 
 _MODULE_NAME = 'python_launch_file'
 
@@ -26,7 +26,7 @@ class InvalidPythonLaunchFileError(InvalidLaunchFileError):
 
 
 def load_python_launch_file_as_module(
-    python_launch_file_path: 'str | os.PathLike[str]',
+    python_launch_file_path: str | os.PathLike[str],
 ) -> ModuleType:
     """Return a launch file as a module, run from its source, which is not registered."""
     path = os.fspath(python_launch_file_path)
@@ -35,12 +35,13 @@ def load_python_launch_file_as_module(
     if spec is None:
         raise InvalidPythonLaunchFileError(f"launch file at '{path}' cannot be loaded")
     module = module_from_spec(spec)
-    exec(compile(loader.get_data(path), path, 'exec', dont_inherit=True), module.__dict__)
+    code = compile(loader.get_data(path), path, 'exec', dont_inherit=True)
+    exec(code, module.__dict__)  # noqa: S102
     return module
 
 
 def get_launch_description_from_python_launch_file(
-    python_launch_file_path: 'str | os.PathLike[str]',
+    python_launch_file_path: str | os.PathLike[str],
 ) -> LaunchDescription:
     """Return what the function `generate_launch_description` of a launch file returns."""
     path = os.fspath(python_launch_file_path)
@@ -55,16 +56,19 @@ def get_launch_description_from_python_launch_file(
 
 def _generate(path: str) -> LaunchDescription:
     generate = getattr(
-        load_python_launch_file_as_module(path), 'generate_launch_description', None)
+        load_python_launch_file_as_module(path), 'generate_launch_description', None
+    )
     if generate is None:
         raise InvalidPythonLaunchFileError(
             f"launch file at '{path}' does not contain the required function "
-            "'generate_launch_description()'")
+            "'generate_launch_description()'"
+        )
     description = generate()
     if not hasattr(description, 'visit'):
         raise AttributeError(
             f"'{type(description).__name__}' object has no attribute 'visit': the function "
-            f"generate_launch_description() of '{path}' must return a LaunchDescription")
+            f"generate_launch_description() of '{path}' must return a LaunchDescription"
+        )
     result: LaunchDescription = description
     return result
 
@@ -72,6 +76,7 @@ def _generate(path: str) -> LaunchDescription:
 def missing_file(path: str) -> str:
     """Say that a launch file does not exist, and which one in its folder comes closest."""
     import difflib
+
     folder, name = os.path.split(path)
     there = os.listdir(folder or '.') if os.path.isdir(folder or '.') else []
     close = difflib.get_close_matches(name, there, n=1)
@@ -81,7 +86,8 @@ def missing_file(path: str) -> str:
 
 def _point_at_line(path: str, error: Exception) -> None:
     """Note on an exception the last line of the launch file that led to it."""
-    lines = [line for frame, line in walk_tb(error.__traceback__)
-             if frame.f_code.co_filename == path]
+    lines = [
+        line for frame, line in walk_tb(error.__traceback__) if frame.f_code.co_filename == path
+    ]
     if lines and not hasattr(error, 'launch_call_site'):
         error.launch_call_site = CallSite(path, lines[-1])  # type: ignore[attr-defined]

@@ -1,10 +1,10 @@
-# SPDX-License-Identifier: Apache-2.0  # noqa: A005
-"""The log of a launch: the screen, and files in a folder for each run."""  # noqa: A005
+# SPDX-License-Identifier: Apache-2.0  # noqa: A005, RUF100
+"""The log of a launch: the screen, and files in a folder for each run."""
 
 from __future__ import annotations
 
-from ._config import get_logger, launch_config, log_launch_config, reset
-from ._output import get_output_loggers
+from launch.logging._config import get_logger, launch_config, log_launch_config, reset
+from launch.logging._output import get_output_loggers
 
 __all__ = [
     'get_logger',

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import logging
 import os
-from typing import Dict, List, Optional
+from typing import Optional
 
-from ._directory import make_run_directory
-from ._formats import log_formatter, screen_formatter
-from ._handlers import LogFileHandler, ScreenHandler
+from launch.logging._directory import make_run_directory
+from launch.logging._formats import log_formatter, screen_formatter
+from launch.logging._handlers import LogFileHandler, ScreenHandler
 
 _MAIN_LOG = 'launch.log'
 
@@ -28,7 +28,7 @@ class LaunchConfig:
         self._screen_formatter = screen_formatter(os.environ.get('OVERRIDE_LAUNCH_SCREEN_FORMAT'))
         self._log_formatter = log_formatter(os.environ.get('OVERRIDE_LAUNCH_LOG_FORMAT'))
         self._screen_handler: Optional[ScreenHandler] = None
-        self._file_handlers: Dict[str, LogFileHandler] = {}
+        self._file_handlers: dict[str, LogFileHandler] = {}
 
     @property
     def level(self) -> int:
@@ -53,7 +53,8 @@ class LaunchConfig:
         if self._log_dir not in (None, value):
             raise RuntimeError(
                 f"the folder of the log files is '{self._log_dir}' already and cannot become "
-                f"'{value}'")
+                f"'{value}'"
+            )
         os.makedirs(value, exist_ok=True)
         self._log_dir = value
 
@@ -94,7 +95,7 @@ class LaunchConfig:
             handler.close()
 
 
-_known_loggers: List[Optional[str]] = []
+_known_loggers: list[Optional[str]] = []
 launch_config = LaunchConfig()
 
 
@@ -129,6 +130,9 @@ def reset() -> None:
     launch_config.reset()
     for name in _known_loggers:
         logger = logging.getLogger(name)
-        logger.handlers = [each for each in logger.handlers
-                           if not isinstance(each, (ScreenHandler, LogFileHandler))]
+        logger.handlers = [
+            each
+            for each in logger.handlers
+            if not isinstance(each, (ScreenHandler, LogFileHandler))
+        ]
         logger.setLevel(launch_config.level)

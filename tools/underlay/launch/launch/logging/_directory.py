@@ -6,7 +6,7 @@ from __future__ import annotations
 from datetime import datetime
 import os
 
-from ._screen import screen
+from launch.logging._screen import screen
 
 
 def base_directory() -> str:
@@ -28,7 +28,8 @@ def make_run_directory() -> str:
     except OSError as error:
         raise RuntimeError(
             f"the folder '{path}' for the log files cannot be made: {error.strerror}; set "
-            'ROS_LOG_DIR to a folder in which you may write') from error
+            'ROS_LOG_DIR to a folder in which you may write'
+        ) from error
     _point_latest_at(base, path)
     return path
 
@@ -39,7 +40,8 @@ def _point_latest_at(base: str, path: str) -> None:
     if os.path.exists(latest) and not os.path.islink(latest):
         screen.write_line(
             f"[WARNING] [launch]: '{latest}' is not a symbolic link and stays as it is, so it "
-            'does not lead to the log files of this run')
+            'does not lead to the log files of this run'
+        )
         return
     temporary = f'{latest}.{os.getpid()}'
     try:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import logging
 from typing import Optional, TextIO
 
-from ._screen import screen
+from launch.logging._screen import screen
 
 
 class ScreenHandler(logging.Handler):
@@ -38,13 +38,15 @@ class LogFileHandler(logging.Handler):
             return
         try:
             if self._file is None:
-                self._file = open(
-                    self._path(), 'a', buffering=1, encoding='utf-8', errors='backslashreplace')
+                self._file = open(  # noqa: SIM115
+                    self._path(), 'a', buffering=1, encoding='utf-8', errors='backslashreplace'
+                )
             self._file.write(text + '\n')
         except OSError as error:
             self._failed = True
             screen.write_line(
-                f'[WARNING] [launch]: the log file cannot be written any more: {error}')
+                f'[WARNING] [launch]: the log file cannot be written any more: {error}'
+            )
 
     def close(self) -> None:
         """Close the file."""

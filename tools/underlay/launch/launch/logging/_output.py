@@ -5,54 +5,57 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 import logging
-from typing import Dict, FrozenSet, Tuple, Union
+from typing import Union
 
-from ._config import launch_config
-from ._formats import bare_formatter, stamped_formatter
-from ._handlers import LogFileHandler, ScreenHandler
+from launch.logging._config import launch_config
+from launch.logging._formats import bare_formatter, stamped_formatter
+from launch.logging._handlers import LogFileHandler, ScreenHandler
 
 OutputConfig = Union[str, Mapping[str, Union[str, Collection[str]]]]
 
-_PRESETS: Dict[str, Dict[str, Tuple[str, ...]]] = {
+_PRESETS: dict[str, dict[str, tuple[str, ...]]] = {
     'screen': {'both': ('screen',)},
     'log': {'both': ('log',), 'stderr': ('screen',)},
     'both': {'both': ('screen', 'log')},
     'own_log': {'both': ('own_log',), 'stdout': ('own_log',), 'stderr': ('own_log',)},
-    'full': {'both': ('screen', 'log', 'own_log'), 'stdout': ('own_log',),
-             'stderr': ('own_log',)},
+    'full': {'both': ('screen', 'log', 'own_log'), 'stdout': ('own_log',), 'stderr': ('own_log',)},
 }
 _DESTINATIONS = frozenset(('screen', 'log', 'own_log'))
 _STREAMS = ('stdout', 'stderr', 'both')
 
 
-def normalize_output_config(config: OutputConfig) -> Dict[str, FrozenSet[str]]:
+def normalize_output_config(config: OutputConfig) -> dict[str, frozenset[str]]:
     """Return where stdout, stderr and both of them go; a ValueError says what is wrong."""
     if isinstance(config, str):
         if config not in _PRESETS:
             raise ValueError(
-                f'{config} is not a valid standard output config i.e. "screen", "log" or "both"')
+                f'{config} is not a valid standard output config i.e. "screen", "log" or "both"'
+            )
         config = _PRESETS[config]
     unknown = sorted(set(config) - set(_STREAMS))
     if unknown:
         raise ValueError(
             f"'{unknown[0]}' is not a stream of a process; the output can be set for stdout, "
-            'stderr and both')
+            'stderr and both'
+        )
     return {stream: _destinations(config.get(stream, ())) for stream in _STREAMS}
 
 
-def _destinations(names: Union[str, Iterable[str]]) -> FrozenSet[str]:
+def _destinations(names: Union[str, Iterable[str]]) -> frozenset[str]:
     result = frozenset([names] if isinstance(names, str) else names)
     unknown = sorted(result - _DESTINATIONS)
     if unknown:
         raise ValueError(
             f'{unknown[0]} is not a valid standard output config i.e. "screen", "log" or '
-            '"own_log" for a single stream')
+            '"own_log" for a single stream'
+        )
     return result
 
 
 def get_output_loggers(
-    process_name: str, output_config: OutputConfig,
-) -> Tuple[logging.Logger, logging.Logger]:
+    process_name: str,
+    output_config: OutputConfig,
+) -> tuple[logging.Logger, logging.Logger]:
     """Return the loggers of the standard output and the standard error of a process."""
     config = normalize_output_config(output_config)
     stdout, stderr = (_logger(process_name, stream, config) for stream in ('stdout', 'stderr'))
@@ -60,7 +63,9 @@ def get_output_loggers(
 
 
 def _logger(
-    process_name: str, stream: str, config: Dict[str, FrozenSet[str]],
+    process_name: str,
+    stream: str,
+    config: dict[str, frozenset[str]],
 ) -> logging.Logger:
     logger = logging.getLogger(f'{process_name}-{stream}')
     logger.propagate = False

@@ -5,32 +5,34 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._lazy import lazy_exports
+from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .anon_name import AnonName
-    from .boolean_substitution import AllSubstitution
-    from .boolean_substitution import AndSubstitution
-    from .boolean_substitution import AnySubstitution
-    from .boolean_substitution import NotSubstitution
-    from .boolean_substitution import OrSubstitution
-    from .command import Command
-    from .environment_variable import EnvironmentVariable
-    from .equals_substitution import EqualsSubstitution
-    from .file_content import FileContent
-    from .find_executable import FindExecutable
-    from .if_else_substitution import IfElseSubstitution
-    from .launch_configuration import LaunchConfiguration
-    from .launch_log_dir import LaunchLogDir
-    from .local_substitution import LocalSubstitution
-    from .not_equals_substitution import NotEqualsSubstitution
-    from .path_join_substitution import PathJoinSubstitution
-    from .path_substitution import PathSubstitution
-    from .python_expression import PythonExpression
-    from .substitution_failure import SubstitutionFailure
-    from .text_substitution import TextSubstitution
-    from .this_launch_file import ThisLaunchFile
-    from .this_launch_file_dir import ThisLaunchFileDir
+    from launch.substitutions.anon_name import AnonName
+    from launch.substitutions.boolean_substitution import (
+        AllSubstitution,
+        AndSubstitution,
+        AnySubstitution,
+        NotSubstitution,
+        OrSubstitution,
+    )
+    from launch.substitutions.command import Command
+    from launch.substitutions.environment_variable import EnvironmentVariable
+    from launch.substitutions.equals_substitution import EqualsSubstitution
+    from launch.substitutions.file_content import FileContent
+    from launch.substitutions.find_executable import FindExecutable
+    from launch.substitutions.if_else_substitution import IfElseSubstitution
+    from launch.substitutions.launch_configuration import LaunchConfiguration
+    from launch.substitutions.launch_log_dir import LaunchLogDir
+    from launch.substitutions.local_substitution import LocalSubstitution
+    from launch.substitutions.not_equals_substitution import NotEqualsSubstitution
+    from launch.substitutions.path_join_substitution import PathJoinSubstitution
+    from launch.substitutions.path_substitution import PathSubstitution
+    from launch.substitutions.python_expression import PythonExpression
+    from launch.substitutions.substitution_failure import SubstitutionFailure
+    from launch.substitutions.text_substitution import TextSubstitution
+    from launch.substitutions.this_launch_file import ThisLaunchFile
+    from launch.substitutions.this_launch_file_dir import ThisLaunchFileDir
 
 __all__ = [
     'AllSubstitution',

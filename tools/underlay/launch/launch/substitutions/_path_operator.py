@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
 
 if TYPE_CHECKING:
-    from .path_join_substitution import PathJoinSubstitution
+    from launch.substitutions.path_join_substitution import PathJoinSubstitution
 
 
 class PathOperator(Substitution):
@@ -17,5 +17,6 @@ class PathOperator(Substitution):
 
     def __truediv__(self, other: SomeSubstitutionsType) -> PathJoinSubstitution:
         """Return this path joined with another."""
-        from .path_join_substitution import PathJoinSubstitution
+        from launch.substitutions.path_join_substitution import PathJoinSubstitution
+
         return PathJoinSubstitution([self, other])

@@ -4,15 +4,17 @@
 from __future__ import annotations
 
 import os
-from typing import List, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 _FORBIDDEN = str.maketrans('.-:', '___')
 
@@ -25,19 +27,20 @@ class AnonName(Substitution):
         self.__name = normalize_to_list_of_substitutions(name)
 
     @property
-    def name(self) -> List[Substitution]:
+    def name(self) -> list[Substitution]:
         """Return the parts of the name."""
         return self.__name
 
     def describe(self) -> str:
         """Return a short description for people."""
-        return f"AnonName({' + '.join(sub.describe() for sub in self.__name)})"
+        return f'AnonName({" + ".join(sub.describe() for sub in self.__name)})'
 
     def perform(self, context: LaunchContext) -> str:
         """Return the unique name, which a launch configuration remembers."""
         name = perform_substitutions(context, self.__name)
         remembered: str = context.launch_configurations.setdefault(
-            'anon' + name, unique_name(name))
+            'anon' + name, unique_name(name)
+        )
         return remembered
 
 

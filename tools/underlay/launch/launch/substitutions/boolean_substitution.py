@@ -4,17 +4,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import List, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
-from .substitution_failure import SubstitutionFailure
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities._scalars import read_boolean
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.utilities._scalars import read_boolean
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class _BooleanSubstitution(Substitution):
@@ -27,20 +29,20 @@ class _BooleanSubstitution(Substitution):
     def describe(self) -> str:
         """Return a short description for people."""
         operands = (' + '.join(sub.describe() for sub in each) for each in self._operands)
-        return f"{type(self).__name__}({', '.join(operands)})"
+        return f'{type(self).__name__}({", ".join(operands)})'
 
     def perform(self, context: LaunchContext) -> str:
         """Return `true` or `false`."""
         return 'true' if self._decide(self._values(context)) else 'false'
 
-    def _values(self, context: LaunchContext) -> List[bool]:
+    def _values(self, context: LaunchContext) -> list[bool]:
         texts = [perform_substitutions(context, each) for each in self._operands]
         try:
             return [read_boolean(text) for text in texts]
         except ValueError as error:
             raise SubstitutionFailure(f'{self.describe()}: {error}') from error
 
-    def _decide(self, values: List[bool]) -> bool:
+    def _decide(self, values: list[bool]) -> bool:
         raise NotImplementedError
 
 
@@ -52,11 +54,11 @@ class NotSubstitution(_BooleanSubstitution):
         super().__init__(value)
 
     @property
-    def value(self) -> List[Substitution]:
+    def value(self) -> list[Substitution]:
         """Return the parts of the operand."""
         return self._operands[0]
 
-    def _decide(self, values: List[bool]) -> bool:
+    def _decide(self, values: list[bool]) -> bool:
         return not values[0]
 
 
@@ -68,12 +70,12 @@ class _BinarySubstitution(_BooleanSubstitution):
         super().__init__(left, right)
 
     @property
-    def left(self) -> List[Substitution]:
+    def left(self) -> list[Substitution]:
         """Return the parts of the first operand."""
         return self._operands[0]
 
     @property
-    def right(self) -> List[Substitution]:
+    def right(self) -> list[Substitution]:
         """Return the parts of the second operand."""
         return self._operands[1]
 
@@ -81,14 +83,14 @@ class _BinarySubstitution(_BooleanSubstitution):
 class AndSubstitution(_BinarySubstitution):
     """Stands for `true` if both operands are true."""
 
-    def _decide(self, values: List[bool]) -> bool:
+    def _decide(self, values: list[bool]) -> bool:
         return all(values)
 
 
 class OrSubstitution(_BinarySubstitution):
     """Stands for `true` if an operand is true."""
 
-    def _decide(self, values: List[bool]) -> bool:
+    def _decide(self, values: list[bool]) -> bool:
         return any(values)
 
 
@@ -96,11 +98,11 @@ class AnySubstitution(_BooleanSubstitution):
     """Stands for `true` if any of the operands is true."""
 
     @property
-    def args(self) -> Iterable[List[Substitution]]:
+    def args(self) -> Iterable[list[Substitution]]:
         """Return the operands."""
         return self._operands
 
-    def _decide(self, values: List[bool]) -> bool:
+    def _decide(self, values: list[bool]) -> bool:
         return any(values)
 
 
@@ -108,9 +110,9 @@ class AllSubstitution(_BooleanSubstitution):
     """Stands for `true` if all operands are true."""
 
     @property
-    def args(self) -> Iterable[List[Substitution]]:
+    def args(self) -> Iterable[list[Substitution]]:
         """Return the operands."""
         return self._operands
 
-    def _decide(self, values: List[bool]) -> bool:
+    def _decide(self, values: list[bool]) -> bool:
         return all(values)

@@ -4,18 +4,20 @@
 from __future__ import annotations
 
 import shlex
-from typing import List, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
-from .substitution_failure import SubstitutionFailure
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
     import subprocess
 
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 _MODES = ('fail', 'ignore', 'warn', 'capture')
 
@@ -24,25 +26,28 @@ class Command(Substitution):
     """Stands for what a command writes to its standard output."""
 
     def __init__(
-        self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = 'fail',
+        self,
+        command: SomeSubstitutionsType,
+        *,
+        on_stderr: SomeSubstitutionsType = 'fail',
     ) -> None:
         """Create the substitution; `on_stderr` is fail, ignore, warn or capture."""
         self.__command = normalize_to_list_of_substitutions(command)
         self.__on_stderr = normalize_to_list_of_substitutions(on_stderr)
 
     @property
-    def command(self) -> List[Substitution]:
+    def command(self) -> list[Substitution]:
         """Return the parts of the command line."""
         return self.__command
 
     @property
-    def on_stderr(self) -> List[Substitution]:
+    def on_stderr(self) -> list[Substitution]:
         """Return what is done with the standard error output."""
         return self.__on_stderr
 
     def describe(self) -> str:
         """Return a short description for people."""
-        return f"Command({' + '.join(sub.describe() for sub in self.__command)})"
+        return f'Command({" + ".join(sub.describe() for sub in self.__command)})'
 
     def perform(self, context: LaunchContext) -> str:
         """Run the command, without a shell, and return what it wrote."""
@@ -51,7 +56,8 @@ class Command(Substitution):
         if mode not in _MODES:
             raise SubstitutionFailure(
                 f"invalid on_stderr '{mode}' of the command '{command}': expected one of "
-                f"{', '.join(_MODES)}")
+                f'{", ".join(_MODES)}'
+            )
         result = _run(command, merge=mode == 'capture')
         _judge(command, mode, result)
         return result.stdout
@@ -59,33 +65,39 @@ class Command(Substitution):
 
 def _run(command: str, merge: bool) -> subprocess.CompletedProcess[str]:
     import subprocess
+
     try:
         return subprocess.run(
-            shlex.split(command), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT if merge else subprocess.PIPE, universal_newlines=True,
-            errors='replace')
+            shlex.split(command),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT if merge else subprocess.PIPE,
+            text=True,
+            errors='replace',
+        )
     except FileNotFoundError as error:
         raise SubstitutionFailure(f'file not found: {error}') from error
     except (OSError, ValueError) as error:
         raise SubstitutionFailure(
-            f'executed command failed. Command: {command}\nIt cannot be run: {error}') from error
+            f'executed command failed. Command: {command}\nIt cannot be run: {error}'
+        ) from error
 
 
 def _judge(command: str, mode: str, result: subprocess.CompletedProcess[str]) -> None:
     """Raise or warn if the result is not what the mode asks for."""
     if result.returncode != 0:
         said = result.stdout if mode == 'capture' else result.stderr
-        raise SubstitutionFailure(
-            f'executed command failed. Command: {command}' + _captured(said))
+        raise SubstitutionFailure(f'executed command failed. Command: {command}' + _captured(said))
     if result.stderr and mode == 'fail':
         raise SubstitutionFailure(
-            f'executed command showed stderr output. Command: {command}'
-            + _captured(result.stderr))
+            f'executed command showed stderr output. Command: {command}' + _captured(result.stderr)
+        )
     if result.stderr and mode == 'warn':
-        from ..logging import get_logger
+        from launch.logging import get_logger
+
         get_logger('launch.substitutions.command').warning(
-            f'executed command showed stderr output. Command: {command}'
-            + _captured(result.stderr))
+            f'executed command showed stderr output. Command: {command}' + _captured(result.stderr)
+        )
 
 
 def _captured(text: str) -> str:

@@ -3,16 +3,18 @@
 
 from __future__ import annotations
 
-from typing import List, Optional, TYPE_CHECKING
+from typing import Optional, TYPE_CHECKING
 
-from .substitution_failure import SubstitutionFailure
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class EnvironmentVariable(Substitution):
@@ -27,21 +29,22 @@ class EnvironmentVariable(Substitution):
         """Create the substitution; without a default an unset variable is a failure."""
         self.__name = normalize_to_list_of_substitutions(name)
         self.__default_value = (
-            None if default_value is None else normalize_to_list_of_substitutions(default_value))
+            None if default_value is None else normalize_to_list_of_substitutions(default_value)
+        )
 
     @property
-    def name(self) -> List[Substitution]:
+    def name(self) -> list[Substitution]:
         """Return the parts of the name."""
         return self.__name
 
     @property
-    def default_value(self) -> Optional[List[Substitution]]:
+    def default_value(self) -> Optional[list[Substitution]]:
         """Return the parts of the default, or None."""
         return self.__default_value
 
     def describe(self) -> str:
         """Return a short description for people."""
-        return f"EnvVar({' + '.join(sub.describe() for sub in self.__name)})"
+        return f'EnvVar({" + ".join(sub.describe() for sub in self.__name)})'
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value, or else the default."""

@@ -3,15 +3,17 @@
 
 from __future__ import annotations
 
-from typing import Any, List, Optional, TYPE_CHECKING, Union
+from typing import Any, Optional, TYPE_CHECKING, Union
 
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 Comparable = Optional[Union[bool, int, float, SomeSubstitutionsType]]
 
@@ -25,19 +27,20 @@ class EqualsSubstitution(Substitution):
         self.__right = _normalize(right)
 
     @property
-    def left(self) -> List[Substitution]:
+    def left(self) -> list[Substitution]:
         """Return the parts of the first value."""
         return self.__left
 
     @property
-    def right(self) -> List[Substitution]:
+    def right(self) -> list[Substitution]:
         """Return the parts of the second value."""
         return self.__right
 
     def describe(self) -> str:
         """Return a short description for people."""
-        left, right = (' + '.join(sub.describe() for sub in side)
-                       for side in (self.__left, self.__right))
+        left, right = (
+            ' + '.join(sub.describe() for sub in side) for side in (self.__left, self.__right)
+        )
         return f'{type(self).__name__}({left} {right})'
 
     def perform(self, context: LaunchContext) -> str:
@@ -60,6 +63,7 @@ def same_value(left: str, right: str) -> bool:
     except ValueError:
         return left == right
     import math
+
     return math.isclose(*numbers)
 
 
@@ -67,7 +71,7 @@ def _truth(text: str) -> Optional[bool]:
     return {'true': True, '1': True, 'false': False, '0': False}.get(text.lower())
 
 
-def _normalize(value: Any) -> List[Substitution]:
+def _normalize(value: Any) -> list[Substitution]:
     if value is None:
         value = ''
     elif isinstance(value, bool):

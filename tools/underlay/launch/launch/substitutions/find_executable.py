@@ -4,16 +4,18 @@
 from __future__ import annotations
 
 import shutil
-from typing import List, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
-from .substitution_failure import SubstitutionFailure
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class FindExecutable(Substitution):
@@ -24,13 +26,13 @@ class FindExecutable(Substitution):
         self.__name = normalize_to_list_of_substitutions(name)
 
     @property
-    def name(self) -> List[Substitution]:
+    def name(self) -> list[Substitution]:
         """Return the parts of the name."""
         return self.__name
 
     def describe(self) -> str:
         """Return a short description for people."""
-        return f"FindExec({' + '.join(sub.describe() for sub in self.__name)})"
+        return f'FindExec({" + ".join(sub.describe() for sub in self.__name)})'
 
     def perform(self, context: LaunchContext) -> str:
         """Return the path; a failure names the program."""
@@ -39,5 +41,6 @@ class FindExecutable(Substitution):
         if found is None:
             raise SubstitutionFailure(
                 f"executable '{name}' not found on the PATH; install it, or source the "
-                'environment that has it')
+                'environment that has it'
+            )
         return found

@@ -3,17 +3,19 @@
 
 from __future__ import annotations
 
-from typing import List, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
-from .substitution_failure import SubstitutionFailure
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities._scalars import read_boolean
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.utilities._scalars import read_boolean
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class IfElseSubstitution(Substitution):
@@ -28,31 +30,34 @@ class IfElseSubstitution(Substitution):
         """Create the substitution; at least one of the texts must be given."""
         if if_value == else_value == '':
             raise RuntimeError(
-                'IfElseSubstitution needs an if_value or an else_value, but both are empty')
+                'IfElseSubstitution needs an if_value or an else_value, but both are empty'
+            )
         self.__condition = normalize_to_list_of_substitutions(condition)
         self.__if_value = normalize_to_list_of_substitutions(if_value)
         self.__else_value = normalize_to_list_of_substitutions(else_value)
 
     @property
-    def condition(self) -> List[Substitution]:
+    def condition(self) -> list[Substitution]:
         """Return the parts of the condition."""
         return self.__condition
 
     @property
-    def if_value(self) -> List[Substitution]:
+    def if_value(self) -> list[Substitution]:
         """Return the parts of the text for a true condition."""
         return self.__if_value
 
     @property
-    def else_value(self) -> List[Substitution]:
+    def else_value(self) -> list[Substitution]:
         """Return the parts of the text for a false condition."""
         return self.__else_value
 
     def describe(self) -> str:
         """Return a short description for people."""
-        parts = (' + '.join(sub.describe() for sub in each)
-                 for each in (self.__condition, self.__if_value, self.__else_value))
-        return f"IfElseSubstitution({', '.join(parts)})"
+        parts = (
+            ' + '.join(sub.describe() for sub in each)
+            for each in (self.__condition, self.__if_value, self.__else_value)
+        )
+        return f'IfElseSubstitution({", ".join(parts)})'
 
     def perform(self, context: LaunchContext) -> str:
         """Return the text that the condition chooses."""

@@ -5,36 +5,41 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 import os
-from typing import Any, List, Optional, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING
 
-from .substitution_failure import SubstitutionFailure
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class LaunchConfiguration(Substitution):
     """Stands for the value that a launch configuration has at run time."""
 
     def __init__(
-        self, variable_name: SomeSubstitutionsType, *, default: Optional[Any] = None,
+        self,
+        variable_name: SomeSubstitutionsType,
+        *,
+        default: Optional[Any] = None,
     ) -> None:
         """Create the substitution; anything but a text as the default is turned into one."""
         self.__variable_name = normalize_to_list_of_substitutions(variable_name)
         self.__default = None if default is None else _normalize_default(default)
 
     @property
-    def variable_name(self) -> List[Substitution]:
+    def variable_name(self) -> list[Substitution]:
         """Return the parts of the name."""
         return self.__variable_name
 
     def describe(self) -> str:
         """Return a short description for people."""
-        return f"LaunchConfig({' + '.join(sub.describe() for sub in self.__variable_name)})"
+        return f'LaunchConfig({" + ".join(sub.describe() for sub in self.__variable_name)})'
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value, or else the default; a failure says that there is none."""
@@ -46,19 +51,23 @@ class LaunchConfiguration(Substitution):
         raise SubstitutionFailure(_missing(name, context))
 
 
-def _normalize_default(default: Any) -> List[Substitution]:
+def _normalize_default(default: Any) -> list[Substitution]:
     if isinstance(default, (str, os.PathLike, Substitution)):
         return normalize_to_list_of_substitutions(default)
     if isinstance(default, Iterable):
         return normalize_to_list_of_substitutions(
-            [item if isinstance(item, (str, os.PathLike, Substitution)) else str(item)
-             for item in default])
+            [
+                item if isinstance(item, (str, os.PathLike, Substitution)) else str(item)
+                for item in default
+            ]
+        )
     return normalize_to_list_of_substitutions(str(default))
 
 
 def _missing(name: str, context: LaunchContext) -> str:
     """Say that there is no such configuration, and which one comes closest."""
     import difflib
+
     text = f"launch configuration '{name}' does not exist"
     close = difflib.get_close_matches(name, list(context.launch_configurations), n=1)
     return text + (f". Did you mean '{close[0]}'?" if close else '')

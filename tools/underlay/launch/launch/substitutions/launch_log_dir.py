@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ._path_operator import PathOperator
+from launch.substitutions._path_operator import PathOperator
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class LaunchLogDir(PathOperator):
@@ -20,5 +20,6 @@ class LaunchLogDir(PathOperator):
 
     def perform(self, context: LaunchContext) -> str:
         """Return the folder."""
-        from ..logging import launch_config
+        from launch.logging import launch_config
+
         return str(launch_config.log_dir)

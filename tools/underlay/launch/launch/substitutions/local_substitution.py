@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from typing import Optional, TYPE_CHECKING
 
-from .substitution_failure import SubstitutionFailure
-from ..substitution import Substitution
+from launch.substitution import Substitution
+from launch.substitutions.substitution_failure import SubstitutionFailure
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class LocalSubstitution(Substitution):
@@ -31,9 +31,10 @@ class LocalSubstitution(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value, which must be a text."""
-        value = eval(f'context.locals.{self.__expression}', {}, {'context': context})
+        value = eval(f'context.locals.{self.__expression}', {}, {'context': context})  # noqa: S307
         if not isinstance(value, str):
             raise SubstitutionFailure(
                 f"the local variable '{self.__expression}' must be a text to be used as a "
-                f"substitution, but it is {value!r} of type '{type(value).__name__}'")
+                f"substitution, but it is {value!r} of type '{type(value).__name__}'"
+            )
         return value

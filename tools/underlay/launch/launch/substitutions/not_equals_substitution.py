@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .equals_substitution import EqualsSubstitution
+from launch.substitutions.equals_substitution import EqualsSubstitution
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class NotEqualsSubstitution(EqualsSubstitution):

@@ -5,16 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 import os
-from typing import List, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
-from ._path_operator import PathOperator
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.substitutions._path_operator import PathOperator
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class PathJoinSubstitution(PathOperator):
@@ -27,7 +29,7 @@ class PathJoinSubstitution(PathOperator):
         self.__parts = [normalize_to_list_of_substitutions(part) for part in substitutions]
 
     @property
-    def substitutions(self) -> List[List[Substitution]]:
+    def substitutions(self) -> list[list[Substitution]]:
         """Return the parts, each as a list of substitutions."""
         return self.__parts
 

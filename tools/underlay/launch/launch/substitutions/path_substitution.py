@@ -3,16 +3,18 @@
 
 from __future__ import annotations
 
-from typing import List, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
-from ._path_operator import PathOperator
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.substitutions._path_operator import PathOperator
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class PathSubstitution(PathOperator):
@@ -23,13 +25,13 @@ class PathSubstitution(PathOperator):
         self.__path = normalize_to_list_of_substitutions(path)
 
     @property
-    def path(self) -> List[Substitution]:
+    def path(self) -> list[Substitution]:
         """Return the parts of the text."""
         return self.__path
 
     def describe(self) -> str:
         """Return a short description for people."""
-        return f"Path({' + '.join(sub.describe() for sub in self.__path)})"
+        return f'Path({" + ".join(sub.describe() for sub in self.__path)})'
 
     def perform(self, context: LaunchContext) -> str:
         """Return the path."""

@@ -4,15 +4,17 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any, Dict, List, TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
-from ..utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from ..utilities.perform_substitutions_impl import perform_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class PythonExpression(Substitution):
@@ -28,12 +30,12 @@ class PythonExpression(Substitution):
         self.__python_modules = normalize_to_list_of_substitutions(python_modules)
 
     @property
-    def expression(self) -> List[Substitution]:
+    def expression(self) -> list[Substitution]:
         """Return the parts of the expression."""
         return self.__expression
 
     @property
-    def python_modules(self) -> List[Substitution]:
+    def python_modules(self) -> list[Substitution]:
         """Return the names of the modules."""
         return self.__python_modules
 
@@ -47,10 +49,10 @@ class PythonExpression(Substitution):
         """Evaluate the expression, which comes from the launch file, and return its text."""
         expression = perform_substitutions(context, self.__expression)
         names = [context.perform_substitution(sub) for sub in self.__python_modules]
-        return str(eval(expression, {}, _namespace(names)))
+        return str(eval(expression, {}, _namespace(names)))  # noqa: S307
 
 
-def _namespace(module_names: List[str]) -> Dict[str, Any]:
+def _namespace(module_names: list[str]) -> dict[str, Any]:
     """Return the modules by name, and what is in `math` by itself."""
     modules = {name: import_module(name) for name in module_names}
     return {**vars(modules['math']), **modules} if 'math' in modules else dict(modules)

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..substitution import Substitution
+from launch.substitution import Substitution
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class TextSubstitution(Substitution):
@@ -19,7 +19,8 @@ class TextSubstitution(Substitution):
         if not isinstance(text, str):
             raise TypeError(
                 f"TextSubstitution expected the text to be a 'str', "
-                f"but got {text!r} of type '{type(text).__name__}'")
+                f"but got {text!r} of type '{type(text).__name__}'"
+            )
         self.__text = text
 
     @property

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ._path_operator import PathOperator
-from .substitution_failure import SubstitutionFailure
+from launch.substitutions._path_operator import PathOperator
+from launch.substitutions.substitution_failure import SubstitutionFailure
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 
 class ThisLaunchFile(PathOperator):
@@ -24,5 +24,6 @@ class ThisLaunchFile(PathOperator):
         path = context.get_locals_as_dict().get('current_launch_file_path')
         if path is None:
             raise SubstitutionFailure(
-                'ThisLaunchFile cannot be used in a script: no launch file is being read')
+                'ThisLaunchFile cannot be used in a script: no launch file is being read'
+            )
         return str(path)

@@ -5,17 +5,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._lazy import lazy_exports
+from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from . import type_utils
-    from .class_tools_impl import is_a
-    from .class_tools_impl import is_a_subclass
-    from .ensure_argument_type_impl import ensure_argument_type
-    from .normalize_to_list_of_entities_impl import normalize_to_list_of_entities
-    from .normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-    from .perform_substitutions_impl import perform_substitutions
-    from .visit_all_entities_and_collect_futures_impl import visit_all_entities_and_collect_futures
+    from launch.utilities import type_utils
+    from launch.utilities.class_tools_impl import is_a, is_a_subclass
+    from launch.utilities.ensure_argument_type_impl import ensure_argument_type
+    from launch.utilities.normalize_to_list_of_entities_impl import normalize_to_list_of_entities
+    from launch.utilities.normalize_to_list_of_substitutions_impl import (
+        normalize_to_list_of_substitutions,
+    )
+    from launch.utilities.perform_substitutions_impl import perform_substitutions
+    from launch.utilities.visit_all_entities_and_collect_futures_impl import (
+        visit_all_entities_and_collect_futures,
+    )
 
 __all__ = [
     'ensure_argument_type',

@@ -27,6 +27,7 @@ def read_yaml(text: str) -> Any:
     if _PLAIN_WORD.fullmatch(text) and text not in _NOTHING:
         return text
     import yaml
+
     return yaml.safe_load(text)
 
 
@@ -37,5 +38,6 @@ def read_boolean(text: str) -> bool:
         return True
     if word in _FALSE or word == '0':
         return False
-    raise ValueError(f"cannot read '{text}' as a boolean: expected true, false, yes, no, on, off, "
-                     '1 or 0')
+    raise ValueError(
+        f"cannot read '{text}' as a boolean: expected true, false, yes, no, on, off, 1 or 0"
+    )

@@ -21,4 +21,5 @@ def ensure_argument_type(
     where = f" of '{caller}'" if caller else ''
     raise TypeError(
         f"Expected '{argument_name}'{where} to be {names}, "
-        f"but got '{argument!r}' of type '{type(argument)}'")
+        f"but got '{argument!r}' of type '{type(argument)}'"
+    )

@@ -4,22 +4,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, List, Optional
+from typing import Any, Optional
 
-from ..launch_description_entity import LaunchDescriptionEntity
-from ..some_entities_type import SomeEntitiesType
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.some_entities_type import SomeEntitiesType
 
 
 def normalize_to_list_of_entities(
     entities: Optional[SomeEntitiesType],
-) -> List[LaunchDescriptionEntity]:
+) -> list[LaunchDescriptionEntity]:
     """Return the entities as a list, nested ones flattened and None dropped."""
-    flat: List[LaunchDescriptionEntity] = []
+    flat: list[LaunchDescriptionEntity] = []
     _flatten(entities, flat)
     return flat
 
 
-def _flatten(item: Any, into: List[LaunchDescriptionEntity]) -> None:
+def _flatten(item: Any, into: list[LaunchDescriptionEntity]) -> None:
     if item is None:
         return
     if isinstance(item, LaunchDescriptionEntity):
@@ -30,4 +30,5 @@ def _flatten(item: Any, into: List[LaunchDescriptionEntity]) -> None:
     else:
         raise RuntimeError(
             'expected a LaunchDescriptionEntity, a list of them or None as the reaction to an '
-            f"event, but got '{item!r}' of type '{type(item).__name__}'")
+            f"event, but got '{item!r}' of type '{type(item).__name__}'"
+        )

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import os
-from typing import Any, List
+from typing import Any
 
-from ..some_substitutions_type import SomeSubstitutionsType
-from ..substitution import Substitution
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
 
 
-def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> List[Substitution]:
+def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Substitution]:
     """Return the parts of a text that is known later, each as a substitution."""
     if isinstance(subs, (str, os.PathLike, Substitution)):
         return [_normalize(subs)]
@@ -18,7 +18,8 @@ def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> List[Subs
 
 
 def _normalize(item: Any) -> Substitution:
-    from ..substitutions.text_substitution import TextSubstitution
+    from launch.substitutions.text_substitution import TextSubstitution
+
     if isinstance(item, Substitution):
         return item
     if isinstance(item, str):
@@ -27,4 +28,5 @@ def _normalize(item: Any) -> Substitution:
         return TextSubstitution(text=os.fspath(item))
     raise TypeError(
         f"Failed to normalize given item of type '{type(item)}', when only 'str' or "
-        "'launch.Substitution' were expected.")
+        "'launch.Substitution' were expected."
+    )

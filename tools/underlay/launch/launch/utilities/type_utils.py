@@ -5,15 +5,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 import os
-from typing import Any, get_args, get_origin, List, Optional, TYPE_CHECKING
+from typing import Any, get_args, get_origin, Optional, TYPE_CHECKING
 
-from ._scalars import read_boolean, read_yaml
-from .normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
-from .perform_substitutions_impl import perform_substitutions
-from ..substitution import Substitution
+from launch.substitution import Substitution
+from launch.utilities._scalars import read_boolean, read_yaml
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
 _SCALARS = (bool, int, float, str)
 
@@ -37,7 +39,9 @@ def normalize_typed_substitution(value: Any, data_type: Optional[Any]) -> Any:
 
 
 def perform_typed_substitution(
-    context: LaunchContext, value: Any, data_type: Optional[Any],
+    context: LaunchContext,
+    value: Any,
+    data_type: Optional[Any],
 ) -> Any:
     """Perform a value from `normalize_typed_substitution` and give it the type."""
     if is_substitution(value):
@@ -55,7 +59,7 @@ def coerce_to_type(value: str, data_type: Optional[Any] = None) -> Any:
         return read_boolean(value)
     if data_type in (int, float, str):
         return data_type(value)
-    if get_origin(data_type) in (list, List):
+    if get_origin(data_type) is list:
         return _coerce_to_list(value, get_args(data_type)[0])
     raise ValueError(f"cannot make a value of the type '{data_type}' out of '{value}'")
 
@@ -66,11 +70,12 @@ def _coerce_by_yaml(text: str) -> Any:
     kinds = {type(item) for item in items}
     if len(kinds) > 1 or not kinds.issubset(_SCALARS):
         raise ValueError(
-            f"cannot read '{text}' as one of str, int, float, bool or a list of one of them")
+            f"cannot read '{text}' as one of str, int, float, bool or a list of one of them"
+        )
     return value
 
 
-def _coerce_to_list(text: str, item_type: Any) -> List[Any]:
+def _coerce_to_list(text: str, item_type: Any) -> list[Any]:
     value = read_yaml(text)
     if not isinstance(value, list) or not all(_fits(item, item_type) for item in value):
         raise ValueError(f"cannot read '{text}' as a list of {_name(item_type)}")
@@ -78,9 +83,10 @@ def _coerce_to_list(text: str, item_type: Any) -> List[Any]:
 
 
 def _fits(value: Any, data_type: Any) -> bool:
-    if get_origin(data_type) in (list, List):
+    if get_origin(data_type) is list:
         return isinstance(value, (list, tuple)) and all(
-            _fits(item, get_args(data_type)[0]) for item in value)
+            _fits(item, get_args(data_type)[0]) for item in value
+        )
     if isinstance(value, bool):
         return data_type is bool
     return isinstance(value, (int, float) if data_type is float else data_type)

@@ -3,20 +3,21 @@
 
 from __future__ import annotations
 
-from typing import Any, List, Tuple, TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
-from ..launch_description_entity import LaunchDescriptionEntity
+from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
     import asyncio
 
-    from ..launch_context import LaunchContext
+    from launch.launch_context import LaunchContext
 
-    EntityFuturePairs = List[Tuple[LaunchDescriptionEntity, asyncio.Future[Any]]]
+    EntityFuturePairs = list[tuple[LaunchDescriptionEntity, asyncio.Future[Any]]]
 
 
 def visit_all_entities_and_collect_futures(
-    entity: LaunchDescriptionEntity, context: LaunchContext,
+    entity: LaunchDescriptionEntity,
+    context: LaunchContext,
 ) -> EntityFuturePairs:
     """Visit an entity and, depth-first, all that it returns; collect their futures."""
     futures: EntityFuturePairs = []
@@ -25,7 +26,9 @@ def visit_all_entities_and_collect_futures(
 
 
 def visit_into(
-    entity: LaunchDescriptionEntity, context: LaunchContext, futures: EntityFuturePairs,
+    entity: LaunchDescriptionEntity,
+    context: LaunchContext,
+    futures: EntityFuturePairs,
 ) -> None:
     """Visit likewise; what was collected before a failure stays in `futures`."""
     try:
@@ -47,7 +50,8 @@ def _checked(child: LaunchDescriptionEntity, parent: LaunchDescriptionEntity) ->
         return child
     raise AttributeError(
         f"'{type(child).__name__}' object has no attribute 'visit': the entities of "
-        f'{type(parent).__name__} must be actions or launch descriptions, but one is {child!r}')
+        f'{type(parent).__name__} must be actions or launch descriptions, but one is {child!r}'
+    )
 
 
 def _remember_place(error: Exception, entity: LaunchDescriptionEntity) -> None:

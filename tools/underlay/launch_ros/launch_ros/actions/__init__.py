@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING
 from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .node import Node
-    from .push_ros_namespace import PushROSNamespace
-    from .push_ros_namespace import PushRosNamespace
-    from .set_parameter import SetParameter
-    from .set_parameters_from_file import SetParametersFromFile
-    from .set_remap import SetRemap
-    from .set_ros_log_dir import SetROSLogDir
-    from .set_use_sim_time import SetUseSimTime
+    from launch_ros.actions.node import Node
+    from launch_ros.actions.push_ros_namespace import PushROSNamespace, PushRosNamespace
+    from launch_ros.actions.set_parameter import SetParameter
+    from launch_ros.actions.set_parameters_from_file import SetParametersFromFile
+    from launch_ros.actions.set_remap import SetRemap
+    from launch_ros.actions.set_ros_log_dir import SetROSLogDir
+    from launch_ros.actions.set_use_sim_time import SetUseSimTime
 
 __all__ = [
     'Node',

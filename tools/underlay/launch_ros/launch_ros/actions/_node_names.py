@@ -4,15 +4,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import List, Optional
+from typing import Optional
 
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger
 from launch.substitution import Substitution
 from launch.utilities.perform_substitutions_impl import perform_substitutions
-
-from ..utilities.namespace_utils import make_namespace_absolute, prefix_namespace
-from ..utilities.validate_names import validate_namespace, validate_node_name
+from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
+from launch_ros.utilities.validate_names import validate_namespace, validate_node_name
 
 _UNKNOWN_NAME = '<node_name_unspecified>'
 _UNKNOWN_NAMESPACE = '<node_namespace_unspecified>'
@@ -39,14 +38,14 @@ class NodeNames:
     def full_name(self) -> str:
         """Return both together, with placeholders for what is not known."""
         name = _UNKNOWN_NAME if self.name is None else self.name
-        return f"{self.described_namespace.rstrip('/')}/{name}"
+        return f'{self.described_namespace.rstrip("/")}/{name}'
 
     @property
     def parameter_key(self) -> str:
         """Return which nodes a parameter file is for: this one, or any if it is not known."""
         return self.full_name if self.are_complete else '/**'
 
-    def arguments(self) -> List[str]:
+    def arguments(self) -> list[str]:
         """Return what the node is told."""
         arguments = []
         if self.name is not None:
@@ -58,25 +57,28 @@ class NodeNames:
 
 def expand_node_names(
     context: LaunchContext,
-    name: Optional[List[Substitution]],
-    namespace: Optional[List[Substitution]],
+    name: Optional[list[Substitution]],
+    namespace: Optional[list[Substitution]],
     what: str,
 ) -> NodeNames:
     """Return the names of a node below the namespace of now; log `what` if they are invalid."""
     try:
         names = NodeNames(
             None if name is None else perform_substitutions(context, name),
-            _expand_namespace(context, namespace))
+            _expand_namespace(context, namespace),
+        )
         _validate(names)
     except Exception:
         get_logger('launch_ros.actions.node').error(
-            "Error while expanding or validating node name or namespace for '%s':", what)
+            "Error while expanding or validating node name or namespace for '%s':", what
+        )
         raise
     return names
 
 
 def _expand_namespace(
-    context: LaunchContext, namespace: Optional[List[Substitution]],
+    context: LaunchContext,
+    namespace: Optional[list[Substitution]],
 ) -> Optional[str]:
     base = context.launch_configurations.get('ros_namespace')
     own = None if namespace is None else perform_substitutions(context, namespace)

@@ -5,21 +5,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 import os
-from typing import Any, List, Tuple
+from typing import Any
 
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger
+from launch_ros.actions._node_names import NodeNames
+from launch_ros.parameter_descriptions import Parameter
+from launch_ros.utilities.evaluate_parameters_impl import evaluate_parameters, EvaluatedParameters
+from launch_ros.utilities.normalize_parameters_impl import NormalizedParameters
+from launch_ros.utilities.normalize_remap_rules_impl import evaluate_remap_rule, RemapRule
+from launch_ros.utilities.parameter_files import write_parameter_file
+from launch_ros.utilities.yaml_text import flow_text
 
-from ._node_names import NodeNames
-from ..parameter_descriptions import Parameter
-from ..utilities.evaluate_parameters_impl import evaluate_parameters, EvaluatedParameters
-from ..utilities.normalize_parameters_impl import NormalizedParameters
-from ..utilities.normalize_remap_rules_impl import evaluate_remap_rule, RemapRule
-from ..utilities.parameter_files import write_parameter_file
-from ..utilities.yaml_text import flow_text
 
-
-def global_arguments(context: LaunchContext) -> List[str]:
+def global_arguments(context: LaunchContext) -> list[str]:
     """Return the parameters and files that are set for all nodes, in order."""
     arguments = []
     for item in context.launch_configurations.get('global_params', []):
@@ -36,8 +35,10 @@ def _global_text(value: Any) -> str:
 
 
 def own_parameter_arguments(
-    context: LaunchContext, parameters: Iterable[NormalizedParameters], names: NodeNames,
-) -> List[str]:
+    context: LaunchContext,
+    parameters: Iterable[NormalizedParameters],
+    names: NodeNames,
+) -> list[str]:
     """Return the parameters of one node, in order; dictionaries are written to files."""
     arguments = []
     for element in evaluate_parameters(context, parameters):
@@ -45,23 +46,23 @@ def own_parameter_arguments(
     return arguments
 
 
-def _parameter_argument(element: EvaluatedParameters, names: NodeNames) -> List[str]:
+def _parameter_argument(element: EvaluatedParameters, names: NodeNames) -> list[str]:
     if isinstance(element, Parameter):
         return ['-p', element.get_parameter_rule()]
     if isinstance(element, dict):
         return ['--params-file', write_parameter_file(names.parameter_key, element)]
     if os.path.isfile(element):
         return ['--params-file', element]
-    get_logger('launch_ros.actions.node').warning(
-        'Parameter file path is not a file: %s', element)
+    get_logger('launch_ros.actions.node').warning('Parameter file path is not a file: %s', element)
     return []
 
 
 def remap_arguments(
-    context: LaunchContext, rules: Iterable[RemapRule],
-) -> Tuple[List[str], List[Tuple[str, str]]]:
+    context: LaunchContext,
+    rules: Iterable[RemapRule],
+) -> tuple[list[str], list[tuple[str, str]]]:
     """Return the remappings of all nodes and of this one as arguments, and as pairs."""
-    pairs: List[Tuple[str, str]] = list(context.launch_configurations.get('ros_remaps', []))
+    pairs: list[tuple[str, str]] = list(context.launch_configurations.get('ros_remaps', []))
     pairs += [evaluate_remap_rule(context, rule) for rule in rules]
     arguments = [word for source, target in pairs for word in ('-r', f'{source}:={target}')]
     return arguments, pairs

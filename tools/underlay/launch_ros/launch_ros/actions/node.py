@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, List, Optional, Tuple
+from typing import Any, Optional
 
 from launch.actions.execute_local import ExecuteLocal
 from launch.descriptions.executable import Executable, SomeVariables
@@ -14,13 +14,16 @@ from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.utilities.normalize_to_list_of_substitutions_impl import (
     normalize_to_list_of_substitutions,
 )
-
-from ._node_names import expand_node_names, NodeNames
-from ._ros_arguments import global_arguments, own_parameter_arguments, remap_arguments
-from ..substitutions.executable_in_package import ExecutableInPackage
-from ..utilities.normalize_parameters_impl import normalize_parameters
-from ..utilities.normalize_remap_rules_impl import normalize_remap_rules
-from ..utilities.track_node_names import add_node_name
+from launch_ros.actions._node_names import expand_node_names, NodeNames
+from launch_ros.actions._ros_arguments import (
+    global_arguments,
+    own_parameter_arguments,
+    remap_arguments,
+)
+from launch_ros.substitutions.executable_in_package import ExecutableInPackage
+from launch_ros.utilities.normalize_parameters_impl import normalize_parameters
+from launch_ros.utilities.normalize_remap_rules_impl import normalize_remap_rules
+from launch_ros.utilities.track_node_names import add_node_name
 
 
 class Node(ExecuteLocal):
@@ -34,7 +37,7 @@ class Node(ExecuteLocal):
         name: Optional[SomeSubstitutionsType] = None,
         namespace: Optional[SomeSubstitutionsType] = None,
         exec_name: Optional[SomeSubstitutionsType] = None,
-        parameters: Optional[List[Any]] = None,
+        parameters: Optional[list[Any]] = None,
         remappings: Optional[Iterable[Any]] = None,
         ros_arguments: Optional[Iterable[SomeSubstitutionsType]] = None,
         arguments: Optional[Iterable[SomeSubstitutionsType]] = None,
@@ -57,25 +60,35 @@ class Node(ExecuteLocal):
         :param ros_arguments: more arguments for ROS, such as `--log-level debug`
         :param arguments: arguments for the node itself
         """
-        program = (executable if package is None
-                   else ExecutableInPackage(package=package, executable=executable))
+        program = (
+            executable
+            if package is None
+            else ExecutableInPackage(package=package, executable=executable)
+        )
         words = [program, *_checked_list('arguments', arguments)]
         extra = _checked_list('ros_arguments', ros_arguments)
         super().__init__(
             process_description=Executable(
-                cmd=[*words, *(['--ros-args', *extra] if extra else [])], prefix=prefix,
-                name=exec_name, cwd=cwd, env=env, additional_env=additional_env),
-            **kwargs)
+                cmd=[*words, *(['--ros-args', *extra] if extra else [])],
+                prefix=prefix,
+                name=exec_name,
+                cwd=cwd,
+                env=env,
+                additional_env=additional_env,
+            ),
+            **kwargs,
+        )
         self.__package = package
         self.__executable = executable
         self.__name = None if name is None else normalize_to_list_of_substitutions(name)
         self.__namespace = (
-            None if namespace is None else normalize_to_list_of_substitutions(namespace))
+            None if namespace is None else normalize_to_list_of_substitutions(namespace)
+        )
         self.__raw_names = f'name={name}, namespace={namespace}'
         self.__parameters = [] if parameters is None else normalize_parameters(parameters)
         self.__remappings = [] if remappings is None else normalize_remap_rules(remappings)
         self.__names: Optional[NodeNames] = None
-        self.__expanded_remappings: Optional[List[Tuple[str, str]]] = None
+        self.__expanded_remappings: Optional[list[tuple[str, str]]] = None
 
     @property
     def node_package(self) -> Optional[SomeSubstitutionsType]:
@@ -98,7 +111,7 @@ class Node(ExecuteLocal):
         return self._known_names().described_namespace
 
     @property
-    def expanded_remapping_rules(self) -> Optional[List[Tuple[str, str]]]:
+    def expanded_remapping_rules(self) -> Optional[list[tuple[str, str]]]:
         """Return the remappings with both sides as texts, None before they are known."""
         return self.__expanded_remappings
 
@@ -113,35 +126,48 @@ class Node(ExecuteLocal):
 
     def prepare(self, context: LaunchContext) -> None:
         """Find out the command line, with all that ROS is told behind the last --ros-args."""
-        what = (f'package={self.__package}, executable={self.__executable}, {self.__raw_names}')
+        what = f'package={self.__package}, executable={self.__executable}, {self.__raw_names}'
         names = expand_node_names(context, self.__name, self.__namespace, what)
         self.__names = names
         remappings, self.__expanded_remappings = remap_arguments(context, self.__remappings)
         self.process_description.prepare(
-            context, self, shell=self.shell,
+            context,
+            self,
+            shell=self.shell,
             extra_arguments=[
-                '--ros-args', *names.arguments(), *global_arguments(context),
-                *own_parameter_arguments(context, self.__parameters, names), *remappings])
+                '--ros-args',
+                *names.arguments(),
+                *global_arguments(context),
+                *own_parameter_arguments(context, self.__parameters, names),
+                *remappings,
+            ],
+        )
 
-    def execute(self, context: LaunchContext) -> Optional[List[LaunchDescriptionEntity]]:
+    def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
         """Start the node as soon as all that is being visited is done."""
         entities = super().execute(context)
         if self.is_node_name_fully_specified():
             count = add_node_name(context, self.node_name)
             if count > 1:
                 from launch.logging import get_logger
+
                 get_logger(self.name).warning(
                     'there are now at least %s nodes with the name %s created within this launch '
-                    'context', count, self.node_name)
+                    'context',
+                    count,
+                    self.node_name,
+                )
         return entities
 
 
 def _checked_list(
-    name: str, values: Optional[Iterable[SomeSubstitutionsType]],
-) -> List[SomeSubstitutionsType]:
+    name: str,
+    values: Optional[Iterable[SomeSubstitutionsType]],
+) -> list[SomeSubstitutionsType]:
     """Return the values as a list; a text, which would fall apart into letters, is refused."""
     if isinstance(values, str):
         raise TypeError(
             f"the {name} of a Node must be a list, but got the text '{values}'; write "
-            f'{name}={values.split()!r}')
+            f'{name}={values.split()!r}'
+        )
     return list(values or ())

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, List
+from typing import Any
 
 from launch.action import Action
 from launch.launch_context import LaunchContext
@@ -13,9 +13,8 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
     normalize_to_list_of_substitutions,
 )
 from launch.utilities.perform_substitutions_impl import perform_substitutions
-
-from ..utilities.namespace_utils import make_namespace_absolute, prefix_namespace
-from ..utilities.validate_names import InvalidNameError, validate_namespace
+from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
+from launch_ros.utilities.validate_names import InvalidNameError, validate_namespace
 
 
 class PushROSNamespace(Action):
@@ -27,7 +26,7 @@ class PushROSNamespace(Action):
         self.__namespace = normalize_to_list_of_substitutions(namespace)
 
     @property
-    def namespace(self) -> List[Substitution]:
+    def namespace(self) -> list[Substitution]:
         """Return the parts of the namespace."""
         return self.__namespace
 

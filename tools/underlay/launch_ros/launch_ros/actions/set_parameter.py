@@ -8,9 +8,8 @@ from typing import Any
 from launch.action import Action
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
-
-from ..utilities.evaluate_parameters_impl import evaluate_parameter_dict
-from ..utilities.normalize_parameters_impl import normalize_parameter_dict
+from launch_ros.utilities.evaluate_parameters_impl import evaluate_parameter_dict
+from launch_ros.utilities.normalize_parameters_impl import normalize_parameter_dict
 
 
 class SetParameter(Action):

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, List
+from typing import Any
 
 from launch.action import Action
 from launch.launch_context import LaunchContext
@@ -19,7 +19,10 @@ class SetRemap(Action):
     """Remaps a name of the nodes that follow, to the end of the group that it is in."""
 
     def __init__(
-        self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **kwargs: Any,
+        self,
+        src: SomeSubstitutionsType,
+        dst: SomeSubstitutionsType,
+        **kwargs: Any,
     ) -> None:
         """Create the action."""
         super().__init__(**kwargs)
@@ -27,18 +30,20 @@ class SetRemap(Action):
         self.__dst = normalize_to_list_of_substitutions(dst)
 
     @property
-    def src(self) -> List[Substitution]:
+    def src(self) -> list[Substitution]:
         """Return the parts of the name that is remapped."""
         return self.__src
 
     @property
-    def dst(self) -> List[Substitution]:
+    def dst(self) -> list[Substitution]:
         """Return the parts of the name that it becomes."""
         return self.__dst
 
     def execute(self, context: LaunchContext) -> None:
         """Add the rule; those of the nodes themselves come behind it."""
-        rule = perform_substitutions(context, self.__src), perform_substitutions(
-            context, self.__dst)
+        rule = (
+            perform_substitutions(context, self.__src),
+            perform_substitutions(context, self.__dst),
+        )
         known = context.launch_configurations.get('ros_remaps', [])
         context.launch_configurations['ros_remaps'] = [*known, rule]

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, List
+from typing import Any
 
 from launch.action import Action
 from launch.launch_context import LaunchContext
@@ -25,12 +25,13 @@ class SetROSLogDir(Action):
         self.__log_dir = normalize_to_list_of_substitutions(new_log_dir)
 
     @property
-    def log_dir(self) -> List[Substitution]:
+    def log_dir(self) -> list[Substitution]:
         """Return the parts of the path."""
         return self.__log_dir
 
     def execute(self, context: LaunchContext) -> None:
         """Set it."""
         from launch.logging._directory import base_directory
+
         path = os.path.expanduser(perform_substitutions(context, self.__log_dir))
         context.environment['ROS_LOG_DIR'] = os.path.join(base_directory(), path)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from ..parameter_descriptions import Parameter, ParameterFile, ParameterValue
+from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
 __all__ = [
     'Parameter',

@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING
 from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .executable_in_package import ExecutableInPackage
-    from .find_package import FindPackage
-    from .find_package import FindPackagePrefix
-    from .find_package import FindPackageShare
-    from .parameter import Parameter
+    from launch_ros.substitutions.executable_in_package import ExecutableInPackage
+    from launch_ros.substitutions.find_package import (
+        FindPackage,
+        FindPackagePrefix,
+        FindPackageShare,
+    )
+    from launch_ros.substitutions.parameter import Parameter
 
 __all__ = [
     'ExecutableInPackage',

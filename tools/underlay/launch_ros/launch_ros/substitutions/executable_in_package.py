@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import os
-from typing import List
 
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
@@ -14,22 +13,23 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
     normalize_to_list_of_substitutions,
 )
 from launch.utilities.perform_substitutions_impl import perform_substitutions
-
-from .find_package import FindPackagePrefix
+from launch_ros.substitutions.find_package import FindPackagePrefix
 
 
 class ExecutableInPackage(FindPackagePrefix):
     """Stands for the path of an executable that a package has installed."""
 
     def __init__(
-        self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType,
+        self,
+        executable: SomeSubstitutionsType,
+        package: SomeSubstitutionsType,
     ) -> None:
         """Create the substitution of an executable of a package."""
         super().__init__(package)
         self.__executable = normalize_to_list_of_substitutions(executable)
 
     @property
-    def executable(self) -> List[Substitution]:
+    def executable(self) -> list[Substitution]:
         """Return the parts of the name of the executable."""
         return self.__executable
 
@@ -50,9 +50,10 @@ class ExecutableInPackage(FindPackagePrefix):
             return path
         problem = (
             f"executable '{executable}' not found on the libexec directory '{folder}' "
-            if os.path.isdir(folder) else
-            f"package '{package}' found at '{prefix}', but libexec directory '{folder}' does not "
-            'exist')
+            if os.path.isdir(folder)
+            else f"package '{package}' found at '{prefix}', but libexec directory "
+            f"'{folder}' does not exist"
+        )
         explanation = _explain(package, executable, prefix)
         raise SubstitutionFailure('\n'.join(filter(None, [problem, explanation])))
 

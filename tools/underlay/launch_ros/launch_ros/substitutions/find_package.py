@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import os
-from typing import List
 
 from ament_index_python.packages import get_package_prefix, PackageNotFoundError
 from launch.launch_context import LaunchContext
@@ -17,7 +16,7 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 
-class _ExplainedPackageNotFoundError(PackageNotFoundError):  # type: ignore[misc]
+class _ExplainedPackageNotFoundError(PackageNotFoundError):
     """A package was not found; the text says why, as far as it is known."""
 
     def __init__(self, error: KeyError, explanation: str) -> None:
@@ -37,7 +36,7 @@ class FindPackage(PathOperator):
         self.__package = normalize_to_list_of_substitutions(package)
 
     @property
-    def package(self) -> List[Substitution]:
+    def package(self) -> list[Substitution]:
         """Return the parts of the name of the package."""
         return self.__package
 

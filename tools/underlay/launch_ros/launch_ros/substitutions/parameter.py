@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import List, Optional
+from typing import Optional
 
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
@@ -19,7 +19,10 @@ class Parameter(Substitution):
     """Stands for the value of a parameter that SetParameter has set in this scope."""
 
     def __init__(
-        self, name: SomeSubstitutionsType, *, default: Optional[SomeSubstitutionsType] = None,
+        self,
+        name: SomeSubstitutionsType,
+        *,
+        default: Optional[SomeSubstitutionsType] = None,
     ) -> None:
         """Create the substitution of a parameter."""
         super().__init__()
@@ -27,13 +30,13 @@ class Parameter(Substitution):
         self.__default = None if default is None else normalize_to_list_of_substitutions(default)
 
     @property
-    def name(self) -> List[Substitution]:
+    def name(self) -> list[Substitution]:
         """Return the parts of the name."""
         return self.__name
 
     def describe(self) -> str:
         """Return a short description for people."""
-        return f"Parameter({' + '.join(sub.describe() for sub in self.__name)})"
+        return f'Parameter({" + ".join(sub.describe() for sub in self.__name)})'
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value, or else the default."""
@@ -44,4 +47,5 @@ class Parameter(Substitution):
         if self.__default is not None:
             return perform_substitutions(context, self.__default)
         raise SubstitutionFailure(
-            f"parameter '{name}' not found: no SetParameter has set it in this scope")
+            f"parameter '{name}' not found: no SetParameter has set it in this scope"
+        )

@@ -8,16 +8,19 @@ from typing import TYPE_CHECKING
 from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .evaluate_parameters_impl import evaluate_parameters
-    from .namespace_utils import is_namespace_absolute
-    from .namespace_utils import is_root_namespace
-    from .namespace_utils import make_namespace_absolute
-    from .namespace_utils import prefix_namespace
-    from .normalize_parameters_impl import normalize_parameters
-    from .normalize_remap_rules_impl import normalize_remap_rule
-    from .normalize_remap_rules_impl import normalize_remap_rules
-    from .track_node_names import add_node_name
-    from .track_node_names import get_node_name_count
+    from launch_ros.utilities.evaluate_parameters_impl import evaluate_parameters
+    from launch_ros.utilities.namespace_utils import (
+        is_namespace_absolute,
+        is_root_namespace,
+        make_namespace_absolute,
+        prefix_namespace,
+    )
+    from launch_ros.utilities.normalize_parameters_impl import normalize_parameters
+    from launch_ros.utilities.normalize_remap_rules_impl import (
+        normalize_remap_rule,
+        normalize_remap_rules,
+    )
+    from launch_ros.utilities.track_node_names import add_node_name, get_node_name_count
 
 __all__ = [
     'add_node_name',

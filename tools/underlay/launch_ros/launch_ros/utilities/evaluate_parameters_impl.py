@@ -4,23 +4,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any, Dict, List, Union
+from typing import Any, Union
 
 from launch.launch_context import LaunchContext
 from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch_ros.parameter_descriptions import Parameter, ParameterFile
+from launch_ros.utilities.normalize_parameters_impl import NormalizedParameters
+from launch_ros.utilities.parameter_values import evaluate_value
 
-from .normalize_parameters_impl import NormalizedParameters
-from .parameter_values import evaluate_value
-from ..parameter_descriptions import Parameter, ParameterFile
-
-EvaluatedParameters = Union[Dict[str, Any], str, Parameter]
+EvaluatedParameters = Union[dict[str, Any], str, Parameter]
 
 
 def evaluate_parameter_dict(
-    context: LaunchContext, parameters: Mapping[Any, Any],
-) -> Dict[str, Any]:
+    context: LaunchContext,
+    parameters: Mapping[Any, Any],
+) -> dict[str, Any]:
     """Return a normalized dictionary with texts as names and plain values."""
-    evaluated: Dict[str, Any] = {}
+    evaluated: dict[str, Any] = {}
     for key, value in parameters.items():
         name = perform_substitutions(context, key)
         evaluated[name] = evaluate_value(context, value, name)
@@ -28,8 +28,9 @@ def evaluate_parameter_dict(
 
 
 def evaluate_parameters(
-    context: LaunchContext, parameters: Iterable[NormalizedParameters],
-) -> List[EvaluatedParameters]:
+    context: LaunchContext,
+    parameters: Iterable[NormalizedParameters],
+) -> list[EvaluatedParameters]:
     """Return each element as a plain dictionary, the path of a file, or an evaluated parameter."""
     return [_evaluate(context, element) for element in parameters]
 

@@ -30,7 +30,7 @@ def prefix_namespace(base: Optional[str], namespace: Optional[str]) -> Optional[
     elif not base:
         combined = namespace
     else:
-        combined = f"{base.rstrip('/')}/{namespace}"
+        combined = f'{base.rstrip("/")}/{namespace}'
     if combined is None or is_root_namespace(combined):
         return combined
     return combined.rstrip('/') or '/' * combined.startswith('/')

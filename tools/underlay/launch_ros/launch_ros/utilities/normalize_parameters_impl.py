@@ -5,26 +5,26 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 import os
-from typing import Any, Dict, List, Tuple, Union
+from typing import Any, Union
 
 from launch.substitution import Substitution
 from launch.utilities.normalize_to_list_of_substitutions_impl import (
     normalize_to_list_of_substitutions,
 )
+from launch_ros.parameter_descriptions import Parameter, ParameterFile
+from launch_ros.utilities.parameter_values import normalize_value
 
-from .parameter_values import normalize_value
-from ..parameter_descriptions import Parameter, ParameterFile
-
-Name = Tuple[Substitution, ...]
-NormalizedParameters = Union[Dict[Name, Any], ParameterFile, Parameter]
+Name = tuple[Substitution, ...]
+NormalizedParameters = Union[dict[Name, Any], ParameterFile, Parameter]
 
 
-def normalize_parameters(parameters: Any) -> List[NormalizedParameters]:
+def normalize_parameters(parameters: Any) -> list[NormalizedParameters]:
     """Return each element as a dictionary, a file or a single parameter."""
     if not isinstance(parameters, (list, tuple)):
         raise TypeError(
             'the parameters of a node must be a list of dictionaries and files, but got '
-            f"{parameters!r} of type '{type(parameters).__name__}'; put it in square brackets")
+            f"{parameters!r} of type '{type(parameters).__name__}'; put it in square brackets"
+        )
     return [_normalize(element) for element in parameters]
 
 
@@ -37,19 +37,22 @@ def _normalize(element: Any) -> NormalizedParameters:
         return ParameterFile(element)
     raise TypeError(
         'an element of the parameters of a node must be a dictionary, the path of a file, or a '
-        f"Parameter, but got {element!r} of type '{type(element).__name__}'")
+        f"Parameter, but got {element!r} of type '{type(element).__name__}'"
+    )
 
 
 def normalize_parameter_dict(
-    parameters: Mapping[Any, Any], prefix: Name = (),
-) -> Dict[Name, Any]:
+    parameters: Mapping[Any, Any],
+    prefix: Name = (),
+) -> dict[Name, Any]:
     """Return a flat dictionary; the names of nested ones are joined by dots."""
-    flat: Dict[Name, Any] = {}
+    flat: dict[Name, Any] = {}
     for key, value in parameters.items():
         if not isinstance(key, (str, Substitution, list, tuple)):
             raise TypeError(
                 f'the name of a parameter must be a text or substitutions, but got {key!r} of '
-                f"type '{type(key).__name__}'")
+                f"type '{type(key).__name__}'"
+            )
         name = (*prefix, *normalize_to_list_of_substitutions(key))
         if isinstance(value, Mapping):
             dot = normalize_to_list_of_substitutions('.')

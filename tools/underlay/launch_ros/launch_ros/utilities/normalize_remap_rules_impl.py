@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, List, Tuple
+from typing import Any
 
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
@@ -14,8 +14,8 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
 )
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
-SomeRemapRule = Tuple[SomeSubstitutionsType, SomeSubstitutionsType]
-RemapRule = Tuple[List[Substitution], List[Substitution]]
+SomeRemapRule = tuple[SomeSubstitutionsType, SomeSubstitutionsType]
+RemapRule = tuple[list[Substitution], list[Substitution]]
 
 
 def normalize_remap_rule(remap_rule: Any) -> RemapRule:
@@ -23,16 +23,19 @@ def normalize_remap_rule(remap_rule: Any) -> RemapRule:
     if not isinstance(remap_rule, tuple) or len(remap_rule) != 2:
         raise TypeError(
             "a remapping must be a tuple such as ('from', 'to'), but got "
-            f"{remap_rule!r} of type '{type(remap_rule).__name__}'")
-    return (normalize_to_list_of_substitutions(remap_rule[0]),
-            normalize_to_list_of_substitutions(remap_rule[1]))
+            f"{remap_rule!r} of type '{type(remap_rule).__name__}'"
+        )
+    return (
+        normalize_to_list_of_substitutions(remap_rule[0]),
+        normalize_to_list_of_substitutions(remap_rule[1]),
+    )
 
 
-def normalize_remap_rules(remap_rules: Iterable[Any]) -> List[RemapRule]:
+def normalize_remap_rules(remap_rules: Iterable[Any]) -> list[RemapRule]:
     """Return the rules with both sides as substitutions."""
     return [normalize_remap_rule(rule) for rule in remap_rules]
 
 
-def evaluate_remap_rule(context: LaunchContext, rule: RemapRule) -> Tuple[str, str]:
+def evaluate_remap_rule(context: LaunchContext, rule: RemapRule) -> tuple[str, str]:
     """Return a rule with both sides as texts."""
     return perform_substitutions(context, rule[0]), perform_substitutions(context, rule[1])

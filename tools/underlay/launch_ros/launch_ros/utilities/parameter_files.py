@@ -7,11 +7,11 @@ import atexit
 from collections.abc import Mapping
 import os
 import tempfile
-from typing import Any, List
+from typing import Any
 
-from .yaml_text import parameter_file_text
+from launch_ros.utilities.yaml_text import parameter_file_text
 
-_written: List[str] = []
+_written: list[str] = []
 
 
 def write_parameter_file(node_name: str, parameters: Mapping[str, Any]) -> str:

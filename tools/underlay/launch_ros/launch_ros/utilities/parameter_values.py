@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 import os
 import re
-from typing import Any, List
+from typing import Any
 
 from launch.launch_context import LaunchContext
 from launch.substitution import Substitution
@@ -17,12 +17,14 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 _SCALARS = (bool, int, float, str, bytes)
-_ALLOWED = ('bytes, bool, int, float, str, Sequence[bool], Sequence[int], Sequence[float], '
-            'Sequence[str]')
+_ALLOWED = (
+    'bytes, bool, int, float, str, Sequence[bool], Sequence[int], Sequence[float], Sequence[str]'
+)
 _EXPONENT = re.compile(r'[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+')
 _ADVICE = (
     'If the parameter is meant to be a string, try wrapping it in '
-    'launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)')
+    'launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)'
+)
 
 
 class TypedText:
@@ -49,10 +51,11 @@ def normalize_value(value: Any, name: str) -> Any:
         return _normalize_list(list(value), name)
     raise TypeError(
         f"Unexpected type for parameter value {value!r} of the parameter '{name}'. Allowed value "
-        f'types are {_ALLOWED}')
+        f'types are {_ALLOWED}'
+    )
 
 
-def _normalize_list(items: List[Any], name: str) -> Any:
+def _normalize_list(items: list[Any], name: str) -> Any:
     if any(isinstance(item, Substitution) for item in items):
         return TypedText(items)
     if items and all(isinstance(item, (list, tuple)) for item in items):
@@ -78,11 +81,13 @@ def type_text(text: str, name: str) -> Any:
     if _EXPONENT.fullmatch(text):
         return float(text)
     import yaml
+
     try:
         value = read_yaml(text)
     except yaml.YAMLError as error:
         raise TypeError(
-            f'Unable to parse the value of parameter {name} as yaml. {_ADVICE}') from error
+            f'Unable to parse the value of parameter {name} as yaml. {_ADVICE}'
+        ) from error
     return checked(value, name)
 
 
@@ -93,10 +98,11 @@ def checked(value: Any, name: str) -> Any:
     if isinstance(value, _SCALARS):
         return value
     raise TypeError(
-        f'Allowed value types are {_ALLOWED}. Got {type(value)} for "{name}". {_ADVICE}')
+        f'Allowed value types are {_ALLOWED}. Got {type(value)} for "{name}". {_ADVICE}'
+    )
 
 
-def uniform(items: List[Any], name: str) -> List[Any]:
+def uniform(items: list[Any], name: str) -> list[Any]:
     """Return a list whose items have one type; whole numbers among others become floats."""
     kinds = {type(item) for item in items}
     if kinds == {int, float}:
@@ -106,4 +112,5 @@ def uniform(items: List[Any], name: str) -> List[Any]:
     raise TypeError(
         'Expected a non-empty sequence, with items of uniform type. '
         f'Allowed sequence item types are bool, int, float, str. Got inconsistent input for '
-        f'"{name}": {items!r}')
+        f'"{name}": {items!r}'
+    )

@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from typing import Dict
-
 from launch.launch_context import LaunchContext
 
 _KEY = 'unique_ros_node_names'
@@ -12,7 +10,7 @@ _KEY = 'unique_ros_node_names'
 
 def add_node_name(context: LaunchContext, node_name: str) -> int:
     """Note that a node of this full name is created; return how many there are now."""
-    counts: Dict[str, int] = context.get_locals_as_dict().get(_KEY) or {}
+    counts: dict[str, int] = context.get_locals_as_dict().get(_KEY) or {}
     context.extend_globals({_KEY: counts})
     counts[node_name] = counts.get(node_name, 0) + 1
     return counts[node_name]
@@ -20,5 +18,5 @@ def add_node_name(context: LaunchContext, node_name: str) -> int:
 
 def get_node_name_count(context: LaunchContext, node_name: str) -> int:
     """Return how many nodes of this full name have been created."""
-    counts: Dict[str, int] = context.get_locals_as_dict().get(_KEY) or {}
+    counts: dict[str, int] = context.get_locals_as_dict().get(_KEY) or {}
     return counts.get(node_name, 0)

@@ -51,5 +51,6 @@ def _token_problem(token: str) -> str:
     if _TOKEN.fullmatch(token):
         return ''
     position = next(i for i, letter in enumerate(token) if not _TOKEN.fullmatch('_' + letter))
-    return (f"has the character '{token[position]}'; only letters, digits and underscores are "
-            'allowed')
+    return (
+        f"has the character '{token[position]}'; only letters, digits and underscores are allowed"
+    )

@@ -21,8 +21,9 @@ def flow_text(value: Any) -> str:
         return _quoted(value)
     if isinstance(value, bytes):
         import base64
+
         return f"!!binary '{base64.b64encode(value).decode()}'"
-    return f"[{', '.join(flow_text(item) for item in value)}]"
+    return f'[{", ".join(flow_text(item) for item in value)}]'
 
 
 def parameter_file_text(node_name: str, parameters: Mapping[str, Any]) -> str:
@@ -47,5 +48,10 @@ def _quoted(text: str) -> str:
     """Return a text in single quotes, or with escapes if it has special characters."""
     if text.isprintable():
         return "'" + text.replace("'", "''") + "'"
-    return json.dumps(text, ensure_ascii=False).replace('\x7f', '\\x7f').replace(
-        '\x85', '\\x85').replace('\u2028', '\\u2028').replace('\u2029', '\\u2029')
+    return (
+        json.dumps(text, ensure_ascii=False)
+        .replace('\x7f', '\\x7f')
+        .replace('\x85', '\\x85')
+        .replace('\u2028', '\\u2028')
+        .replace('\u2029', '\\u2029')
+    )

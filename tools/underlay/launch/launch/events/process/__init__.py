@@ -5,22 +5,24 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..._lazy import lazy_exports
+from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from .process_exited import ProcessExited
-    from .process_io import ProcessIO
-    from .process_matchers import matches_executable
-    from .process_matchers import matches_name
-    from .process_matchers import matches_pid
-    from .process_started import ProcessStarted
-    from .process_stderr import ProcessStderr
-    from .process_stdin import ProcessStdin
-    from .process_stdout import ProcessStdout
-    from .process_targeted_event import ProcessTargetedEvent
-    from .running_process_event import RunningProcessEvent
-    from .shutdown_process import ShutdownProcess
-    from .signal_process import SignalProcess
+    from launch.events.process.process_exited import ProcessExited
+    from launch.events.process.process_io import ProcessIO
+    from launch.events.process.process_matchers import (
+        matches_executable,
+        matches_name,
+        matches_pid,
+    )
+    from launch.events.process.process_started import ProcessStarted
+    from launch.events.process.process_stderr import ProcessStderr
+    from launch.events.process.process_stdin import ProcessStdin
+    from launch.events.process.process_stdout import ProcessStdout
+    from launch.events.process.process_targeted_event import ProcessTargetedEvent
+    from launch.events.process.running_process_event import RunningProcessEvent
+    from launch.events.process.shutdown_process import ShutdownProcess
+    from launch.events.process.signal_process import SignalProcess
 
 __all__ = [
     'ProcessExited',

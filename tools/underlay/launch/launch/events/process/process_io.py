@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .running_process_event import RunningProcessEvent
+from launch.events.process.running_process_event import RunningProcessEvent
 
 
 class ProcessIO(RunningProcessEvent):

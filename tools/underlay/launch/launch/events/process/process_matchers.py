@@ -8,7 +8,7 @@ import os
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ...actions.execute_local import ExecuteLocal
+    from launch.actions.execute_local import ExecuteLocal
 
 
 def matches_pid(pid: int) -> Callable[[ExecuteLocal], bool]:
@@ -23,7 +23,9 @@ def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
 
 def matches_executable(executable: str) -> Callable[[ExecuteLocal], bool]:
     """Return a matcher of the processes whose program has this name."""
+
     def matches(action: ExecuteLocal) -> bool:
         command = (action.process_details or {}).get('cmd') or ['']
         return bool(os.path.basename(command[0]) == executable)
+
     return matches

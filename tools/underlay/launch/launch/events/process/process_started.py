@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from .running_process_event import RunningProcessEvent
+from launch.events.process.running_process_event import RunningProcessEvent
 
 
 class ProcessStarted(RunningProcessEvent):

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .process_io import ProcessIO
+from launch.events.process.process_io import ProcessIO
 
 
 class ProcessStdout(ProcessIO):

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from typing import Dict, List, Optional, TYPE_CHECKING
+from typing import Optional, TYPE_CHECKING
 
-from ...event import Event
+from launch.event import Event
 
 if TYPE_CHECKING:
-    from ...actions.execute_local import ExecuteLocal
+    from launch.actions.execute_local import ExecuteLocal
 
 
 class RunningProcessEvent(Event):
@@ -21,9 +21,9 @@ class RunningProcessEvent(Event):
         *,
         action: ExecuteLocal,
         name: str,
-        cmd: List[str],
+        cmd: list[str],
         cwd: Optional[str],
-        env: Optional[Dict[str, str]],
+        env: Optional[dict[str, str]],
         pid: int,
     ) -> None:
         """Create the event from the facts about the process."""
@@ -50,7 +50,7 @@ class RunningProcessEvent(Event):
         return self.__name
 
     @property
-    def cmd(self) -> List[str]:
+    def cmd(self) -> list[str]:
         """Return the command line."""
         return self.__cmd
 
@@ -60,7 +60,7 @@ class RunningProcessEvent(Event):
         return self.__cwd
 
     @property
-    def env(self) -> Optional[Dict[str, str]]:
+    def env(self) -> Optional[dict[str, str]]:
         """Return the environment that the process was started with."""
         return self.__env
 

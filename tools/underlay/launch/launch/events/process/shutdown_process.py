@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from .process_targeted_event import ProcessTargetedEvent
+from launch.events.process.process_targeted_event import ProcessTargetedEvent
 
 
 class ShutdownProcess(ProcessTargetedEvent):

@@ -7,10 +7,10 @@ from collections.abc import Callable
 import signal
 from typing import TYPE_CHECKING, Union
 
-from .process_targeted_event import ProcessTargetedEvent
+from launch.events.process.process_targeted_event import ProcessTargetedEvent
 
 if TYPE_CHECKING:
-    from ...actions.execute_local import ExecuteLocal
+    from launch.actions.execute_local import ExecuteLocal
 
 
 class SignalProcess(ProcessTargetedEvent):
@@ -27,8 +27,10 @@ class SignalProcess(ProcessTargetedEvent):
         """Create the event from a signal, given by its name (`'SIGINT'`) or number."""
         super().__init__(process_matcher=process_matcher)
         self.__signal = (
-            signal.Signals[signal_number] if isinstance(signal_number, str)
-            else signal.Signals(signal_number))
+            signal.Signals[signal_number]
+            if isinstance(signal_number, str)
+            else signal.Signals(signal_number)
+        )
 
     @property
     def signal(self) -> signal.Signals:
