@@ -16,7 +16,7 @@ SETUP := $(PYTHON) tools/setup
 RUN := tools/foreground tools/in_environment
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build bringup run test check fix bench lock clean distclean
+.PHONY: help setup build bringup run test check fix bench docs lock clean distclean
 
 help: ## Show this list
 	@echo 'The humanoid workspace. Each command makes what it needs.'
@@ -48,6 +48,9 @@ fix: setup ## Format the code and mend what ruff can
 
 bench: build ## Measure the commands' start-up times
 	@$(RUN) python3 tools/benchmarks/command_times.py $(ARGS)
+
+docs: build ## Write docs/reference anew from the commands and launch files
+	@tools/in_environment python3 tools/reference/generate.py
 
 lock: ## Pin the versions of tools/setup/requirements.in anew (needs uv)
 	@tools/setup/lock.sh $(ARGS)

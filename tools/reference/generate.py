@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Write docs/reference from what the commands say of themselves: `make docs`."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+import re
+import subprocess
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = ROOT / 'docs' / 'reference'
+NOTE = '<!-- Made by `make docs`; an edit here is overwritten. -->\n'
+ENVIRONMENT = {**os.environ, 'COLUMNS': '100', 'TERM': 'dumb'}
+
+
+def output(*command: str) -> str:
+    """Return what a command prints, with the home folder and the workspace as variables."""
+    text = subprocess.check_output(command, env=ENVIRONMENT, encoding='utf-8')
+    return text.replace(str(ROOT), '$HUMANOID').replace(str(Path.home()), '~').strip('\n')
+
+
+def block(text: str) -> str:
+    """Return a text as a block."""
+    return f'```text\n{text}\n```\n'
+
+
+def listed(help_text: str) -> list[str]:
+    """Return the names that the help of `ros2`, or of a command, lists at its end."""
+    listing = re.split('^(?:Commands|Verbs):$', help_text, flags=re.MULTILINE)[-1]
+    return re.findall(r'^  (\w+)  ', listing, flags=re.MULTILINE)
+
+
+def commands_page() -> str:
+    """Describe `ros2` and every verb of its commands."""
+    parts = [NOTE, '# The `ros2` commands\n']
+    for command in listed(output('ros2', '--help')):
+        help_text = output('ros2', command, '--help')
+        parts += [f'## ros2 {command}\n', block(help_text)]
+        for verb in listed(help_text):
+            help_of_verb = output('ros2', command, verb, '--help')
+            parts += [f'### ros2 {command} {verb}\n', block(help_of_verb)]
+    return '\n'.join(parts)
+
+
+def launch_page() -> str:
+    """Describe every launch file of src/ and its arguments."""
+    parts = [NOTE, '# The launch files\n']
+    for path in sorted(ROOT.glob('src/*/launch/*.launch.*')):
+        package = path.parents[1].name
+        arguments = output('ros2', 'launch', package, path.name, '--show-args')
+        parts += [f'## ros2 launch {package} {path.name}\n', block(arguments)]
+    return '\n'.join(parts)
+
+
+def pages() -> dict[str, str]:
+    """Return the text of each page by file name."""
+    return {'commands.md': commands_page(), 'launch_files.md': launch_page()}
+
+
+def main() -> None:
+    """Write the pages."""
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    for name, text in pages().items():
+        (FOLDER / name).write_text(text)
+        print(FOLDER / name)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests that the generated reference is that of the code."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+
+@pytest.fixture
+def generate(root: Path) -> ModuleType:
+    """Return the generator."""
+    path = root / 'tools' / 'reference' / 'generate.py'
+    spec = importlib.util.spec_from_file_location('generate', path)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_launch_files_are_described_as_they_are(root: Path, generate: ModuleType) -> None:
+    """An argument that was added is in the reference: otherwise `make docs` was forgotten."""
+    written = (root / 'docs' / 'reference' / 'launch_files.md').read_text()
+    assert written == generate.launch_page()
+
+
+def test_every_verb_is_described(root: Path, generate: ModuleType) -> None:
+    """Each command and verb has its section; how options are laid out depends on the Python."""
+    written = (root / 'docs' / 'reference' / 'commands.md').read_text()
+    headings = [line for line in written.splitlines() if line.startswith('##')]
+    present = generate.commands_page().splitlines()
+    assert headings == [line for line in present if line.startswith('##')]
+    assert len(headings) > 10
