@@ -134,7 +134,7 @@ def test_missing_file_lists_those_that_exist(ros2: Ros2, arm: dict[str, str]) ->
 
 def test_undeclared_arguments_can_be_allowed(ros2: Ros2, arm: dict[str, str]) -> None:
     """A name that looks misspelt is accepted on demand."""
-    words = ['--allow-undeclared-arguments', 'arm', 'say.launch.py', 'wrd:=1']
+    words = ['--allow-unknown-args', 'arm', 'say.launch.py', 'wrd:=1']
     assert ros2('launch', *words, extra=arm).returncode == 0
 
 

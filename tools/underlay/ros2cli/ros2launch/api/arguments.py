@@ -32,7 +32,7 @@ def misspelt_argument_text(given: Iterable[str], declared: Iterable[str]) -> str
         if close:
             return (
                 f"the launch file does not declare an argument '{name}'. "
-                f"Did you mean '{close[0]}'? Pass --allow-undeclared-arguments if "
+                f"Did you mean '{close[0]}'? Pass --allow-unknown-args if "
                 f"'{name}' is meant, or --show-args to see the arguments"
             )
     return ''

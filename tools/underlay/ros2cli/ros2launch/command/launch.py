@@ -42,7 +42,7 @@ class LaunchCommand(CommandExtension):
             launch_file_arguments=arguments + prefix,
             noninteractive=args.noninteractive,
             debug=args.debug,
-            check_names=not args.allow_undeclared_arguments,
+            check_names=not args.allow_unknown_args,
         )
 
 

@@ -37,7 +37,7 @@ def add_launch_options(parser: argparse.ArgumentParser) -> None:
         help="Show all launched subprocesses' output by overriding their output configuration",
     )
     add(
-        '--allow-undeclared-arguments',
+        '--allow-unknown-args',
         action='store_true',
         help='Accept names of arguments that look like misspelt ones',
     )
