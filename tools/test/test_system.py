@@ -101,16 +101,16 @@ def test_three_robots_publish_each_on_its_own(ros2: Start) -> None:
 
 
 def test_the_controller_keeps_its_rate(ros2: Start) -> None:
-    """`ros2 topic hz` shows fifty messages a second, on the average of two seconds.
+    """`ros2 topic hz` shows fifty messages a second, on the average of some seconds.
 
     The machine may be busy with something else at first, but not all the time.
     """
     program = ros2('run', 'humanoid_control', 'joint_controller')
-    rate = ros2('topic', 'hz', '/joint_commands', '--window', '100')
+    rate = ros2('topic', 'hz', '/joint_commands')
 
     def is_right() -> bool:
-        found = re.findall(r'average rate: ([\d.]+)\n.* window: 100\n', rate.output)
-        return any(abs(float(text) - 50.0) <= 1.0 for text in found)
+        found = re.findall(r'average rate: ([\d.]+)', rate.output)
+        return len(found) > 3 and abs(float(found[-1]) - 50.0) <= 1.0
 
     wait_until(is_right, 60.0, lambda: rate.output)
     assert rate.end() == 2
