@@ -38,7 +38,7 @@ test: build ## Run every test: all packages, then the tools
 	@tools/test/all.sh
 
 check: setup ## Check format, lint and types
-	@tools/in_environment --underlay ruff format --check .
+	@tools/in_environment --underlay ruff format --check . || { echo 'make fix formats them.'; exit 1; }
 	@tools/in_environment --underlay ruff check .
 	@tools/in_environment --underlay mypy
 

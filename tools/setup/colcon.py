@@ -37,9 +37,15 @@ def _build_underlay(
 ) -> None:
     log = locations.environment / 'log' / 'underlay.log'
 
+    building: list[str] = []
+
     def show(line: str) -> None:
-        if line.startswith(('Starting >>> ', 'Finished <<< ')):
-            steps.progress(line)
+        if line.startswith('Starting >>> '):
+            building.append(line.split()[2])
+        elif line.startswith('Finished <<< ') and line.split()[2] in building:
+            building.remove(line.split()[2])
+        if building:
+            steps.progress(f'building {" and ".join(building)}')
 
     build = locations.environment / 'build'
     command: list[str | Path] = [locations.environment / 'bin' / 'colcon']
