@@ -18,6 +18,7 @@ import colcon
 from console import SetupError, Steps
 from locations import cache_folder, find_locations, link_environment, Locations
 import prerequisites
+import processes
 from stamp import digest, Stamp
 import wheels
 
@@ -70,7 +71,7 @@ def run(command: str, locations: Locations, arguments: list[str]) -> int:
 
 @contextmanager
 def only_one_at_a_time(root: Path) -> Iterator[None]:
-    """Wait until no other set-up or build of this workspace runs."""
+    """Wait until no other set-up or build runs here, nor what a killed one started."""
     descriptor = os.open(root / 'tools' / 'setup', os.O_RDONLY)
     try:
         try:
@@ -78,6 +79,7 @@ def only_one_at_a_time(root: Path) -> Iterator[None]:
         except BlockingIOError:
             print('Another set-up or build of this workspace is running: waiting for it.')
             fcntl.flock(descriptor, fcntl.LOCK_EX)
+        processes.KEPT_OPEN.append(descriptor)
         yield
     finally:
         os.close(descriptor)
@@ -144,7 +146,8 @@ def require_machine(locations: Locations, *, has_wheels: bool) -> None:
 
 def build(locations: Locations, arguments: list[str]) -> int:
     """Build src/ into install/ where it differs from what was built; return the exit status."""
-    current = digest(colcon.workspace_sources(locations), *arguments)
+    made_with = (os.fspath(locations.environment), python_version())
+    current = digest(colcon.workspace_sources(locations), *made_with, *arguments)
     stamp = Stamp(ROOT / 'install' / '.built')
     if stamp.matches(current) and colcon.is_built(ROOT):
         return 0

@@ -14,6 +14,7 @@ from typing import Any
 from console import SetupError
 
 GRACE_S = 5.0
+KEPT_OPEN: list[int] = []  # descriptors that the programs inherit, as the lock of the workspace
 INHERITED = {
     'AMENT_PREFIX_PATH',
     'CMAKE_PREFIX_PATH',
@@ -54,6 +55,7 @@ def started(command: Sequence[str | Path], **options: Any) -> Iterator[subproces
         [str(part) for part in command],
         stdin=subprocess.DEVNULL,
         start_new_session=True,
+        pass_fds=KEPT_OPEN,
         encoding='utf-8',
         errors='replace',
         **options,
@@ -114,12 +116,8 @@ def last_words(log: Path, mark: str, count: int = 3) -> str:
 
 def run_or_fail(command: Sequence[str | Path], *, cwd: Path, failure: str) -> None:
     """Run a program that says nothing when all is well."""
-    done = subprocess.run(
-        [str(part) for part in command],
-        cwd=cwd,
-        capture_output=True,
-        encoding='utf-8',
-        check=False,
-    )
-    if done.returncode != 0:
-        raise SetupError(f'{failure}:\n{(done.stderr or done.stdout).strip()}')
+    output = {'stdout': subprocess.PIPE, 'stderr': subprocess.STDOUT}
+    with started(command, cwd=cwd, **output) as process:
+        text, _ = process.communicate()
+    if process.returncode != 0:
+        raise SetupError(f'{failure}:\n{text.strip()}')

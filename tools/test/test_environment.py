@@ -44,6 +44,13 @@ def test_no_search_path_has_an_empty_part(root: Path) -> None:
         assert '' not in value.split(':')
 
 
+def test_a_middleware_that_is_not_here_is_not_used(root: Path) -> None:
+    """The choice of another installation does not stop every node."""
+    script = 'echo $RMW_IMPLEMENTATION'
+    variables = {'RMW_IMPLEMENTATION': 'rmw_cyclonedds_cpp'}
+    assert sourced(root, 'install/setup.bash', script, **variables) == 'rmw_fastrtps_cpp\n'
+
+
 def test_the_user_s_choices_stay(root: Path) -> None:
     """A discovery range and a DDS profile that are set already are kept."""
     script = 'echo $ROS_AUTOMATIC_DISCOVERY_RANGE; echo $FASTRTPS_DEFAULT_PROFILES_FILE'

@@ -8,13 +8,10 @@ MOST_ROBOTS = 50
 
 def robot_namespaces(count: str) -> list[str]:
     """Return robot1, robot2, ... for a count given as text; ValueError tells what is wrong."""
-    try:
-        number = int(count)
-    except ValueError:
-        raise ValueError(_refusal(count)) from None
-    if not 1 <= number <= MOST_ROBOTS:
+    is_number = count.isascii() and count.isdigit()
+    if not is_number or not 1 <= int(count) <= MOST_ROBOTS:
         raise ValueError(_refusal(count))
-    return [f'robot{index}' for index in range(1, number + 1)]
+    return [f'robot{index}' for index in range(1, int(count) + 1)]
 
 
 def _refusal(count: str) -> str:

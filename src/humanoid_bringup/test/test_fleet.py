@@ -12,7 +12,9 @@ def test_names() -> None:
     assert robot_namespaces('3') == ['robot1', 'robot2', 'robot3']
 
 
-@pytest.mark.parametrize('count', ['0', '-1', 'x', '', '2.5', '1000', '51'])
+@pytest.mark.parametrize(
+    'count', ['0', '-1', 'x', '', '2.5', '1000', '51', '1_0', '\N{FULLWIDTH DIGIT TWO}']
+)
 def test_refused(count: str) -> None:
     """A count that makes no fleet is refused, with what to pass instead."""
     with pytest.raises(ValueError, match=f"'robots' is '{count}', but must be a whole number"):

@@ -22,13 +22,22 @@ class JointControllerParameters:
         'The names of the joints that are moved.',
     )
     amplitudes_rad: tuple[float, ...] = parameter(
-        (0.5, 0.8, 0.5, 0.8), 'How far each joint swings to either side.'
+        (0.5, 0.8, 0.5, 0.8),
+        'How far each joint swings to either side.',
+        at_least=-10.0,
+        at_most=10.0,
     )
     frequencies_rad_s: tuple[float, ...] = parameter(
-        (1.0, 1.5, 1.0, 1.5), 'How fast the phase of each joint grows.'
+        (1.0, 1.5, 1.0, 1.5),
+        'How fast the phase of each joint grows.',
+        at_least=-1000.0,
+        at_most=1000.0,
     )
     phases_rad: tuple[float, ...] = parameter(
-        (0.0, 0.0, math.pi, math.pi), 'The phase of each joint at the start.'
+        (0.0, 0.0, math.pi, math.pi),
+        'The phase of each joint at the start.',
+        at_least=-100.0,
+        at_most=100.0,
     )
 
     def __post_init__(self) -> None:

@@ -25,6 +25,7 @@ CONFIG = Path(__file__).parents[1] / 'config'
         ({'joints': ['a', '', 'b', 'c']}, 'an empty name'),
         ({'joints': []}, 'must not be empty'),
         ({'amplitudes_rad': [math.nan, 0.0, 0.0, 0.0]}, 'must be finite'),
+        ({'frequencies_rad_s': [1.7e308, 1.0, 1.0, 1.0]}, 'between -1000.0 and 1000.0'),
         ({'rate_hz': 1001.0}, 'must be between 1.0 and 1000.0'),
     ],
 )

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+import math
 from xml.etree import ElementTree
 
 from robot_control.errors import UrdfError
@@ -75,11 +76,12 @@ def _number(element: ElementTree.Element, attribute: str, where: str) -> float:
     """Read an attribute that holds a number."""
     text = element.get(attribute, '0')
     try:
-        return float(text)
+        number = float(text)
     except ValueError:
-        raise UrdfError(
-            f"The {attribute} limit of {where} is '{text}', but must be a number."
-        ) from None
+        number = math.nan
+    if not math.isfinite(number):
+        raise UrdfError(f"The {attribute} limit of {where} is '{text}', but must be a number.")
+    return number
 
 
 def _child(element: ElementTree.Element, tag: str, where: str) -> ElementTree.Element:

@@ -56,6 +56,7 @@ def test_description() -> None:
         ('type="fixed"', 'type="fxied"', "type of joint 'tip_fixed' is 'fxied'.*one of revolute"),
         ('<parent link="slide"/>', '', "no <parent> in joint 'tip_fixed'"),
         ('lower="-1.5"', 'lower="3"', "lower limit of joint 'shoulder' is 3.*must not exceed"),
+        ('lower="-1.5"', 'lower="nan"', "is 'nan', but must be a number"),
         ('lower="-1.5"', 'lower="low"', "is 'low', but must be a number"),
         ('<limit lower="-1.5" upper="2" effort="1" velocity="1"/>', '', "no <limit> in joint 'sh"),
         (

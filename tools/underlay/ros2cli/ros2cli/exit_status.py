@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import errno
 import os
 import signal
 import sys
@@ -15,13 +16,17 @@ def run_to_status(call: Callable[[], int | str | None]) -> int:
     """Call a command and translate its result, or its exception, to an exit status."""
     try:
         status = _call_or_exit(call)
-        sys.stdout.flush()
+        _flush()
         return status
     except BrokenPipeError:
         return _after_broken_pipe()
     except KeyboardInterrupt:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         return int(signal.SIGINT)
+    except OSError as error:
+        if error.errno != errno.ENOSPC:
+            raise
+        return _after_full_disk(error)
     except RuntimeError as error:
         return _to_status(str(error) or type(error).__name__)
     except Exception as error:
@@ -46,10 +51,22 @@ def is_external_shutdown(error: BaseException) -> bool:
 
 def _to_status(result: int | str | None) -> int:
     if isinstance(result, str):
-        sys.stdout.flush()
+        _flush()
         print(result, file=sys.stderr)
         return 1
     return result or 0
+
+
+def _flush() -> None:
+    """Write what is left; a stream that was closed from the start is None."""
+    if sys.stdout is not None:
+        sys.stdout.flush()
+
+
+def _after_full_disk(error: OSError) -> int:
+    """Say that the output cannot be written, and drop what is left of it."""
+    _after_broken_pipe()
+    return _to_status(f'The output cannot be written: {error.strerror}')
 
 
 def _after_broken_pipe() -> int:

@@ -79,6 +79,11 @@ def test_now_is_a_time() -> None:
             '{name: a}',
             "Failed to populate field: 'name' needs a list",
         ),
+        (
+            'sensor_msgs/msg/Imu',
+            '{orientation_covariance: [1]}',
+            "'orientation_covariance' needs 9 elements, but got 1",
+        ),
         ('sensor_msgs/msg/JointState', '{header: 1}', "'header' needs a mapping"),
         ('std_msgs/msg/String', '[1]', 'The passed value needs to be a dictionary in YAML format'),
         ('std_msgs/msg/String', '{a: [', 'The passed value is no YAML'),

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import re
 from typing import Any
 
 from ros2cli.messages.lookup import get_message
@@ -54,7 +55,18 @@ def _cast(name: str, field_type: str, value: Any) -> Any:
         return _scalar(field_type, value)
     if not isinstance(value, list):
         raise TypeError(f"'{name}' needs a list, for example [1, 2], but got {value!r}")
+    _check_length(name, field_type, len(value))
     return [_element(name, element_type(field_type), item) for item in value]
+
+
+def _check_length(name: str, field_type: str, length: int) -> None:
+    """Refuse what `double[9]` or `sequence<double, 3>` has no room for."""
+    exact = re.fullmatch(r'.*\[(\d+)\]', field_type)
+    if exact and length != int(exact[1]):
+        raise ValueError(f"'{name}' needs {exact[1]} elements, but got {length}")
+    most = re.fullmatch(r'sequence<.*, (\d+)>', field_type)
+    if most and length > int(most[1]):
+        raise ValueError(f"'{name}' takes at most {most[1]} elements, but got {length}")
 
 
 def _element(name: str, type_name: str, value: Any) -> Any:

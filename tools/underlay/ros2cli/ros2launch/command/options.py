@@ -14,7 +14,7 @@ def add_launch_options(parser: argparse.ArgumentParser) -> None:
         '-n',
         '--noninteractive',
         action='store_true',
-        default=not sys.stdin.isatty(),
+        default=not (sys.stdin and sys.stdin.isatty()),
         help='Run the launch system non-interactively, with no terminal associated',
     )
     add(

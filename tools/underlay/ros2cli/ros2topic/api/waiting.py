@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import time
 from typing import Any
@@ -13,11 +14,18 @@ from ros2topic.api import get_topic_types
 PERIOD_S = 0.02
 SETTLE_S = 0.1
 PATIENCE_S = 2.0
+TOPIC_NAME = re.compile(r'(/[A-Za-z_][A-Za-z0-9_]*)+')
 
 
 def absolute(topic: str) -> str:
-    """Return a topic's name with the leading slash that users leave out."""
-    return topic if topic.startswith('/') else f'/{topic}'
+    """Return a topic's name with the leading slash that users leave out, if it is a name."""
+    name = topic if topic.startswith('/') else f'/{topic}'
+    if not TOPIC_NAME.fullmatch(name):
+        raise RuntimeError(
+            f"'{topic}' is no name of a topic: parts of letters, digits and underscores, none of "
+            "which begins with a digit, joined by slashes, as in '/robot1/joint_commands'"
+        )
+    return name
 
 
 def find_types(node: Any, topic: str) -> list[str]:
