@@ -28,6 +28,20 @@ def test_the_status_passes_through(root: Path) -> None:
     assert subprocess.call([foreground, 'sh', '-c', 'kill -9 $$']) == 137
 
 
+@pytest.mark.parametrize('command', [[], ['no-such-program']])
+def test_a_command_that_is_not_there_is_named(root: Path, command: list[str]) -> None:
+    """A missing command gets a sentence, as in a shell with status 127."""
+    done = subprocess.run(
+        [root / 'tools' / 'foreground', *command],
+        capture_output=True,
+        encoding='utf-8',
+        check=False,
+    )
+    assert done.returncode == 127
+    assert done.stderr.endswith('tools/foreground COMMAND...\n')
+    assert 'Traceback' not in done.stderr
+
+
 @pytest.mark.parametrize(('number', 'status'), [(signal.SIGINT, 7), (signal.SIGTERM, 8)])
 def test_signals_are_passed_on(
     root: Path, start: Callable[..., Any], number: int, status: int
