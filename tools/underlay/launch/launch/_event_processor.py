@@ -85,24 +85,24 @@ class EventProcessor:
             self._shutting_down = True
             self._context._set_is_shutdown(True)
         for handler in tuple(self._context._event_handlers):
-            if not self._run_handler(handler, event) and not is_shutdown:
-                return
+            try:
+                if handler.matches(event):
+                    self._run_handler(handler, event)
+            except Exception as error:
+                self.fail(error)
+                if not is_shutdown:
+                    return
 
-    def _run_handler(self, handler: BaseEventHandler, event: Event) -> bool:
-        """Run a handler and visit what it returns; return whether that went well."""
+    def _run_handler(self, handler: BaseEventHandler, event: Event) -> None:
+        """Run a handler and visit what it returns, with local variables of their own."""
         futures: list[tuple[LaunchDescriptionEntity, asyncio.Future[Any]]] = []
         self._context._push_locals()
         try:
-            if handler.matches(event):
-                for entity in normalize_to_list_of_entities(handler.handle(event, self._context)):
-                    visit_into(entity, self._context, futures)
-        except Exception as error:
-            self.fail(error)
-            return False
+            for entity in normalize_to_list_of_entities(handler.handle(event, self._context)):
+                visit_into(entity, self._context, futures)
         finally:
             self._context._pop_locals()
             self._track([future for _, future in futures])
-        return True
 
     # Futures.
 

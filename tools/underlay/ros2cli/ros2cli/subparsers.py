@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ros2cli.entry import Entry
@@ -90,16 +90,21 @@ def _add_chosen(
     dest: str,
     argv: Sequence[str],
 ) -> None:
-    import inspect
-
     extension: Any = entry.create()
     subparser.set_defaults(**{dest: extension})
     if not subparser.description:
-        subparser.description = inspect.getdoc(type(extension))
-    if 'argv' in inspect.signature(extension.add_arguments).parameters:
+        from inspect import getdoc
+
+        subparser.description = getdoc(type(extension))
+    if _takes_argv(extension.add_arguments):
         extension.add_arguments(subparser, cli_name, argv=argv)
     else:
         extension.add_arguments(subparser, cli_name)
+
+
+def _takes_argv(add_arguments: Callable[..., None]) -> bool:
+    """Return whether a function has this keyword-only parameter; that of a verb has not."""
+    return 'argv' in (getattr(add_arguments, '__kwdefaults__', None) or {})
 
 
 def _listing(entries: Mapping[str, Entry]) -> str:

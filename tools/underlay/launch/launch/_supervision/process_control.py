@@ -23,11 +23,12 @@ class ProcessControl(BaseEventHandler):
 
     def __init__(self, action: ExecuteLocal, supervisor: Supervisor) -> None:
         """Create the handler of one process."""
-        super().__init__(matcher=self._is_meant)
+        super().__init__(matcher=self.matches)
         self._action = action
         self._supervisor = supervisor
 
-    def _is_meant(self, event: Event) -> bool:
+    def matches(self, event: Event) -> bool:
+        """Return whether an event is meant for the process, or for all."""
         if isinstance(event, ProcessTargetedEvent):
             return event.process_matcher(self._action)
         if isinstance(event, ProcessStdin):

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from datetime import datetime
 import os
+import time
 
 from launch.logging._screen import screen
 
@@ -20,7 +20,7 @@ def base_directory() -> str:
 
 def make_run_directory() -> str:
     """Make the folder of this run, and let `latest` beside it lead there."""
-    now = datetime.now().strftime('%Y-%m-%d-%H-%M-%S-%f')
+    now = _now_text(time.time())
     base = base_directory()
     path = os.path.join(base, f'{now}-{os.uname().nodename}-{os.getpid()}')
     try:
@@ -32,6 +32,12 @@ def make_run_directory() -> str:
         ) from error
     _point_latest_at(base, path)
     return path
+
+
+def _now_text(now_s: float) -> str:
+    """Return a local time down to the microsecond, in a form that sorts."""
+    microseconds = int(now_s % 1 * 1e6)
+    return f'{time.strftime("%Y-%m-%d-%H-%M-%S", time.localtime(now_s))}-{microseconds:06d}'
 
 
 def _point_latest_at(base: str, path: str) -> None:

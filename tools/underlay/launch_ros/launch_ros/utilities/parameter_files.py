@@ -6,7 +6,6 @@ from __future__ import annotations
 import atexit
 from collections.abc import Mapping
 import os
-import tempfile
 from typing import Any
 
 from launch_ros.utilities.yaml_text import parameter_file_text
@@ -18,6 +17,8 @@ def write_parameter_file(node_name: str, parameters: Mapping[str, Any]) -> str:
     """Write a file, which is removed when this process ends, and return its path."""
     if not _written:
         atexit.register(_remove_all)
+    import tempfile
+
     descriptor, path = tempfile.mkstemp(prefix='launch_params_', text=True)
     _written.append(path)
     with open(descriptor, 'w', encoding='utf-8') as file:

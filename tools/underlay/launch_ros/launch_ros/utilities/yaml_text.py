@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-import json
 import math
 from typing import Any
 
@@ -48,6 +47,8 @@ def _quoted(text: str) -> str:
     """Return a text in single quotes, or with escapes if it has special characters."""
     if text.isprintable():
         return "'" + text.replace("'", "''") + "'"
+    import json
+
     return (
         json.dumps(text, ensure_ascii=False)
         .replace('\x7f', '\\x7f')

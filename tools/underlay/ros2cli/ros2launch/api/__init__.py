@@ -1,10 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """Find launch files, show their arguments, and run them."""
 
-from ros2launch.api.arguments import parse_launch_arguments
-from ros2launch.api.running import launch_a_launch_file
-from ros2launch.api.share_files import get_share_file_path_from_package, MultipleLaunchFilesError
-from ros2launch.api.showing import print_arguments_of_launch_file
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from ros2launch.api.arguments import parse_launch_arguments
+    from ros2launch.api.running import launch_a_launch_file
+    from ros2launch.api.share_files import (
+        get_share_file_path_from_package,
+        MultipleLaunchFilesError,
+    )
+    from ros2launch.api.showing import print_arguments_of_launch_file
 
 __all__ = [
     'MultipleLaunchFilesError',
@@ -13,3 +23,15 @@ __all__ = [
     'parse_launch_arguments',
     'print_arguments_of_launch_file',
 ]
+
+__getattr__, __dir__ = lazy_exports(
+    __name__,
+    __all__,
+    {
+        'MultipleLaunchFilesError': 'share_files',
+        'get_share_file_path_from_package': 'share_files',
+        'launch_a_launch_file': 'running',
+        'parse_launch_arguments': 'arguments',
+        'print_arguments_of_launch_file': 'showing',
+    },
+)

@@ -5,8 +5,6 @@ from __future__ import annotations
 
 import os
 
-from ros2pkg.api import get_share_directory
-
 
 class MultipleLaunchFilesError(Exception):
     """Several files of a package have the same name."""
@@ -19,6 +17,8 @@ class MultipleLaunchFilesError(Exception):
 
 def get_share_file_path_from_package(*, package_name: str, file_name: str | None) -> str:
     """Return the path of a file anywhere below a package's share directory."""
+    from ros2pkg.api import get_share_directory
+
     share = get_share_directory(package_name)
     paths = [
         os.path.join(root, file_name)

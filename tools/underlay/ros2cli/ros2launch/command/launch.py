@@ -26,6 +26,9 @@ class LaunchCommand(CommandExtension):
         self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
     ) -> int | str | None:
         """Show the arguments of the launch file, or run it."""
+        from ros2launch.api.deferral import import_asyncio
+
+        import_asyncio()
         from ros2launch.api.running import launch_a_launch_file
         from ros2launch.command.target import find_target
 

@@ -6,8 +6,6 @@ from __future__ import annotations
 import os
 
 from ros2launch.api.share_files import get_share_file_path_from_package, MultipleLaunchFilesError
-from ros2pkg.api import get_share_directory, PackageNotFoundError
-from ros2pkg.api.missing import missing_package_by_name
 
 
 def find_target(
@@ -25,6 +23,9 @@ def find_target(
 
 
 def _find_in_package(package: str, file_name: str | None) -> str:
+    from ros2pkg.api import PackageNotFoundError
+    from ros2pkg.api.missing import missing_package_by_name
+
     try:
         return get_share_file_path_from_package(package_name=package, file_name=file_name)
     except PackageNotFoundError as error:
@@ -36,6 +37,7 @@ def _find_in_package(package: str, file_name: str | None) -> str:
 
 
 def _with_advice(text: str, package: str, file_name: str | None) -> str:
+    from ros2pkg.api import get_share_directory
     from ros_environment.workspace import explain_missing_share_file
 
     share = get_share_directory(package)
