@@ -38,6 +38,7 @@ class LaunchService:
         self.__loop: Optional[asyncio.AbstractEventLoop] = None
         self.__task: Optional[asyncio.Task[int]] = None
         self.__interrupted = False
+        self.__signals = 0
         self.__lock = threading.Lock()
 
     @property
@@ -135,7 +136,9 @@ class LaunchService:
         loop.set_exception_handler(processor.on_loop_error)
         try:
             with handled_signals(loop, self._on_signal):
-                return await processor.run(shutdown_when_idle=shutdown_when_idle)
+                status = await processor.run(shutdown_when_idle=shutdown_when_idle)
+                await self._let_screen_catch_up()
+                return status
         finally:
             loop.set_exception_handler(loop_error_handler)
             screen.when_closed(None)
@@ -153,6 +156,7 @@ class LaunchService:
         """End the service; whoever asks twice is told that it is ending."""
         from launch.logging import get_logger
 
+        self.__signals += 1
         interrupted = number == signal.SIGINT
         text = (
             'user interrupted with ctrl-c (SIGINT)'
@@ -166,6 +170,16 @@ class LaunchService:
         get_logger('launch').warning('%s', text)
         reason = 'ctrl-c (SIGINT)' if interrupted else number.name
         self.emit_event(Shutdown(reason=reason, due_to_sigint=interrupted))
+
+    async def _let_screen_catch_up(self) -> None:
+        """Wait for a slow reader of the output, until another signal says not to."""
+        import asyncio
+
+        from launch.logging._screen import screen
+
+        signals = self.__signals
+        while not screen.is_up_to_date and self.__signals == signals:
+            await asyncio.sleep(0.01)
 
     def _on_screen_closed(self) -> None:
         """End the service when nobody reads what it writes any more, as in `| head`."""

@@ -16,17 +16,18 @@ class LineSplitter:
         if b'\n' not in data:
             self._pieces.append(data)
             return []
-        *lines, rest = b''.join([*self._pieces, data]).split(b'\n')
+        lines, _, rest = b''.join([*self._pieces, data]).rpartition(b'\n')
         self._pieces = [rest] if rest else []
-        return [_decode(line) for line in lines]
+        return _decode(lines)
 
     def flush(self) -> list[str]:
         """Return what stands behind the last line break, as a line if there is something."""
         rest = b''.join(self._pieces)
         self._pieces = []
-        return [_decode(rest)] if rest else []
+        return _decode(rest) if rest else []
 
 
-def _decode(line: bytes) -> str:
-    """Return a line as text; a pseudo terminal adds a carriage return at its end."""
-    return line.decode('utf-8', 'replace').rstrip('\r')
+def _decode(data: bytes) -> list[str]:
+    """Return the lines as texts; a pseudo terminal adds a carriage return to each."""
+    lines = data.decode('utf-8', 'replace').split('\n')
+    return [line.rstrip('\r') for line in lines] if b'\r' in data else lines

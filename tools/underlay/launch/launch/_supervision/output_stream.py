@@ -7,12 +7,18 @@ import asyncio
 from collections.abc import Callable
 import os
 
+from launch.logging._screen import screen
+
 _CHUNK = 65536
 _CHUNKS_AT_THE_END = 64
 
 
 class OutputStream:
-    """Hands what comes out of a pipe or a pseudo terminal to a function."""
+    """
+    Hands what comes out of a pipe or a pseudo terminal to a function.
+
+    Nothing is read while the screen is congested, so that whoever writes has to wait.
+    """
 
     def __init__(
         self,
@@ -25,7 +31,24 @@ class OutputStream:
         self._descriptor = descriptor
         self._use = use
         os.set_blocking(descriptor, False)
-        loop.add_reader(descriptor, self._read)
+        loop.add_reader(descriptor, self._on_readable)
+
+    def _on_readable(self) -> None:
+        if not screen.is_congested:
+            self._read()
+            return
+        self._loop.remove_reader(self._descriptor)
+        screen.when_clear(self._read_on_from_any_thread)
+
+    def _read_on_from_any_thread(self) -> None:
+        try:
+            self._loop.call_soon_threadsafe(self._read_on)
+        except RuntimeError:  # the loop is closed: nobody reads any more
+            pass
+
+    def _read_on(self) -> None:
+        if self._descriptor >= 0:
+            self._loop.add_reader(self._descriptor, self._on_readable)
 
     def _read(self) -> bool:
         """Read once; return whether there may be more."""

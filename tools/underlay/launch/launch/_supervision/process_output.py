@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
+from launch._supervision.line_format import LineFormat
 from launch._supervision.line_splitter import LineSplitter
 from launch.logging import get_output_loggers
 
@@ -19,14 +19,14 @@ class ProcessOutput:
         self,
         label: str,
         config: Any,
-        format_line: Callable[[str], str],
+        line_format: LineFormat,
         *,
         keep: bool,
     ) -> None:
-        """Create the output of a process from where it goes and how a line looks."""
+        """Create the output of a process from where it goes and how its lines look."""
         self._loggers = dict(zip(_STREAMS, get_output_loggers(label, config)))
         self._splitters = {stream: LineSplitter() for stream in _STREAMS}
-        self._format_line = format_line
+        self._line_format = line_format
         self._keep = keep
         self._kept: dict[int, list[bytes]] = {stream: [] for stream in _STREAMS}
 
@@ -46,5 +46,5 @@ class ProcessOutput:
         return b''.join(self._kept[stream]).decode('utf-8', 'replace')
 
     def _log(self, stream: int, lines: list[str]) -> None:
-        for line in lines:
-            self._loggers[stream].info('%s', self._format_line(line))
+        if lines:
+            self._loggers[stream].info('%s', self._line_format.apply(lines))

@@ -10,6 +10,7 @@ from typing import Any, Optional, TYPE_CHECKING
 
 from launch._supervision.escalation import Escalation
 from launch._supervision.leftovers import end_leftovers
+from launch._supervision.line_format import LineFormat
 from launch._supervision.process_options import ProcessOptions
 from launch._supervision.process_output import ProcessOutput
 from launch._supervision.running_process import RunningProcess
@@ -47,7 +48,7 @@ class Supervisor:
         self.output = ProcessOutput(
             self._label,
             options.where_output_goes(context),
-            action.format_line,
+            LineFormat(options.output_format, action),
             keep=options.cached_output,
         )
         self.return_code: Optional[int] = None

@@ -164,10 +164,6 @@ class ExecuteLocal(Action):
 
     # What it does.
 
-    def format_line(self, line: str) -> str:
-        """Return a line of the output as it is logged."""
-        return self.__options.output_format.format(line=line, this=self)
-
     def description_of_process(self) -> dict[str, Any]:
         """Return the final name, cmd, cwd and env."""
         description = self.__process_description

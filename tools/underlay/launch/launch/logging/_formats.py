@@ -33,7 +33,16 @@ def bare_formatter() -> logging.Formatter:
 
 def stamped_formatter() -> logging.Formatter:
     """Return the formatter of a process's lines in the main log file."""
-    return _formatter('{created:.7f} {message}')
+    return _Stamped()
+
+
+class _Stamped(logging.Formatter):
+    """Writes the time in front of each line of a message."""
+
+    def format(self, record: logging.LogRecord) -> str:  # noqa: A003, RUF100
+        """Return the lines of the message."""
+        stamp = f'{record.created:.7f} '
+        return stamp + record.getMessage().replace('\n', f'\n{stamp}')
 
 
 def _formatter(text: str) -> logging.Formatter:

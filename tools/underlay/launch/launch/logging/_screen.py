@@ -6,17 +6,25 @@ from __future__ import annotations
 from collections.abc import Callable
 import os
 import sys
-from typing import Optional
+from typing import Any, Optional
+
+from launch.logging._backlog import Backlog
 
 
 class Screen:
-    """Writes whole lines to the standard output, until nobody reads it any more."""
+    """
+    Writes whole lines to the standard output, until nobody reads it any more.
+
+    A reader that is slow, or a terminal that is stopped, never stops the launch.
+    """
 
     def __init__(self) -> None:
         """Create the writer."""
         self._on_closed: Optional[Callable[[], None]] = None
         self._is_unread = False
         self._broken_stream: Optional[object] = None
+        self._stream: Optional[object] = None
+        self._backlog: Optional[Backlog] = None
 
     def when_closed(self, callback: Optional[Callable[[], None]]) -> None:
         """Call a function when nobody reads any more, at once if that is so already."""
@@ -24,16 +32,51 @@ class Screen:
         if callback is not None and self._is_unread and sys.stdout is self._broken_stream:
             callback()
 
+    @property
+    def is_up_to_date(self) -> bool:
+        """Return whether the reader has got everything."""
+        return self._backlog is None or self._backlog.is_empty
+
+    @property
+    def is_congested(self) -> bool:
+        """Return whether the reader is so far behind that no more should be written."""
+        return self._backlog is not None and self._backlog.is_congested
+
+    def when_clear(self, callback: Callable[[], None]) -> None:
+        """Call a function, perhaps from another thread, when the reader has caught up."""
+        if self._backlog is None:
+            callback()
+        else:
+            self._backlog.when_clear(callback)
+
     def write_line(self, text: str) -> None:
-        """Write a line at once; what cannot be encoded is escaped."""
+        """Write a line, or several; what cannot be encoded is escaped."""
         stream = sys.stdout
         if stream is None or stream is self._broken_stream:
             return
+        data = (text + '\n').encode(stream.encoding or 'utf-8', 'backslashreplace')
         try:
-            stream.write(_encodable(text, stream.encoding or 'utf-8') + '\n')
-            stream.flush()
+            self._write(stream, data)
         except (OSError, ValueError) as error:
             self._give_up(stream, error)
+
+    def _write(self, stream: Any, data: bytes) -> None:
+        """Write to the descriptor behind a stream, or to the stream if there is none."""
+        stream.flush()
+        if stream is not self._stream:
+            self._stream = stream
+            self._backlog = self._backlog_of(stream)
+        if self._backlog is None:
+            stream.write(data.decode(stream.encoding or 'utf-8'))
+        else:
+            self._backlog.write(data)
+
+    def _backlog_of(self, stream: Any) -> Optional[Backlog]:
+        try:
+            descriptor = stream.fileno()
+        except (AttributeError, OSError):
+            return None
+        return Backlog(descriptor, lambda error: self._give_up(stream, error))
 
     def _give_up(self, stream: object, error: Exception) -> None:
         """Remember that the stream is closed, and tell who wants to know it."""
@@ -43,10 +86,6 @@ class Screen:
         self._is_unread = isinstance(error, BrokenPipeError)
         if self._is_unread and self._on_closed is not None:
             self._on_closed()
-
-
-def _encodable(text: str, encoding: str) -> str:
-    return text.encode(encoding, 'backslashreplace').decode(encoding)
 
 
 def _discard_standard_output() -> None:

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How the lines that a process writes look in the log."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Optional
+
+_PLACE = '{line}'
+
+
+class LineFormat:
+    """Formats lines, many of them at once if the format allows it."""
+
+    def __init__(self, text: str, this: Any) -> None:
+        """Create the format from a brace-style text, in which `this` stands for the action."""
+        self._text = text
+        self._this = this
+        self._frame = _frame_of(text, this)
+
+    def apply(self, lines: Sequence[str]) -> str:
+        """Return the lines as they are logged, with line breaks between them."""
+        if self._frame is None:
+            return '\n'.join(self._text.format(line=line, this=self._this) for line in lines)
+        head, tail = self._frame
+        between = f'{tail}\n{head}'
+        return f'{head}{between.join(lines)}{tail}'
+
+
+def _frame_of(text: str, this: Any) -> Optional[tuple[str, str]]:
+    """Return what stands before and behind each line, None if the format is no such frame."""
+    head, place, tail = text.partition(_PLACE)
+    if not place:
+        return None
+    try:
+        return head.format(this=this), tail.format(this=this)
+    except (KeyError, ValueError, IndexError):
+        return None
