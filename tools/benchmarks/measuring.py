@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the benchmarks share: the cost of a command, and how tables are printed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+import os
+from statistics import median
+import subprocess
+import time
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What a run took, its children included."""
+
+    cpu_s: float
+    wall_s: float
+    memory_mb: float
+
+    def __str__(self) -> str:
+        """Return the columns of COST_HEADER."""
+        return f'{self.cpu_s:7.3f} {self.wall_s:7.3f} {self.memory_mb:6.1f}'
+
+
+COST_HEADER = f'{"CPU s":>7} {"wall s":>7} {"MB":>6}'
+
+
+def run_once(command: list[str]) -> Cost:
+    """Run a command, its output thrown away."""
+    begin_s = time.monotonic()
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    _, _, usage = os.wait4(process.pid, 0)
+    wall_s = time.monotonic() - begin_s
+    return Cost(usage.ru_utime + usage.ru_stime, wall_s, usage.ru_maxrss / 1000)
+
+
+def median_cost(command: list[str], runs: int) -> Cost:
+    """Run a command once to warm up, then several times, and return the medians."""
+    costs = [run_once(command) for _ in range(runs + 1)][1:]
+    return Cost(
+        median(cost.cpu_s for cost in costs),
+        median(cost.wall_s for cost in costs),
+        median(cost.memory_mb for cost in costs),
+    )
+
+
+def median_of(measure: Callable[[], float], runs: int) -> float:
+    """Return the median of several measurements after one that is not counted."""
+    return median([measure() for _ in range(runs + 1)][1:])
