@@ -41,6 +41,11 @@ class NodeNames:
         return f'{self.described_namespace.rstrip("/")}/{name}'
 
     @property
+    def name_in_root(self) -> str:
+        """Return the full name of a node that is in the root unless a namespace is known."""
+        return NodeNames(self.name, self.namespace or '/').full_name
+
+    @property
     def parameter_key(self) -> str:
         """Return which nodes a parameter file is for: this one, or any if it is not known."""
         return self.full_name if self.are_complete else '/**'

@@ -19,11 +19,12 @@ from launch_ros.actions._ros_arguments import (
     global_arguments,
     own_parameter_arguments,
     remap_arguments,
+    remap_pairs,
 )
 from launch_ros.substitutions.executable_in_package import ExecutableInPackage
 from launch_ros.utilities.normalize_parameters_impl import normalize_parameters
 from launch_ros.utilities.normalize_remap_rules_impl import normalize_remap_rules
-from launch_ros.utilities.track_node_names import add_node_name
+from launch_ros.utilities.track_node_names import warn_of_same_names
 
 
 class Node(ExecuteLocal):
@@ -129,7 +130,7 @@ class Node(ExecuteLocal):
         what = f'package={self.__package}, executable={self.__executable}, {self.__raw_names}'
         names = expand_node_names(context, self.__name, self.__namespace, what)
         self.__names = names
-        remappings, self.__expanded_remappings = remap_arguments(context, self.__remappings)
+        self.__expanded_remappings = remap_pairs(context, self.__remappings)
         self.process_description.prepare(
             context,
             self,
@@ -139,7 +140,7 @@ class Node(ExecuteLocal):
                 *names.arguments(),
                 *global_arguments(context),
                 *own_parameter_arguments(context, self.__parameters, names),
-                *remappings,
+                *remap_arguments(self.__expanded_remappings),
             ],
         )
 
@@ -147,16 +148,7 @@ class Node(ExecuteLocal):
         """Start the node as soon as all that is being visited is done."""
         entities = super().execute(context)
         if self.is_node_name_fully_specified():
-            count = add_node_name(context, self.node_name)
-            if count > 1:
-                from launch.logging import get_logger
-
-                get_logger(self.name).warning(
-                    'there are now at least %s nodes with the name %s created within this launch '
-                    'context',
-                    count,
-                    self.node_name,
-                )
+            warn_of_same_names(context, self.node_name, self.name)
         return entities
 
 

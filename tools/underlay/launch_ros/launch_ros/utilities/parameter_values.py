@@ -20,7 +20,7 @@ _SCALARS = (bool, int, float, str, bytes)
 _ALLOWED = (
     'bytes, bool, int, float, str, Sequence[bool], Sequence[int], Sequence[float], Sequence[str]'
 )
-_EXPONENT = re.compile(r'[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+')
+EXPONENT = re.compile(r'[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+')
 _ADVICE = (
     'If the parameter is meant to be a string, try wrapping it in '
     'launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)'
@@ -78,7 +78,7 @@ def type_text(text: str, name: str) -> Any:
     """Return the value that YAML rules see in a text; an empty one stays a text."""
     if not text:
         return text
-    if _EXPONENT.fullmatch(text):
+    if EXPONENT.fullmatch(text):
         return float(text)
     import yaml
 
