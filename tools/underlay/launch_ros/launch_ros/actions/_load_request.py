@@ -9,7 +9,7 @@ from typing import Any, TYPE_CHECKING
 from launch.launch_context import LaunchContext
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 from launch_ros.actions._node_names import expand_node_names, NodeNames
-from launch_ros.actions._ros_arguments import global_parameters, remap_pairs
+from launch_ros.actions._ros_arguments import global_parameters, remap_pairs, remap_rules
 from launch_ros.utilities.evaluate_parameters_impl import evaluate_parameters
 from launch_ros.utilities.parameter_list import named_values, NamedValue, to_ros_parameter
 
@@ -54,7 +54,6 @@ def build_load_request(context: LaunchContext, description: ComposableNode) -> L
         f'package={package}, plugin={plugin}, name={_text(description.node_name)}, '
         f'namespace={_text(description.node_namespace)}',
     )
-    pairs = remap_pairs(context, description.remappings)
     elements = [
         *global_parameters(context),
         *evaluate_parameters(context, description.parameters),
@@ -64,7 +63,7 @@ def build_load_request(context: LaunchContext, description: ComposableNode) -> L
         package=package,
         plugin=plugin,
         names=names,
-        remap_rules=[f'{source}:={target}' for source, target in pairs],
+        remap_rules=remap_rules(remap_pairs(context, description.remappings)),
         parameters=named_values(context, elements, names.name_in_root),
         extra_arguments=named_values(context, extra_arguments, names.name_in_root),
     )

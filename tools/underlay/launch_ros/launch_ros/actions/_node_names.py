@@ -50,13 +50,13 @@ class NodeNames:
         """Return which nodes a parameter file is for: this one, or any if it is not known."""
         return self.full_name if self.are_complete else '/**'
 
-    def arguments(self) -> list[str]:
-        """Return what the node is told."""
-        arguments = []
+    def ros_specific_arguments(self) -> dict[str, str]:
+        """Return what the node is told, by what it is about."""
+        arguments = {}
         if self.name is not None:
-            arguments += ['-r', f'__node:={self.name}']
+            arguments['name'] = f'__node:={self.name}'
         if self.namespace is not None:
-            arguments += ['-r', f'__ns:={self.namespace}']
+            arguments['ns'] = f'__ns:={self.namespace}'
         return arguments
 
 

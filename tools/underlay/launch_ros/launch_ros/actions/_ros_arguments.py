@@ -68,6 +68,11 @@ def remap_pairs(context: LaunchContext, rules: Iterable[RemapRule]) -> list[tupl
     return pairs + [evaluate_remap_rule(context, rule) for rule in rules]
 
 
-def remap_arguments(pairs: Iterable[tuple[str, str]]) -> list[str]:
-    """Return remappings as arguments."""
-    return [word for source, target in pairs for word in ('-r', f'{source}:={target}')]
+def remap_rules(pairs: Iterable[tuple[str, str]]) -> list[str]:
+    """Return remappings as ROS reads them."""
+    return [f'{source}:={target}' for source, target in pairs]
+
+
+def rule_arguments(rules: Iterable[str]) -> list[str]:
+    """Return rules as arguments."""
+    return [word for rule in rules for word in ('-r', rule)]
