@@ -11,7 +11,7 @@ _FALSE = frozenset(('false', 'False', 'FALSE', 'no', 'No', 'NO', 'off', 'Off', '
 _NOTHING = frozenset(('null', 'Null', 'NULL'))
 _DECIMAL = re.compile(r'[-+]?(?:0|[1-9][0-9]*)')
 _POINT = re.compile(r'[-+]?[0-9]+\.[0-9]*(?:[eE][-+][0-9]+)?')
-_EXPONENT = re.compile(r'[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+')
+EXPONENT = re.compile(r'[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+')
 _PLAIN_WORD = re.compile(r'[A-Za-z/_][A-Za-z0-9/_.-]*')
 
 
@@ -41,7 +41,7 @@ def read_yaml(text: str) -> Any:
 
 def read_value(text: str) -> Any:
     """Return the same, but read `1e3` as a number, as YAML 1.2 and ROS do."""
-    return float(text) if _EXPONENT.fullmatch(text) else read_yaml(text)
+    return float(text) if EXPONENT.fullmatch(text) else read_yaml(text)
 
 
 def read_boolean(text: str) -> bool:

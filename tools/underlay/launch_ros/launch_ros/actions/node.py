@@ -14,16 +14,21 @@ from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.utilities.normalize_to_list_of_substitutions_impl import (
     normalize_to_list_of_substitutions,
 )
+from launch_ros.actions._node_extensions import extend_node, NodeActionExtension
 from launch_ros.actions._node_names import expand_node_names, NodeNames
 from launch_ros.actions._ros_arguments import (
     global_arguments,
     own_parameter_arguments,
-    remap_arguments,
+    remap_pairs,
+    remap_rules,
+    rule_arguments,
 )
 from launch_ros.substitutions.executable_in_package import ExecutableInPackage
 from launch_ros.utilities.normalize_parameters_impl import normalize_parameters
 from launch_ros.utilities.normalize_remap_rules_impl import normalize_remap_rules
-from launch_ros.utilities.track_node_names import add_node_name
+from launch_ros.utilities.track_node_names import warn_of_same_names
+
+__all__ = ['Node', 'NodeActionExtension']
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
@@ -169,17 +174,19 @@ class Node(ExecuteProcess):
         what = f'package={self.__package}, executable={self.__executable}, {self.__raw_names}'
         names = expand_node_names(context, self.__name, self.__namespace, what)
         self.__names = names
-        remappings, self.__expanded_remappings = remap_arguments(context, self.__remappings)
+        self.__expanded_remappings = remap_pairs(context, self.__remappings)
+        added, known = extend_node(context, names.ros_specific_arguments(), self)
         self.process_description.prepare(
             context,
             self,
             shell=self.shell,
             extra_arguments=[
                 '--ros-args',
-                *names.arguments(),
+                *rule_arguments(known[each] for each in ('name', 'ns') if each in known),
                 *global_arguments(context),
                 *own_parameter_arguments(context, self.__parameters, names),
-                *remappings,
+                *rule_arguments(remap_rules(self.__expanded_remappings)),
+                *added,
             ],
         )
 
@@ -187,16 +194,7 @@ class Node(ExecuteProcess):
         """Start the node as soon as all that is being visited is done."""
         entities = super().execute(context)
         if self.is_node_name_fully_specified():
-            count = add_node_name(context, self.node_name)
-            if count > 1:
-                from launch.logging import get_logger
-
-                get_logger(self.name).warning(
-                    'there are now at least %s nodes with the name %s created within this launch '
-                    'context',
-                    count,
-                    self.node_name,
-                )
+            warn_of_same_names(context, self.node_name, self.name)
         return entities
 
 

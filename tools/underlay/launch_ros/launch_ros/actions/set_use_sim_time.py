@@ -41,6 +41,11 @@ class SetUseSimTime(Action):
         return self.__value
 
     def execute(self, context: LaunchContext) -> None:
-        """Note it in the context, as the local variable `launch_use_sim_time`."""
+        """Choose it, also for the node if it is there only later."""
+        from launch_ros.ros_adapters import find_ros_adapter
+
         value = perform_typed_substitution(context, self.__value, bool)
         context.extend_globals({'launch_use_sim_time': value})
+        adapter = find_ros_adapter(context)
+        if adapter is not None:
+            adapter.set_use_sim_time(value)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write parameters to files that nodes can read."""
+"""Files of parameters: those that there are, and those that are written for nodes."""
 
 from __future__ import annotations
 
@@ -8,9 +8,18 @@ from collections.abc import Mapping
 import os
 from typing import Any
 
+from launch.logging import get_logger
 from launch_ros.utilities.yaml_text import parameter_file_text
 
 _written: list[str] = []
+
+
+def is_parameter_file(path: str) -> bool:
+    """Return whether there is a file; log a warning if there is none."""
+    if os.path.isfile(path):
+        return True
+    get_logger('launch_ros.actions.node').warning('Parameter file path is not a file: %s', path)
+    return False
 
 
 def write_parameter_file(node_name: str, parameters: Mapping[str, Any]) -> str:
