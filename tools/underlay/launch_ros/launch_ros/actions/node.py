@@ -29,6 +29,8 @@ from launch_ros.utilities.track_node_names import add_node_name
 class Node(ExecuteLocal):
     """Runs an executable with the arguments that ROS nodes understand."""
 
+    preloader = 'launch_ros._preload'
+
     def __init__(
         self,
         *,
