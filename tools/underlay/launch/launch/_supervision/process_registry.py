@@ -29,7 +29,7 @@ class ProcessRegistry:
         if self._prefork is None:
             from launch._supervision.prefork.prefork import Prefork
 
-            self._prefork = Prefork(self._guard.add)
+            self._prefork = Prefork(self._guard)
         return await self._prefork.spawn(program, stdout, stderr)
 
     def add(self, process: RunningProcess) -> None:

@@ -41,9 +41,7 @@ class Cloning:
     def _find_robust_list(self) -> tuple[int, int]:
         """Return address and size of the list of locks that the C library keeps for a thread."""
         address, size = ctypes.c_ulong(), ctypes.c_size_t()
-        syscall(
-            self._get_list, 0, ctypes.addressof(address), ctypes.addressof(size)
-        )
+        syscall(self._get_list, 0, ctypes.addressof(address), ctypes.addressof(size))
         return address.value, size.value
 
     def make_sibling(self) -> int:

@@ -61,8 +61,7 @@ class ForkRequest:
             self._answer += data.decode('utf-8', 'replace')
         self._ours.send(b'+')
         self._ours.close()
-        stdin = open(self._stdin_write, 'wb', buffering=0)
-        return ForkedChild(self._pid() or 0, stdin)
+        return ForkedChild(self._pid() or 0, os.fdopen(self._stdin_write, 'wb', buffering=0))
 
     def _pid(self) -> Optional[int]:
         found = re.search(r'(\d+)\n', self._answer)
@@ -77,8 +76,7 @@ class ForkRequest:
         self._read_last_words()
         pid = self._pid()
         if pid is not None:
-            os.kill(pid, signal.SIGKILL)
-            os.waitpid(pid, 0)
+            _kill_and_reap(pid)
 
     def _read_last_words(self) -> None:
         """Read until nobody is left at the other end."""
@@ -90,3 +88,12 @@ class ForkRequest:
                     self._answer += data.decode('utf-8', 'replace')
             except OSError:
                 pass
+
+
+def _kill_and_reap(pid: int) -> None:
+    try:
+        if os.waitpid(pid, os.WNOHANG)[0] == 0:
+            os.kill(pid, signal.SIGKILL)
+            os.waitpid(pid, 0)
+    except ChildProcessError:
+        pass  # it has ended together with the template

@@ -5,18 +5,18 @@ from __future__ import annotations
 
 import asyncio
 from collections import Counter
-from collections.abc import Callable
 from dataclasses import dataclass
-import logging
 import os
-from typing import Optional
+from typing import Optional, TYPE_CHECKING
 
 from launch._supervision.prefork.eligibility import Kind, kind_of
 from launch._supervision.prefork.template_failure import TemplateFailure
-from launch._supervision.prefork.template_handle import TemplateHandle
 from launch._supervision.program import Child, execute, Program
+from launch.logging import get_logger
 
-_logger = logging.getLogger(__name__)
+if TYPE_CHECKING:
+    from launch._supervision.orphan_guard import OrphanGuard
+    from launch._supervision.prefork.template_handle import TemplateHandle
 
 WORTHWHILE = 3
 """A template costs as much as a program that is executed, and then some memory."""
@@ -33,9 +33,9 @@ class _Waiting:
 class Prefork:
     """Starts programs, of many that are alike each as a copy of a template."""
 
-    def __init__(self, watch: Callable[[int], None]) -> None:
-        """Start nothing yet; `watch` is told the group of a template."""
-        self._watch = watch
+    def __init__(self, guard: OrphanGuard) -> None:
+        """Start nothing yet; the guard sees to it that no template is left behind."""
+        self._guard = guard
         self._waiting: list[_Waiting] = []
         self._decision: Optional[asyncio.Future[None]] = None
         self._template: Optional[TemplateHandle] = None
@@ -62,7 +62,9 @@ class Prefork:
         try:
             return await template.fork(program, stdout, stderr)
         except TemplateFailure as error:
-            _logger.debug('%s is executed, not forked: %s', program.command[0], error)
+            get_logger('launch').debug(
+                "'%s' is executed, as it cannot be forked: %s", program.command[0], error
+            )
             return None
 
     async def _decide(self, program: Program, kind: Kind) -> None:
@@ -85,15 +87,16 @@ class Prefork:
                 decision.set_result(None)
 
     def _start_template(self, kind: Kind, programs: list[Program]) -> None:
+        from launch._supervision.prefork.template_handle import TemplateHandle
+
         scripts = sorted({program.command[0] for program in programs})
         environment = os.environ if programs[0].env is None else programs[0].env
         try:
-            self._template = TemplateHandle(kind, environment, scripts)
+            self._template = TemplateHandle(kind, environment, scripts, self._guard)
         except OSError as error:
-            _logger.debug('there is no template: %s', error)
+            get_logger('launch').debug('nothing is forked: %s', error)
             return
         self._kind = kind
-        self._watch(self._template.group)
 
     def close(self) -> None:
         """End the template."""

@@ -70,7 +70,7 @@ def _settle(control: socket.socket, library: Any) -> None:
 
 
 def _refuse_threads() -> None:
-    """Raise if something that runs before all programs has started threads, which end in a fork."""
+    """Raise if threads, which end in a fork, belong to whatever Python runs at its start."""
     count = len(os.listdir('/proc/self/task'))
     if count != 1:
         raise OSError(f'Python itself has started with {count} threads')
@@ -95,7 +95,7 @@ def _begin(descriptors: list[int], library: Any) -> Become:
     stdin, stdout, stderr, starter = descriptors
     with socket.socket(fileno=starter) as connection:
         try:
-            program = marshal.loads(_receive(connection))
+            program = marshal.loads(_receive(connection))  # noqa: S302
             enter(program, (stdin, stdout, stderr))
             library.after_fork()
             connection.send(b'+')

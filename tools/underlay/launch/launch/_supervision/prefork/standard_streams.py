@@ -6,7 +6,7 @@ from __future__ import annotations
 import io
 import os
 import sys
-from typing import TextIO
+from typing import Any, TextIO
 
 _NAMES = ('stdin', 'stdout', 'stderr')
 
@@ -30,10 +30,10 @@ def _open(number: int, name: str, former: TextIO) -> TextIO:
     unbuffered = os.environ.get('PYTHONUNBUFFERED', '') != '' and not sys.flags.ignore_environment
     mode = 'w' if number else 'r'
     buffering = 0 if unbuffered and number else -1
-    binary = open(number, f'{mode}b', buffering=buffering, closefd=False)
+    binary: Any = os.fdopen(number, f'{mode}b', buffering=buffering, closefd=False)
     raw = getattr(binary, 'raw', binary)
     raw.name = f'<{name}>'
-    stream = io.TextIOWrapper(
+    stream: Any = io.TextIOWrapper(
         binary,
         encoding=former.encoding,
         errors=former.errors,
@@ -42,4 +42,5 @@ def _open(number: int, name: str, former: TextIO) -> TextIO:
         write_through=unbuffered,
     )
     stream.mode = mode
-    return stream
+    renewed: TextIO = stream
+    return renewed

@@ -45,9 +45,9 @@ def _without_template(display: Any) -> Any:
 
 
 if __name__ == '__main__':
-    _become = _serve()
     try:
-        exec(*_become())
+        _become = _serve()
+        exec(*_become())  # noqa: S102
     except SystemExit:
         raise
     except BaseException:

@@ -10,6 +10,7 @@ import signal
 import socket
 import subprocess
 
+from launch._supervision.orphan_guard import OrphanGuard
 from launch._supervision.prefork.eligibility import Kind
 from launch._supervision.prefork.fork_request import ForkRequest
 from launch._supervision.prefork.forked_child import ForkedChild
@@ -22,20 +23,40 @@ _PATIENCE_S = 20.0
 class TemplateHandle:
     """The launch's end of the connection to a template."""
 
-    def __init__(self, kind: Kind, environment: Mapping[str, str], scripts: Sequence[str]) -> None:
+    def __init__(
+        self,
+        kind: Kind,
+        environment: Mapping[str, str],
+        scripts: Sequence[str],
+        guard: OrphanGuard,
+    ) -> None:
         """Start the template in a group of its own; it imports what the scripts need."""
+        self._guard = guard
         self.is_open = True
         self._kind = kind
         self._control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self._control.setblocking(False)
         with theirs:
             self._origin = _start(kind, environment, theirs.fileno(), scripts)
-        self._ready = asyncio.ensure_future(self._prepare())
+        guard.add(self.group)
+        self._ready: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self._life = asyncio.ensure_future(self._live())
 
     @property
     def group(self) -> int:
         """Return the id of the group of processes that the template leads."""
         return self._origin.pid
+
+    async def _live(self) -> None:
+        """Get ready, and wait for the end."""
+        reason = 'the template has ended'
+        try:
+            await self._prepare()
+            self._ready.set_result(None)
+            await self._expect('')
+        except (OSError, TemplateFailure) as error:
+            reason = str(error)
+        self.close(reason)
 
     async def _prepare(self) -> None:
         """Adopt the copy in which the template goes on once it has imported everything."""
@@ -62,9 +83,6 @@ class TemplateHandle:
         except (OSError, asyncio.TimeoutError) as error:
             self.close()
             raise TemplateFailure(str(error) or 'the template does not answer') from None
-        except TemplateFailure:
-            self.close()
-            raise
 
     async def _make(self, request: ForkRequest, stdout: int, stderr: int) -> ForkedChild:
         try:
@@ -75,16 +93,20 @@ class TemplateHandle:
             request.give_up()
             raise
 
-    def close(self) -> None:
+    def close(self, reason: str = 'the template was ended') -> None:
         """End the template; the programs that it has become go on."""
         if not self.is_open:
             return
         self.is_open = False
-        self._ready.cancel()
+        self._life.cancel()
+        if not self._ready.done():
+            self._ready.set_exception(TemplateFailure(reason))
+            self._ready.exception()
         self._control.close()
         os.killpg(self.group, signal.SIGKILL)
         self._origin.wait()
         _reap(self.group)
+        self._guard.remove(self.group)
 
 
 def _start(
