@@ -47,6 +47,8 @@ _COMMAND_ATTRIBUTES = {'args': 'arguments', 'ros_args': 'ros_arguments'}
 class Node(ExecuteProcess):
     """Runs an executable with the arguments that ROS nodes understand."""
 
+    preloader = 'launch_ros._preload'
+
     def __init__(
         self,
         *,
