@@ -110,6 +110,13 @@ def test_no_xml(run: Run) -> None:
     assert lines[3].endswith("test.launch.xml', line 3")
 
 
+def test_name_of_several_formats(run: Run) -> None:
+    """If the name allows several formats, what each parser found is told."""
+    lines = run('<launch', name='a.launch')
+    assert lines[1].startswith(' - InvalidFrontendLaunchFileError: the file is not XML: unclosed')
+    assert lines[2] == "   the file must have the key 'launch', with a list of actions below it"
+
+
 def test_deprecated(run: Run) -> None:
     """A launch file may say that it should not be used."""
     lines = run('<launch deprecated="use another"/>')
