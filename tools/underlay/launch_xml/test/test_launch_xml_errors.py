@@ -153,7 +153,7 @@ def test_typed_attributes() -> None:
     assert entity.get_attr('s', data_type=list[str]) == ['a', 'b']
     assert entity.get_attr('v', data_type=int) == '$(var x)'
     entity.assert_entity_completely_parsed()
-    with pytest.raises(TypeError, match='must be a int, without substitutions'):
+    with pytest.raises(TypeError, match='must be of type int, without substitutions'):
         entity.get_attr('v', data_type=int, can_be_str=False)
 
 
