@@ -58,7 +58,20 @@ def _descend(
 ) -> None:
     """Search what an entity brings in; only its direct children count as conditional."""
     if isinstance(entity, IncludeLaunchDescription):
+        if _is_inside_itself(entity, includes):
+            return
         includes = [*includes, entity]
     _search(entity.describe_sub_entities(), False, includes, found)
     for _, children in entity.describe_conditional_sub_entities():
         _search(children, True, includes, found)
+
+
+def _is_inside_itself(
+    entity: IncludeLaunchDescription,
+    includes: list[IncludeLaunchDescription],
+) -> bool:
+    """Return whether a file is included that is being searched already."""
+    location = entity.launch_description_source._location_in_advance()
+    return location is not None and any(
+        each.launch_description_source._location_in_advance() == location for each in includes
+    )

@@ -10,12 +10,15 @@ from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:
+    from launch._include_stack import OpenFile
     from launch.event import Event
     from launch.launch_context import LaunchContext
 
 
 class BaseEventHandler:
     """Something that may react to an event."""
+
+    _open_files: tuple[OpenFile, ...] = ()
 
     def __init__(self, *, matcher: Callable[[Any], bool], handle_once: bool = False) -> None:
         """Create a handler of the events that `matcher` accepts, or of the first only."""

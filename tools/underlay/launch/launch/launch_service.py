@@ -9,6 +9,7 @@ import signal
 import threading
 from typing import Any, Optional, TYPE_CHECKING
 
+from launch._before_start import BeforeStart
 from launch.event_handler import EventHandler
 from launch.events.include_launch_description import IncludeLaunchDescription
 from launch.events.shutdown import Shutdown
@@ -33,6 +34,7 @@ class LaunchService:
     ) -> None:
         """Create a service; `argv` is what the context knows as its arguments."""
         self.__context = LaunchContext(argv=argv, noninteractive=noninteractive)
+        self.__context._before_start = BeforeStart()
         self.__context.register_event_handler(_IncludeHandler())
         self.__debug = debug
         self.__loop: Optional[asyncio.AbstractEventLoop] = None

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 class Substitution:
     """A text that is known only when the launch runs."""
 
+    _is_constant = False  # whether it depends only on what is installed, and changes nothing
+
     def perform(self, context: LaunchContext) -> str:
         """Return the text; subclasses override this."""
         raise NotImplementedError(

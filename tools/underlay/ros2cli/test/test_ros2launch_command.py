@@ -110,7 +110,6 @@ def test_prefix(ros2: Ros2, arm: dict[str, str]) -> None:
         (['arm'], "file 'None' was not found in the share directory of package 'arm'"),
         (['/some/x.launch.py'], "the launch file '/some/x.launch.py' does not exist"),
         (['arm', 'say.launch.py', 'word:='], "malformed launch argument 'word:='"),
-        (['arm', 'say.launch.py', 'wrd:=1'], "the launch file does not declare an argument 'wrd'"),
         (
             ['arm', 'say.launch.py', '--launch-prefix-filter', 'x'],
             '--launch-prefix must be specified if --launch-prefix-filter is provided',
@@ -130,6 +129,41 @@ def test_missing_file_lists_those_that_exist(ros2: Ros2, arm: dict[str, str]) ->
     error = ros2('launch', 'arm', 'sai.launch.py', extra=arm).stderr
     assert 'say.launch.py, sleep.launch.py' in error
     assert "Did you mean 'say.launch.py'?" in error
+
+
+def test_misspelt_argument(ros2: Ros2, arm: dict[str, str]) -> None:
+    """A name that comes close to a declared one is an error; nothing is started."""
+    result = ros2('launch', 'arm', 'say.launch.py', 'wrd:=1', extra=arm)
+    assert result.returncode == 1 and 'process started' not in result.stdout
+    assert result.stdout.splitlines()[2].endswith(
+        "the launch file does not declare an argument 'wrd'. Did you mean 'word'? Pass "
+        "--allow-unknown-args if 'wrd' is meant, or --show-args to see the arguments"
+    )
+
+
+def test_unknown_argument(ros2: Ros2, arm: dict[str, str]) -> None:
+    """A name that nothing has looked up is a warning, a magic one is not."""
+    words = ['arm', 'say.launch.py', 'zone:=1', 'sigterm_timeout:=1']
+    result = ros2('launch', *words, extra=arm)
+    warnings = [line for line in result.stdout.splitlines() if line.startswith('[WARNING]')]
+    assert result.returncode == 0 and '[echo-1] said hello' in result.stdout
+    assert warnings == [
+        "[WARNING] [launch]: no launch file declares the argument 'zone', and nothing has looked "
+        'it up; --show-args shows the arguments, --allow-unknown-args silences this'
+    ]
+
+
+def test_strict_exit(ros2: Ros2, arm: dict[str, str], tmp_path: Path) -> None:
+    """With --strict-exit the first process that failed gives the status."""
+    path = tmp_path / 'fail.launch.py'
+    path.write_text(
+        LAUNCH_FILE.replace("['echo', 'said', LaunchConfiguration('word')]", "['sh', '-c', WHAT]")
+        + "\n\nWHAT = 'exit 3'\n"
+    )
+    assert ros2('launch', str(path), extra=arm).returncode == 0
+    assert ros2('launch', '--strict-exit', str(path), extra=arm).returncode == 3
+    path.write_text(path.read_text().replace('exit 3', 'kill -9 $$'))
+    assert ros2('launch', '--strict-exit', str(path), extra=arm).returncode == 137
 
 
 def test_undeclared_arguments_can_be_allowed(ros2: Ros2, arm: dict[str, str]) -> None:

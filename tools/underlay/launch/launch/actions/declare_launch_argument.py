@@ -80,6 +80,7 @@ class DeclareLaunchArgument(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Set the launch configuration to the default unless it is set; check its value."""
+        context.launch_configurations.declared.add(self.__name)
         if self.__name not in context.launch_configurations:
             if self.__default_value is None:
                 _fail(

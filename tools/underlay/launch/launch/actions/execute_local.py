@@ -199,9 +199,25 @@ class ExecuteLocal(Action):
             )
         self.prepare(context)
         self.__executed = True
+        self._check_program(context)
         if not context.is_shutdown:
             self._begin_supervision(context)
         return None
+
+    def _check_program(self, context: LaunchContext) -> None:
+        """Raise an error if nothing has been started yet and the program is not there."""
+        checks = context._before_start
+        if checks is not None and checks.resolves_programs and not self.shell:
+            from launch._programs import require_program
+
+            require_program(self.description_of_process())
+
+    def _check_in_advance(self, context: LaunchContext) -> None:
+        from launch._programs import require_later_program
+
+        description = self.__process_description
+        if not self.shell and description.cmd:
+            require_later_program(description.cmd[0], description.env, context)
 
     def _begin_supervision(self, context: LaunchContext) -> None:
         from launch._supervision.process_control import ProcessControl

@@ -7,8 +7,9 @@ from collections.abc import Iterable
 import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
+from launch._include_stack import open_file
 from launch.action import Action
-from launch.actions._include_location import enter_launch_file, LeaveLaunchFile
+from launch.actions._include_location import enter_launch_file
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.launch_description import LaunchDescription
 from launch.launch_description_entity import LaunchDescriptionEntity
@@ -67,15 +68,25 @@ class IncludeLaunchDescription(Action):
         description = self.__source.try_get_launch_description_without_context()
         return [] if description is None else [description]
 
+    def _check_in_advance(self, context: LaunchContext) -> None:
+        from launch._missing_file import explain_missing_file
+        from launch._preflight import constant_text
+
+        path = constant_text(self.__source._location_parts, context)
+        if path is not None and os.path.dirname(path) and not os.path.isfile(path):
+            raise FileNotFoundError(explain_missing_file('launch file', path))
+
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Load the file and return its description, with the arguments before it."""
+        path = os.path.abspath(self.__source._expand_location(context))
+        file = open_file(context, path, self.call_site)
         description = self.__source.get_launch_description(context)
-        leave = enter_launch_file(context, os.path.abspath(self.__source.location))
+        leave = enter_launch_file(context, file)
         self._check_required(description, context)
         arguments = [
             SetLaunchConfiguration(name, value) for name, value in self.__launch_arguments
         ]
-        return [*arguments, description, LeaveLaunchFile(leave)]
+        return [*arguments, description, leave]
 
     def given_names(self, context: Optional[LaunchContext] = None) -> list[str]:
         """Return the names of the launch arguments that are given here."""

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 class OpaqueFunction(Action):
     """Calls a function with the context; the entities it returns are visited next."""
 
+    _runs_code_of_the_user = True
+
     def __init__(
         self,
         *,

@@ -76,7 +76,7 @@ class TimerAction(Action):
 
     def _reaction(self, context: LaunchContext) -> EventHandler:
         """Return the handler that visits the actions in the scope of now."""
-        configurations: dict[str, Any] = dict(context.launch_configurations)
+        configurations = context.launch_configurations.snapshot()
         entities = [
             EnterScope(configurations, context.get_locals_as_dict()),
             *self.__actions,

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import os
 
+from launch._missing_file import explain_missing_file
 from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
 from launch.launch_description_sources.python_launch_file_utilities import (
     get_launch_description_from_python_launch_file,
-    missing_file,
 )
 
 _OTHER_FORMATS = ('.xml', '.launch', '.yaml', '.yml')
@@ -22,7 +22,7 @@ def get_launch_description_from_any_launch_file(
     """Return the launch description of a file, whatever its format."""
     path = os.fspath(launch_file_path)
     if not os.path.isfile(path):
-        raise FileNotFoundError(missing_file(path))
+        raise FileNotFoundError(explain_missing_file('launch file', path))
     extension = os.path.splitext(path)[1]
     if extension in _OTHER_FORMATS:
         raise InvalidFrontendLaunchFileError(

@@ -10,6 +10,8 @@ from traceback import walk_tb
 from types import ModuleType
 
 from launch._call_site import CallSite
+from launch._failure_place import note_line
+from launch._missing_file import explain_missing_file
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
 
@@ -46,7 +48,7 @@ def get_launch_description_from_python_launch_file(
     """Return what the function `generate_launch_description` of a launch file returns."""
     path = os.fspath(python_launch_file_path)
     if not os.path.isfile(path):
-        raise FileNotFoundError(missing_file(path))
+        raise FileNotFoundError(explain_missing_file('launch file', path))
     try:
         return _generate(path)
     except Exception as error:
@@ -73,21 +75,12 @@ def _generate(path: str) -> LaunchDescription:
     return result
 
 
-def missing_file(path: str) -> str:
-    """Say that a launch file does not exist, and which one in its folder comes closest."""
-    import difflib
-
-    folder, name = os.path.split(path)
-    there = os.listdir(folder or '.') if os.path.isdir(folder or '.') else []
-    close = difflib.get_close_matches(name, there, n=1)
-    hint = f". Did you mean '{close[0]}'?" if close else ''
-    return f"the launch file '{path}' does not exist{hint}"
-
-
 def _point_at_line(path: str, error: Exception) -> None:
     """Note on an exception the last line of the launch file that led to it."""
+    if isinstance(error, SyntaxError) and error.filename == path:
+        note_line(error, CallSite(path, error.lineno or 0))
+        return
     lines = [
         line for frame, line in walk_tb(error.__traceback__) if frame.f_code.co_filename == path
     ]
-    if lines and not hasattr(error, 'launch_call_site'):
-        error.launch_call_site = CallSite(path, lines[-1])  # type: ignore[attr-defined]
+    note_line(error, CallSite(path, lines[-1] if lines else 0))

@@ -24,6 +24,14 @@ class Screen:
         if callback is not None and self._is_unread and sys.stdout is self._broken_stream:
             callback()
 
+    def has_colours(self) -> bool:
+        """Return whether the standard output is a terminal on which colours are wanted."""
+        unwanted = os.environ.get('NO_COLOR') or os.environ.get('RCUTILS_COLORIZED_OUTPUT') == '0'
+        try:
+            return not unwanted and sys.stdout is not None and sys.stdout.isatty()
+        except ValueError:  # it is closed
+            return False
+
     def write_line(self, text: str) -> None:
         """Write a line at once; what cannot be encoded is escaped."""
         stream = sys.stdout

@@ -31,6 +31,9 @@ def visit_into(
     futures: EntityFuturePairs,
 ) -> None:
     """Visit likewise; what was collected before a failure stays in `futures`."""
+    observer = context._observer
+    if observer is not None:
+        observer.enter(entity)
     try:
         children = entity.visit(context)
         future = entity.get_asyncio_future()
@@ -40,8 +43,12 @@ def visit_into(
             for child in children:
                 visit_into(_checked(child, entity), context, futures)
     except Exception as error:
-        _remember_place(error, entity)
+        from launch._failure_place import note_place
+
+        note_place(error, entity, context)
         raise
+    if observer is not None:
+        observer.leave(entity)
 
 
 def _checked(child: LaunchDescriptionEntity, parent: LaunchDescriptionEntity) -> Any:
@@ -52,11 +59,3 @@ def _checked(child: LaunchDescriptionEntity, parent: LaunchDescriptionEntity) ->
         f"'{type(child).__name__}' object has no attribute 'visit': the entities of "
         f'{type(parent).__name__} must be actions or launch descriptions, but one is {child!r}'
     )
-
-
-def _remember_place(error: Exception, entity: LaunchDescriptionEntity) -> None:
-    """Note on the exception which line created the innermost action that failed."""
-    place = getattr(entity, 'call_site', None)
-    if place is not None and not hasattr(error, 'launch_call_site'):
-        error.launch_call_site = place  # type: ignore[attr-defined]
-        error.launch_action_name = type(entity).__name__  # type: ignore[attr-defined]

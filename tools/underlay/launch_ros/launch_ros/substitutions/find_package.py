@@ -30,6 +30,8 @@ class _ExplainedPackageNotFoundError(PackageNotFoundError):
 class FindPackage(PathOperator):
     """The base of the substitutions that stand for a folder of a package."""
 
+    _is_constant = True
+
     def __init__(self, package: SomeSubstitutionsType) -> None:
         """Create the substitution of a package."""
         super().__init__()

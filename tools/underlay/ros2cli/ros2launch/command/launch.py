@@ -43,6 +43,8 @@ class LaunchCommand(CommandExtension):
             noninteractive=args.noninteractive,
             debug=args.debug,
             check_names=not args.allow_unknown_args,
+            resolve_programs=not args.no_preflight,
+            strict_exit=args.strict_exit,
         )
 
 

@@ -39,7 +39,17 @@ def add_launch_options(parser: argparse.ArgumentParser) -> None:
     add(
         '--allow-unknown-args',
         action='store_true',
-        help='Accept names of arguments that look like misspelt ones',
+        help='Accept arguments that no launch file declares, without a word',
+    )
+    add(
+        '--no-preflight',
+        action='store_true',
+        help='Start what there is, also if some programs are missing',
+    )
+    add(
+        '--strict-exit',
+        action='store_true',
+        help='Exit with the status of the first process that failed',
     )
     _add_prefix_options(parser)
     _add_positionals(parser)
