@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Optional, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING
 
 from launch._call_site import calling_line, CallSite
 from launch.launch_description_entity import LaunchDescriptionEntity
@@ -19,8 +19,17 @@ class Action(LaunchDescriptionEntity):
 
     call_site: Optional[CallSite] = None
 
-    def __init__(self, *, condition: Optional[Condition] = None) -> None:
+    def __init__(self, *, condition: Optional[Condition] = None, **unknown: Any) -> None:
         """Create an action that is executed if `condition` is None or fulfilled."""
+        if unknown:
+            from launch._checked import unknown_keyword
+
+            raise unknown_keyword(type(self), next(iter(unknown)))
+        if condition is not None and not hasattr(condition, 'evaluate'):
+            raise TypeError(
+                "the argument 'condition' must be a condition such as IfCondition(...), but it is "
+                f"{condition!r} of type '{type(condition).__name__}'"
+            )
         self.__condition = condition
         self.call_site = calling_line()
 

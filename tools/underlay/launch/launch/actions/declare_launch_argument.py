@@ -7,12 +7,10 @@ from collections.abc import Container, Iterable
 import os
 from typing import Any, NoReturn, Optional, TYPE_CHECKING
 
+from launch._checked import list_like, of_type, optional_text_like
 from launch.action import Action
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
@@ -34,12 +32,15 @@ class DeclareLaunchArgument(Action):
         """Create the action; an argument without a default must be given."""
         super().__init__(**kwargs)
         self._conditionally_included = False
+        of_type('name', name, (str,), 'a text')
+        if description is not None:
+            of_type('description', description, (str,), 'a text')
+        if choices is not None and not hasattr(choices, '__contains__'):
+            choices = list_like('choices', choices, 'texts')
         self.__name = name
         self.__choices: Any = choices
         self.__description = _describe(description, choices)
-        self.__default_value = (
-            None if default_value is None else normalize_to_list_of_substitutions(default_value)
-        )
+        self.__default_value = optional_text_like('default_value', default_value)
         self._check_choices(default_value)
 
     def _check_choices(self, default_value: Any) -> None:

@@ -7,12 +7,13 @@ from collections.abc import Callable, Iterable
 import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
+from launch._checked import list_like, of_type, typed
 from launch.action import Action
 from launch.descriptions.executable import Executable
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
 from launch.substitutions.launch_configuration import LaunchConfiguration
-from launch.utilities.type_utils import normalize_typed_substitution
 
 if TYPE_CHECKING:
     import asyncio
@@ -75,6 +76,7 @@ class ExecuteLocal(Action):
             timeout_substitutions,
         )
 
+        _check_plain_options(shell, emulate_tty, respawn_delay, respawn_max_retries)
         self.__process_description = process_description
         self.__options = ProcessOptions(
             shell=shell,
@@ -83,13 +85,13 @@ class ExecuteLocal(Action):
             log_cmd=log_cmd,
             output=output_substitutions(os.environ.get(_OVERRIDE_OUTPUT) or output),
             output_format=output_format,
-            sigterm_timeout=timeout_substitutions(sigterm_timeout),
-            sigkill_timeout=timeout_substitutions(sigkill_timeout),
-            respawn=normalize_typed_substitution(respawn, bool),
+            sigterm_timeout=timeout_substitutions('sigterm_timeout', sigterm_timeout),
+            sigkill_timeout=timeout_substitutions('sigkill_timeout', sigkill_timeout),
+            respawn=typed('respawn', respawn, bool, 'a bool or a substitution'),
             respawn_delay=respawn_delay,
             respawn_max_retries=respawn_max_retries,
         )
-        self.__on_exit = on_exit
+        self.__on_exit = on_exit if on_exit is None or callable(on_exit) else _reaction(on_exit)
         self.__executed = False
         self.__supervisor: Optional[Supervisor] = None
 
@@ -184,8 +186,6 @@ class ExecuteLocal(Action):
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the entities that are visited when the process has ended."""
-        if isinstance(self.__on_exit, LaunchDescriptionEntity):
-            return [self.__on_exit]
         if self.__on_exit is None or callable(self.__on_exit):
             return []
         return list(self.__on_exit)
@@ -240,3 +240,24 @@ class ExecuteLocal(Action):
     def get_asyncio_future(self) -> Optional[asyncio.Future[None]]:
         """Return a future that is done when the process has ended for good."""
         return None if self.__supervisor is None else self.__supervisor.task
+
+
+def _reaction(on_exit: Any) -> list[LaunchDescriptionEntity]:
+    """Return what is visited when the process has ended as a list."""
+    if isinstance(on_exit, LaunchDescriptionEntity):
+        return [on_exit]
+    entities = list_like('on_exit', on_exit, 'actions, an action or a callable')
+    for entity in entities:
+        of_type('on_exit', entity, (LaunchDescriptionEntity,), 'a list of actions')
+    return entities
+
+
+def _check_plain_options(
+    shell: Any, emulate_tty: Any, respawn_delay: Any, respawn_max_retries: Any
+) -> None:
+    """Raise an error that names the keyword if an option cannot be used."""
+    of_type('shell', shell, (bool,), 'True or False')
+    of_type('emulate_tty', emulate_tty, (bool, str, Substitution), 'True or False')
+    if respawn_delay is not None:
+        of_type('respawn_delay', respawn_delay, (int, float), 'a number of seconds')
+    of_type('respawn_max_retries', respawn_max_retries, (int,), 'a whole number')

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, Optional, TYPE_CHECKING
 
+from launch._checked import list_like, mapping_like
 from launch.action import Action
 from launch.actions.pop_environment import PopEnvironment
 from launch.actions.pop_launch_configurations import PopLaunchConfigurations
@@ -37,10 +38,12 @@ class GroupAction(Action):
     ) -> None:
         """Create the group; without `forwarding` only `launch_configurations` get into it."""
         super().__init__(**left_over_kwargs)
-        self.__actions = list(actions)
+        self.__actions = list_like('actions', actions, 'actions')
         self.__scoped = scoped
         self.__forwarding = forwarding
-        self.__launch_configurations = dict(launch_configurations or {})
+        self.__launch_configurations = mapping_like(
+            'launch_configurations', launch_configurations or {}
+        )
         self.__entities: Optional[list[LaunchDescriptionEntity]] = None
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:

@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
+from launch._checked import list_like, text_like
 from launch._include_stack import open_file
 from launch.action import Action
 from launch.actions._include_location import enter_launch_file
@@ -43,9 +44,10 @@ class IncludeLaunchDescription(Action):
                 AnyLaunchDescriptionSource,
             )
 
-            launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
+            path = text_like('launch_description_source', launch_description_source)
+            launch_description_source = AnyLaunchDescriptionSource(path)
         self.__source = launch_description_source
-        self.__launch_arguments = () if launch_arguments is None else tuple(launch_arguments)
+        self.__launch_arguments = () if launch_arguments is None else _pairs(launch_arguments)
 
     @property
     def launch_description_source(self) -> LaunchDescriptionSource:
@@ -83,9 +85,7 @@ class IncludeLaunchDescription(Action):
         description = self.__source.get_launch_description(context)
         leave = enter_launch_file(context, file)
         self._check_required(description, context)
-        arguments = [
-            SetLaunchConfiguration(name, value) for name, value in self.__launch_arguments
-        ]
+        arguments = [_setting(name, value) for name, value in self.__launch_arguments]
         return [*arguments, description, leave]
 
     def given_names(self, context: Optional[LaunchContext] = None) -> list[str]:
@@ -105,6 +105,28 @@ class IncludeLaunchDescription(Action):
                     f"Included launch description missing required argument '{argument.name}' "
                     f"(description: '{argument.description}'), given: [{', '.join(names)}]"
                 )
+
+
+def _pairs(launch_arguments: Any) -> tuple[tuple[Any, Any], ...]:
+    """Return the launch arguments as pairs; what is none is refused."""
+    if isinstance(launch_arguments, Mapping):
+        raise TypeError(
+            "the argument 'launch_arguments' must be a list of pairs, but it is a dictionary: "
+            'write .items() behind it'
+        )
+    pairs = tuple(list_like('launch_arguments', launch_arguments, 'pairs of a name and a value'))
+    for pair in pairs:
+        if isinstance(pair, str) or not isinstance(pair, Sequence) or len(pair) != 2:
+            raise TypeError(
+                "the argument 'launch_arguments' must be a list of pairs of a name and a value, "
+                f'but one item is {pair!r}'
+            )
+    return pairs
+
+
+def _setting(name: Any, value: Any) -> SetLaunchConfiguration:
+    """Return the action that sets a launch argument."""
+    return SetLaunchConfiguration(name, text_like(f'launch_arguments[{name!r}]', value))
 
 
 def _text(name: SomeSubstitutionsType, context: Optional[LaunchContext]) -> str:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Optional, TYPE_CHECKING, Union
 
+from launch._checked import list_like, typed
 from launch.action import Action
 from launch.actions._captured_scope import EnterScope, LeaveScope
 from launch.event_handler import EventHandler
@@ -35,7 +36,7 @@ class TimerAction(Action):
         """Create the action; the period is a float in seconds, or stands for one."""
         super().__init__(**kwargs)
         self.__period = _checked_period(period)
-        self.__actions = list(actions)
+        self.__actions = list_like('actions', actions, 'actions')
         self.__cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)
         self.__done: Optional[asyncio.Future[None]] = None
         self.__timer: Optional[asyncio.TimerHandle] = None
@@ -111,9 +112,9 @@ class TimerAction(Action):
 
 def _checked_period(period: Any) -> Any:
     """Return the period as a float or as substitutions; whole numbers are refused."""
-    if isinstance(period, int):
+    if isinstance(period, int) and not isinstance(period, bool):
         raise TypeError(
             'the period of a TimerAction must be a float or a substitution, but it is the '
             f'{type(period).__name__} {period}: write {float(period)} instead'
         )
-    return normalize_typed_substitution(period, float)
+    return typed('period', period, float, 'a float or a substitution')

@@ -10,6 +10,7 @@ from typing import Any
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger
 from launch_ros.actions._node_names import NodeNames
+from launch_ros.actions._parameter_files_check import note_parameter_file
 from launch_ros.parameter_descriptions import Parameter
 from launch_ros.utilities.evaluate_parameters_impl import evaluate_parameters, EvaluatedParameters
 from launch_ros.utilities.normalize_parameters_impl import NormalizedParameters
@@ -18,13 +19,14 @@ from launch_ros.utilities.parameter_files import write_parameter_file
 from launch_ros.utilities.yaml_text import flow_text
 
 
-def global_arguments(context: LaunchContext) -> list[str]:
+def global_arguments(context: LaunchContext, names: NodeNames) -> list[str]:
     """Return the parameters and files that are set for all nodes, in order."""
     arguments = []
     for item in context.launch_configurations.get('global_params', []):
         if isinstance(item, tuple):
             arguments += ['-p', f'{item[0]}:={_global_text(item[1])}']
         else:
+            note_parameter_file(context, os.fspath(item), names)
             arguments += ['--params-file', os.fspath(item)]
     return arguments
 
@@ -42,19 +44,34 @@ def own_parameter_arguments(
     """Return the parameters of one node, in order; dictionaries are written to files."""
     arguments = []
     for element in evaluate_parameters(context, parameters):
-        arguments += _parameter_argument(element, names)
+        arguments += _parameter_argument(context, element, names)
     return arguments
 
 
-def _parameter_argument(element: EvaluatedParameters, names: NodeNames) -> list[str]:
+def _parameter_argument(
+    context: LaunchContext,
+    element: EvaluatedParameters,
+    names: NodeNames,
+) -> list[str]:
     if isinstance(element, Parameter):
         return ['-p', element.get_parameter_rule()]
     if isinstance(element, dict):
         return ['--params-file', write_parameter_file(names.parameter_key, element)]
     if os.path.isfile(element):
+        note_parameter_file(context, element, names)
         return ['--params-file', element]
-    get_logger('launch_ros.actions.node').warning('Parameter file path is not a file: %s', element)
+    _warn_of_missing_file(element)
     return []
+
+
+def _warn_of_missing_file(path: str) -> None:
+    """Warn in the known words, then with what may help."""
+    from launch._missing_file import explain_missing_file
+
+    logger = get_logger('launch_ros.actions.node')
+    logger.warning('Parameter file path is not a file: %s', path)
+    advice = explain_missing_file('file', path)
+    logger.warning('The node gets no parameters from it, because %s', advice)
 
 
 def remap_arguments(

@@ -20,3 +20,8 @@ def get_node_name_count(context: LaunchContext, node_name: str) -> int:
     """Return how many nodes of this full name have been created."""
     counts: dict[str, int] = context.get_locals_as_dict().get(_KEY) or {}
     return counts.get(node_name, 0)
+
+
+def get_node_names(context: LaunchContext) -> list[str]:
+    """Return the full names of the nodes that have been created."""
+    return list(context.get_locals_as_dict().get(_KEY) or {})
