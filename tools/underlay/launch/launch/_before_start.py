@@ -42,6 +42,10 @@ class BeforeStart:
             check_what_waits(context)
         for check in self.checks:
             check(context)
+        if self.files:
+            from launch._stale_files import warn_of_stale_files
+
+            warn_of_stale_files(self.files)
 
     def explain_failure(self, context: LaunchContext) -> list[str]:
         """Return what else there is to say when the visit has failed."""

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
+from typing import Any, Optional, TYPE_CHECKING
 
 if TYPE_CHECKING:
     from launch.launch_description_entity import LaunchDescriptionEntity
@@ -23,3 +24,13 @@ class VisitObserver:
 
     def decided(self, entity: LaunchDescriptionEntity, value: bool) -> None:
         """Hear what the condition of an entity is."""
+
+    def note(self, **facts: Any) -> None:
+        """Hear facts about the entity that is being visited."""
+
+    def note_waiting(self, event: str, entities: Iterable[LaunchDescriptionEntity]) -> None:
+        """Hear what the entity leaves waiting for an event."""
+
+    def environment_changes(self, environment: dict[str, str]) -> dict[str, Optional[str]]:
+        """Return how an environment differs from that at the start; None stands for unset."""
+        return {}

@@ -60,12 +60,27 @@ class Action(LaunchDescriptionEntity):
 
     def visit(self, context: LaunchContext) -> Optional[Iterable[LaunchDescriptionEntity]]:
         """Execute the action if its condition allows it."""
-        if self.__condition is not None and not self.__condition.evaluate(context):
+        if self.__condition is not None and not self._is_wanted(self.__condition, context):
             return None
         try:
             return self.execute(context)
         finally:
             self._announce_completion(context)
+
+    def _is_wanted(self, condition: Condition, context: LaunchContext) -> bool:
+        """Return the value of the condition, and tell who watches."""
+        value = bool(condition.evaluate(context))
+        if context._observer is not None:
+            context._observer.decided(self, value)
+        return value
+
+    def _outline(self) -> dict[str, Any]:
+        """Return what can be told about the action before it is executed."""
+        return {}
+
+    def _outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """Return what the action will leave waiting for events, with the events."""
+        return []
 
     def _announce_completion(self, context: LaunchContext) -> None:
         """Emit an event at the end of the execution if anyone waits for it by now."""

@@ -40,6 +40,10 @@ class BaseEventHandler:
         """Return which events the handler accepts, for people."""
         return getattr(self.__matcher, '__name__', repr(self.__matcher))
 
+    def _awaited(self) -> str:
+        """Return what the handler waits for, in words."""
+        return f'an event ({type(self).__name__})'
+
     def matches(self, event: Event) -> bool:
         """Return whether the handler reacts to an event."""
         return self.__matcher(event)

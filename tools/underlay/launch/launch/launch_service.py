@@ -93,7 +93,7 @@ class LaunchService:
         try:
             return loop.run_until_complete(self.run_async(shutdown_when_idle=shutdown_when_idle))
         finally:
-            _cancel_all_tasks(loop)
+            cancel_all_tasks(loop)
             asyncio.set_event_loop(None)
             loop.close()
 
@@ -195,7 +195,7 @@ def _require_main_thread() -> None:
         )
 
 
-def _cancel_all_tasks(loop: asyncio.AbstractEventLoop) -> None:
+def cancel_all_tasks(loop: asyncio.AbstractEventLoop) -> None:
     """Let what is still in the loop come to an end."""
     import asyncio
 

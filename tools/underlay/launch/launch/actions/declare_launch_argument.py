@@ -79,10 +79,14 @@ class DeclareLaunchArgument(Action):
         choices: Optional[Container[str]] = self.__choices
         return choices
 
+    def _outline(self) -> dict[str, Any]:
+        return {'name': self.__name}
+
     def execute(self, context: LaunchContext) -> None:
         """Set the launch configuration to the default unless it is set; check its value."""
         context.launch_configurations.declared.add(self.__name)
-        if self.__name not in context.launch_configurations:
+        is_given = self.__name in context.launch_configurations
+        if not is_given:
             if self.__default_value is None:
                 _fail(
                     f'Required launch argument "{self.__name}" (description: '
@@ -92,6 +96,8 @@ class DeclareLaunchArgument(Action):
                 context, self.__default_value
             )
         value = context.launch_configurations[self.__name]
+        if context._observer is not None:
+            context._observer.note(name=self.__name, value=value, is_default=not is_given)
         if self.__choices is not None and value not in self.__choices:
             _fail(
                 f'Argument "{self.__name}" provided value "{value}" is not valid. '

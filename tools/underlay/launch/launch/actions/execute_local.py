@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import asyncio
 
     from launch._supervision.supervisor import Supervisor
+    from launch._visit_observer import VisitObserver
     from launch.launch_context import LaunchContext
 
 OnExit = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity], Callable[..., Any]]
@@ -200,6 +201,8 @@ class ExecuteLocal(Action):
         self.prepare(context)
         self.__executed = True
         self._check_program(context)
+        if context._observer is not None:
+            self._tell(context._observer)
         if not context.is_shutdown:
             self._begin_supervision(context)
         return None
@@ -211,6 +214,27 @@ class ExecuteLocal(Action):
             from launch._programs import require_program
 
             require_program(self.description_of_process())
+
+    def _tell(self, observer: VisitObserver) -> None:
+        """Tell who watches what would be started."""
+        details = self.description_of_process()
+        observer.note(
+            label=details['name'],
+            argv=details['cmd'],
+            shell=self.shell or None,
+            cwd=details['cwd'],
+            environment=observer.environment_changes(details['env']),
+        )
+        for event, entities in self._outline_of_waiting():
+            observer.note_waiting(event, entities)
+
+    def _outline(self) -> dict[str, Any]:
+        words = (' + '.join(part.describe() for part in word) for word in self.cmd)
+        return {'command': list(words)}
+
+    def _outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        entities = self.get_sub_entities()
+        return [('its end', entities)] if entities else []
 
     def _check_in_advance(self, context: LaunchContext) -> None:
         from launch._programs import require_later_program

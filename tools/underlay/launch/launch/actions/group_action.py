@@ -68,6 +68,11 @@ class GroupAction(Action):
             start += [ResetEnvironment(), ResetLaunchConfigurations(self.__launch_configurations)]
         return [*start, *self.__actions, PopEnvironment(), PopLaunchConfigurations()]
 
+    def _outline(self) -> dict[str, Any]:
+        return {'scoped': self.__scoped, 'forwarding': self.__forwarding}
+
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Return the actions, which are visited next."""
+        if context._observer is not None:
+            context._observer.note(**self._outline())
         return self.get_sub_entities()

@@ -85,12 +85,17 @@ class IncludeLaunchDescription(Action):
         description = self.__source.get_launch_description(context)
         leave = enter_launch_file(context, file)
         self._check_required(description, context)
+        if context._observer is not None:
+            context._observer.note(path=path)
         arguments = [_setting(name, value) for name, value in self.__launch_arguments]
         return [*arguments, description, leave]
 
     def given_names(self, context: Optional[LaunchContext] = None) -> list[str]:
         """Return the names of the launch arguments that are given here."""
         return [_text(name, context) for name, _ in self.__launch_arguments]
+
+    def _outline(self) -> dict[str, Any]:
+        return {'path': self.__source.location}
 
     def _check_required(self, description: LaunchDescription, context: LaunchContext) -> None:
         """Raise an error if an argument is neither given nor has a default."""

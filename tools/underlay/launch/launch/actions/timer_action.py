@@ -62,6 +62,12 @@ class TimerAction(Action):
         """Return the actions, which wait for the timer."""
         return [(f'after {self.__period} second(s)', self.__actions)]
 
+    def _outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        period = self.__period
+        if isinstance(period, list):
+            period = ' + '.join(part.describe() for part in period)
+        return [(f'{period} s to pass', self.__actions)]
+
     def execute(self, context: LaunchContext) -> None:
         """Start the timer."""
         if self.__canceled or context.is_shutdown:
@@ -73,6 +79,8 @@ class TimerAction(Action):
         if perform_typed_substitution(context, self.__cancel_on_shutdown, bool):
             context.register_event_handler(OnShutdown(on_shutdown=lambda *_: self.cancel()))
         period = perform_typed_substitution(context, self.__period, float)
+        if context._observer is not None:
+            context._observer.note_waiting(f'{period} s to pass', self.__actions)
         self.__timer = context.asyncio_loop.call_later(period, self._run_out, context)
 
     def _reaction(self, context: LaunchContext) -> EventHandler:

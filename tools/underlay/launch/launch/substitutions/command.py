@@ -53,6 +53,10 @@ class Command(Substitution):
         """Run the command, without a shell, and return what it wrote."""
         command = perform_substitutions(context, self.__command)
         mode = perform_substitutions(context, self.__on_stderr)
+        if context._before_start is not None:
+            from launch._stale_files import note_files_of_command
+
+            note_files_of_command(context, command)
         if mode not in _MODES:
             raise SubstitutionFailure(
                 f"invalid on_stderr '{mode}' of the command '{command}': expected one of "

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, Optional
+from typing import Any, Optional, TYPE_CHECKING
 
 from launch._checked import list_like, optional_text_like, text_like
 from launch.actions.execute_local import ExecuteLocal
@@ -23,6 +23,9 @@ from launch_ros.substitutions.executable_in_package import ExecutableInPackage
 from launch_ros.utilities.normalize_parameters_impl import normalize_parameters
 from launch_ros.utilities.normalize_remap_rules_impl import normalize_remap_rules
 from launch_ros.utilities.track_node_names import add_node_name
+
+if TYPE_CHECKING:
+    from launch._visit_observer import VisitObserver
 
 
 class Node(ExecuteLocal):
@@ -145,6 +148,23 @@ class Node(ExecuteLocal):
                 *remappings,
             ],
         )
+
+    def _tell(self, observer: VisitObserver) -> None:
+        super()._tell(observer)
+        from launch_ros.utilities.effective_parameters import effective_parameters, parameter_files
+
+        names, words = self._known_names(), self.cmd
+        observer.note(
+            node_name=names.name,
+            node_namespace=names.namespace,
+            parameter_files=parameter_files(words),
+            parameters=effective_parameters(words, names.name, names.namespace),
+            remappings=dict(self.__expanded_remappings or ()),
+        )
+
+    def _outline(self) -> dict[str, Any]:
+        name = None if self.__name is None else ' + '.join(sub.describe() for sub in self.__name)
+        return {**super()._outline(), 'node_name': name}
 
     def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
         """Start the node as soon as all that is being visited is done."""

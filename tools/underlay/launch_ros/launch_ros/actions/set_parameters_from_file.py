@@ -36,6 +36,8 @@ class SetParametersFromFile(Action):
         _require(path)
         known = context.launch_configurations.get('global_params', [])
         context.launch_configurations['global_params'] = [*known, path]
+        if context._observer is not None:
+            context._observer.note(path=path)
 
 
 def _require(path: str) -> None:

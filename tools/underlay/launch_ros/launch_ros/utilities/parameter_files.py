@@ -25,6 +25,11 @@ def write_parameter_file(node_name: str, parameters: Mapping[str, Any]) -> str:
     return path
 
 
+def is_written_here(path: str) -> bool:
+    """Return whether a file is one of those that were written here."""
+    return path in _written
+
+
 def _remove_all() -> None:
     for path in _written:
         try:

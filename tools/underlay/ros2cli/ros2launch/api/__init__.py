@@ -4,12 +4,13 @@
 from ros2launch.api.arguments import parse_launch_arguments
 from ros2launch.api.running import launch_a_launch_file
 from ros2launch.api.share_files import get_share_file_path_from_package, MultipleLaunchFilesError
-from ros2launch.api.showing import print_arguments_of_launch_file
+from ros2launch.api.showing import print_a_launch_file, print_arguments_of_launch_file
 
 __all__ = [
     'MultipleLaunchFilesError',
     'get_share_file_path_from_package',
     'launch_a_launch_file',
     'parse_launch_arguments',
+    'print_a_launch_file',
     'print_arguments_of_launch_file',
 ]
