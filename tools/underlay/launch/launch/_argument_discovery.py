@@ -29,13 +29,17 @@ def _search(
     includes: list[IncludeLaunchDescription],
     found: Found,
 ) -> None:
-    """Search depth-first; behind a reset of the configurations nothing can be told."""
+    """
+    Search depth-first; behind a reset of the configurations nothing can be told.
+
+    What is no entity is an error when it is visited, not here.
+    """
     for entity in entities:
         if isinstance(entity, ResetLaunchConfigurations):
             return
         if isinstance(entity, DeclareLaunchArgument):
             _note(entity, conditional, includes, found)
-        else:
+        elif isinstance(entity, LaunchDescriptionEntity):
             _descend(entity, includes, found)
 
 

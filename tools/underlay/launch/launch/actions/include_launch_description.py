@@ -8,6 +8,7 @@ import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
 from launch._checked import list_like, text_like
+from launch._failure_place import note_line
 from launch._include_stack import open_file
 from launch.action import Action
 from launch.actions._include_location import enter_launch_file
@@ -106,10 +107,12 @@ class IncludeLaunchDescription(Action):
                 continue
             names = [*given, *(name for each in includes for name in each.given_names())]
             if argument.name not in names:
-                raise RuntimeError(
+                error = RuntimeError(
                     f"Included launch description missing required argument '{argument.name}' "
                     f"(description: '{argument.description}'), given: [{', '.join(names)}]"
                 )
+                note_line(error, argument.call_site)
+                raise error
 
 
 def _pairs(launch_arguments: Any) -> tuple[tuple[Any, Any], ...]:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 from typing import TYPE_CHECKING
 
@@ -91,7 +92,11 @@ def _judge(command: str, mode: str, result: subprocess.CompletedProcess[str]) ->
     """Raise or warn if the result is not what the mode asks for."""
     if result.returncode != 0:
         said = result.stdout if mode == 'capture' else result.stderr
-        raise SubstitutionFailure(f'executed command failed. Command: {command}' + _captured(said))
+        raise SubstitutionFailure(
+            f'executed command failed. Command: {command}'
+            + _captured(said).rstrip()
+            + _advice(command)
+        )
     if result.stderr and mode == 'fail':
         raise SubstitutionFailure(
             f'executed command showed stderr output. Command: {command}' + _captured(result.stderr)
@@ -106,3 +111,13 @@ def _judge(command: str, mode: str, result: subprocess.CompletedProcess[str]) ->
 
 def _captured(text: str) -> str:
     return f'\nCaptured stderr output: {text}' if text else ''
+
+
+def _advice(command: str) -> str:
+    """Return a line about the first path in a command that does not exist, or nothing."""
+    from launch._missing_file import explain_missing_file
+
+    for word in shlex.split(command)[1:]:
+        if word.startswith('/') and not os.path.exists(word):
+            return '\n' + explain_missing_file('file', word)
+    return ''
