@@ -10,6 +10,7 @@ from typing import Any, TYPE_CHECKING, TypeVar
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
+_SHARE = '/share/'
 SWITCH = 'LAUNCH_PREFLIGHT'
 
 _Check = TypeVar('_Check')
@@ -36,16 +37,18 @@ class BeforeStart:
 
     def run(self, context: LaunchContext) -> None:
         """Look at what waits for events, then do what has been asked for."""
-        if self.resolves_programs and context._event_handlers:
+        waiting = any(handler.describe()[1] for handler in context._event_handlers)
+        if self.resolves_programs and waiting:
             from launch._preflight import check_what_waits
 
             check_what_waits(context)
         for check in self.checks:
             check(context)
-        if self.files:
+        installed = [path for path in self.files if _SHARE in path]
+        if installed:
             from launch._stale_files import warn_of_stale_files
 
-            warn_of_stale_files(self.files)
+            warn_of_stale_files(installed)
 
     def explain_failure(self, context: LaunchContext) -> list[str]:
         """Return what else there is to say when the visit has failed."""

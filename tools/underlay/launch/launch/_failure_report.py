@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import logging
 
-from launch._call_site import raising_line
-from launch._failure_place import FailurePlace, place_of
-
 
 def report_failure(logger: logging.Logger, error: BaseException) -> None:
     """Log an error and the line of the launch file that it comes from."""
+    from launch._call_site import raising_line
+    from launch._failure_place import FailurePlace, place_of
+
     logger.error('Caught exception in launch (see debug for traceback): %s', error)
     place = place_of(error)
     line = raising_line(error) if place is None else None

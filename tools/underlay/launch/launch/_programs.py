@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 import os
-import shutil
 from typing import Any, Optional, TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -51,6 +50,8 @@ def is_there(program: str, folder: Optional[str], env: Optional[Mapping[str, str
     if os.path.dirname(program):
         path = os.path.join(folder or '', program)
         return os.path.isfile(path) and os.access(path, os.X_OK)
+    import shutil
+
     return shutil.which(program, path=_search_path(env)) is not None
 
 

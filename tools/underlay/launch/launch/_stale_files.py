@@ -18,9 +18,6 @@ _SHARE = '/share/'
 
 def warn_of_stale_files(paths: Iterable[str]) -> None:
     """Log a line for each installed file whose source is newer and has another content."""
-    installed = [path for path in paths if _SHARE in path]
-    if not installed:
-        return
     try:
         from ros_environment.stale import StaleFiles
     except ImportError:
@@ -28,7 +25,7 @@ def warn_of_stale_files(paths: Iterable[str]) -> None:
     from launch.logging import get_logger
 
     files = StaleFiles()
-    for path in installed:
+    for path in paths:
         source = files.newer_source(path)
         if source:
             get_logger('launch').warning(

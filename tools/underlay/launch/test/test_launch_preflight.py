@@ -199,3 +199,20 @@ def test_include_of_itself_that_ends(run: Run, write: Write) -> None:
     result = run(IncludeLaunchDescription(path))
     assert result.status == 0
     assert [line[-1] for line in result.lines] == ['5', '4', '3', '2', '1']
+
+
+def test_installed_file_that_is_old(run: Run, write: Write) -> None:
+    """A file that was changed in the workspace after it had been installed is a warning."""
+    write('src/arm/package.xml', '<package><name>arm</name></package>')
+    texts = ['install/arm/share/arm/it.launch.py', 'install/arm/share/arm/arm.xacro']
+    installed = [write(texts[0], ''), write(texts[1], 'model')]
+    write(texts[0], _file(f'LogInfo(msg=Command("cat {installed[1]}"))'))
+    sources = [write('src/arm/it.launch.py', 'new'), write('src/arm/arm.xacro', 'new')]
+    for path in installed:
+        os.utime(path, (0, 0))
+    lines = run(IncludeLaunchDescription(installed[0])).lines
+    assert lines[1:] == [
+        f"[WARNING] [launch]: '{source}' is newer than the installed '{path}', which is used; "
+        'run colcon build'
+        for source, path in zip(sources, installed)
+    ]

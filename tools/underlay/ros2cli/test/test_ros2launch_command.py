@@ -2,6 +2,7 @@
 """Tests of `ros2 launch` with real launch files."""
 
 from collections.abc import Callable
+import json
 import os
 from pathlib import Path
 import signal
@@ -115,6 +116,7 @@ def test_prefix(ros2: Ros2, arm: dict[str, str]) -> None:
             '--launch-prefix must be specified if --launch-prefix-filter is provided',
         ),
         (['-s', 'arm', 'broken.launch.py'], "the launch file '"),
+        (['--json', 'arm', 'say.launch.py'], '--json says how --dry-run shows it: give both'),
     ],
 )
 def test_errors(words: list[str], error: str, ros2: Ros2, arm: dict[str, str]) -> None:
@@ -151,6 +153,54 @@ def test_unknown_argument(ros2: Ros2, arm: dict[str, str]) -> None:
         "[WARNING] [launch]: no launch file declares the argument 'zone', and nothing has looked "
         'it up; --show-args shows the arguments, --allow-unknown-args silences this'
     ]
+
+
+def test_dry_run(ros2: Ros2, arm: dict[str, str]) -> None:
+    """With --dry-run the tree is shown; nothing is started, and no log is written."""
+    result = ros2('launch', '--dry-run', 'arm', 'say.launch.py', 'word:=a b', extra=arm)
+    assert (result.returncode, result.stderr) == (0, '')
+    assert "  argv: echo said 'a b'" in result.stdout and 'process started' not in result.stdout
+    assert not Path(arm['ROS_LOG_DIR']).exists()
+
+
+def test_dry_run_as_json(ros2: Ros2, arm: dict[str, str]) -> None:
+    """With --json the standard output is data, whatever else is said."""
+    words = ['--dry-run', '--json', 'arm', 'say.launch.py', 'zone:=1']
+    result = ros2('launch', *words, extra=arm)
+    data = json.loads(result.stdout)
+    assert data['status'] == 0 and 'the argument' in result.stderr
+    assert data['actions'][0]['actions'][-1]['argv'] == ['echo', 'said', 'hello']
+
+
+def test_dry_run_of_what_fails(ros2: Ros2, arm: dict[str, str]) -> None:
+    """A dry run ends with the errors and the status of a real one."""
+    result = ros2('launch', '--dry-run', 'arm', 'broken.launch.py', extra=arm)
+    assert result.returncode == 1
+    assert result.stdout.startswith('[ERROR] [launch]: Caught exception in launch ')
+    assert "No module named 'nope_nope'" in result.stdout
+
+
+def test_print_description(ros2: Ros2, arm: dict[str, str]) -> None:
+    """With -p the description is shown as a tree, without running it."""
+    result = ros2('launch', '-p', 'arm', 'say.launch.py', extra=arm)
+    assert result.returncode == 0
+    assert result.stdout.splitlines()[1] == '    DeclareLaunchArgument(name=word)'
+    assert ros2('launch', '-p', '-s', 'arm', 'say.launch.py', extra=arm).returncode == 2
+
+
+def test_no_preflight(ros2: Ros2, arm: dict[str, str], tmp_path: Path) -> None:
+    """With --no-preflight the programs that are there are started."""
+    path = tmp_path / 'half.launch.py'
+    path.write_text(
+        LAUNCH_FILE.replace(
+            '        ExecuteProcess(',
+            "        ExecuteProcess(cmd=['no_such_one']),\n        ExecuteProcess(",
+        )
+    )
+    assert 'process started' not in ros2('launch', str(path), extra=arm).stdout
+    result = ros2('launch', '--no-preflight', str(path), extra=arm)
+    assert 'said hello' in result.stdout and result.returncode == 0
+    assert "the program 'no_such_one' was not found on the PATH" in result.stdout
 
 
 def test_strict_exit(ros2: Ros2, arm: dict[str, str], tmp_path: Path) -> None:

@@ -286,7 +286,7 @@ def test_mistake(name: str, ros2: Ros2, arm: dict[str, str]) -> None:
     text = _launch(ros2, arm, f'{HEAD}        {entity},\n    ])\n')
     action = f' ({mistake.action})' if mistake.action else ''
     assert text.startswith(error + '\n')
-    places = text[len(error) + 1 :].splitlines()
+    places = text.replace(error + '\n', '', 1).splitlines()
     assert places[0] == f"[ERROR] [launch]: It comes from '{file}', line {LINE}{action}"
 
 

@@ -8,7 +8,6 @@ import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
 from launch._checked import list_like, text_like
-from launch._failure_place import note_line
 from launch._include_stack import open_file
 from launch.action import Action
 from launch.actions._include_location import enter_launch_file
@@ -111,6 +110,8 @@ class IncludeLaunchDescription(Action):
                     f"Included launch description missing required argument '{argument.name}' "
                     f"(description: '{argument.description}'), given: [{', '.join(names)}]"
                 )
+                from launch._failure_place import note_line
+
                 note_line(error, argument.call_site)
                 raise error
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import os
 
-from launch._missing_file import explain_missing_file
 from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
@@ -22,6 +21,8 @@ def get_launch_description_from_any_launch_file(
     """Return the launch description of a file, whatever its format."""
     path = os.fspath(launch_file_path)
     if not os.path.isfile(path):
+        from launch._missing_file import explain_missing_file
+
         raise FileNotFoundError(explain_missing_file('launch file', path))
     extension = os.path.splitext(path)[1]
     if extension in _OTHER_FORMATS:

@@ -10,8 +10,6 @@ from traceback import walk_tb
 from types import ModuleType
 
 from launch._call_site import CallSite
-from launch._failure_place import note_line
-from launch._missing_file import explain_missing_file
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
 
@@ -48,6 +46,8 @@ def get_launch_description_from_python_launch_file(
     """Return what the function `generate_launch_description` of a launch file returns."""
     path = os.fspath(python_launch_file_path)
     if not os.path.isfile(path):
+        from launch._missing_file import explain_missing_file
+
         raise FileNotFoundError(explain_missing_file('launch file', path))
     try:
         return _generate(path)
@@ -77,6 +77,8 @@ def _generate(path: str) -> LaunchDescription:
 
 def _point_at_line(path: str, error: Exception) -> None:
     """Note on an exception the last line of the launch file that led to it."""
+    from launch._failure_place import note_line
+
     if isinstance(error, SyntaxError) and error.filename == path:
         note_line(error, CallSite(path, error.lineno or 0))
         return

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from typing import Optional, TYPE_CHECKING
 
-from launch._before_start import note_file
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger
 from launch_ros.utilities.parameter_file_keys import key_matches, parameter_file_keys
@@ -51,13 +50,6 @@ class ParameterFilesCheck:
             nodes.add((name, namespace or '/'))
         later = _names_of_waiting_nodes(context)
         return None if later is None else nodes | later
-
-
-def note_parameter_file(context: LaunchContext, path: str, names: NodeNames) -> None:
-    """Note that a node is given a file, as long as nothing has been started."""
-    if context._before_start is not None:
-        note_file(context, path)
-        context._before_start.check_of_type(ParameterFilesCheck).add(path, names)
 
 
 def _names_of_waiting_nodes(context: LaunchContext) -> Optional[set[FullName]]:

@@ -7,10 +7,10 @@ from collections.abc import Iterable
 import os
 from typing import Any
 
+from launch._before_start import note_file
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger
 from launch_ros.actions._node_names import NodeNames
-from launch_ros.actions._parameter_files_check import note_parameter_file
 from launch_ros.parameter_descriptions import Parameter
 from launch_ros.utilities.evaluate_parameters_impl import evaluate_parameters, EvaluatedParameters
 from launch_ros.utilities.normalize_parameters_impl import NormalizedParameters
@@ -26,7 +26,7 @@ def global_arguments(context: LaunchContext, names: NodeNames) -> list[str]:
         if isinstance(item, tuple):
             arguments += ['-p', f'{item[0]}:={_global_text(item[1])}']
         else:
-            note_parameter_file(context, os.fspath(item), names)
+            _note(context, os.fspath(item), names)
             arguments += ['--params-file', os.fspath(item)]
     return arguments
 
@@ -58,10 +58,19 @@ def _parameter_argument(
     if isinstance(element, dict):
         return ['--params-file', write_parameter_file(names.parameter_key, element)]
     if os.path.isfile(element):
-        note_parameter_file(context, element, names)
+        _note(context, element, names)
         return ['--params-file', element]
     _warn_of_missing_file(element)
     return []
+
+
+def _note(context: LaunchContext, path: str, names: NodeNames) -> None:
+    """Let the file be compared with the nodes, as long as nothing has been started."""
+    if context._before_start is not None:
+        from launch_ros.actions._parameter_files_check import ParameterFilesCheck
+
+        note_file(context, path)
+        context._before_start.check_of_type(ParameterFilesCheck).add(path, names)
 
 
 def _warn_of_missing_file(path: str) -> None:

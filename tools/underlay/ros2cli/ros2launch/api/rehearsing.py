@@ -23,6 +23,7 @@ def rehearse_launch_file(
     launch_file_arguments: Sequence[str],
     as_json: bool,
     check_names: bool = True,
+    resolve_programs: bool = True,
 ) -> int:
     """Print what a launch file would do; return the status, 1 if it cannot be launched."""
     service = make_service(
@@ -31,6 +32,7 @@ def rehearse_launch_file(
         noninteractive=True,
         debug=False,
         check_names=check_names,
+        resolve_programs=resolve_programs,
     )
     from launch._rehearsal.rehearsal import rehearse
 

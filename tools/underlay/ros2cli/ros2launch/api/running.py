@@ -26,9 +26,8 @@ def launch_a_launch_file(
         noninteractive=noninteractive,
         debug=debug,
         check_names=check_names,
+        resolve_programs=resolve_programs,
     )
-    if not resolve_programs:
-        service.context._before_start.resolves_programs = False
     status: int = service.run()
     if strict_exit and status == 0:
         return service.context._first_failure or 0
@@ -42,6 +41,7 @@ def make_service(
     noninteractive: bool,
     debug: bool,
     check_names: bool,
+    resolve_programs: bool,
 ) -> Any:
     """Return a launch service that is to visit a launch file, with its checks."""
     arguments = parse_launch_arguments(argument_texts)
@@ -54,8 +54,10 @@ def make_service(
     service.include_launch_description(
         LaunchDescription([IncludeLaunchDescription(source, launch_arguments=arguments)])
     )
+    before_start: Any = service.context._before_start
+    before_start.resolves_programs &= resolve_programs
     if check_names and arguments:
-        _check_names([name for name, _ in arguments], source, service.context._before_start)
+        _check_names([name for name, _ in arguments], source, before_start)
     return service
 
 

@@ -60,6 +60,7 @@ def _rehearse(path: str, arguments: list[str], args: argparse.Namespace) -> int:
         launch_file_arguments=arguments,
         as_json=args.json,
         check_names=not args.allow_unknown_args,
+        resolve_programs=not args.no_preflight,
     )
 
 
