@@ -114,10 +114,9 @@ class EventProcessor:
 
     def _check_before_start(self) -> None:
         """Run the checks once, when the first description has been visited."""
-        checks = self._context._before_start
+        checks, self._context._before_start = self._context._before_start, None
         if checks is not None:
             checks.run(self._context)
-            self._context._before_start = None
 
     # Futures.
 

@@ -16,6 +16,7 @@ from launch._rehearsal.record import ConditionRecord, Record
 _WIDTH = 80
 _STEP = '  '
 _USUAL = ('scoped', 'forwarding')
+_TEXTS = ('environment', 'remappings')
 _LONG = 200
 _IN_THE_HEAD = (
     *('label', 'path', 'text', 'name', 'value', 'is_default', 'namespace', 'function'),
@@ -79,7 +80,8 @@ def _fact(name: str, value: Any, indent: str) -> Iterator[str]:
     if isinstance(value, Mapping):
         yield f'{indent}{label}:'
         for key, each in value.items():
-            yield from _wrapped(_pair(key, each), indent + _STEP)
+            text = _variable(key, each) if name in _TEXTS else f'{key}: {_cut(repr(each))}'
+            yield from _wrapped(text, indent + _STEP)
     elif isinstance(value, list):
         words = map(shlex.quote, value) if name == 'argv' else map(str, value)
         yield from _wrapped(f'{label}: {" ".join(words)}', indent)
@@ -87,10 +89,8 @@ def _fact(name: str, value: Any, indent: str) -> Iterator[str]:
         yield from _wrapped(f'{label}: {value}', indent)
 
 
-def _pair(key: str, value: Optional[Any]) -> str:
-    if value is None:
-        return f'{key} is not set'
-    return f'{key} = {_cut(value)}' if isinstance(value, str) else f'{key}: {value!r}'
+def _variable(name: str, value: Optional[str]) -> str:
+    return f'{name} is not set' if value is None else f'{name} = {_cut(value)}'
 
 
 def _cut(text: str) -> str:
