@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from launch import LaunchContext
+from launch._failure_place import place_of
 from launch.frontend import Entity, expose, expose_action, Parser
 from launch.frontend._known_names import known_actions, known_substitutions, load
 from launch.frontend.parse_substitution import parse_substitution
@@ -228,7 +229,7 @@ def test_errors(content: str, text: str) -> None:
     with pytest.raises((AttributeError, RuntimeError, TypeError, ValueError)) as caught:
         parse(f'<launch>\n{content}</launch>')
     assert text in str(caught.value).splitlines()[0]
-    assert caught.value.launch_call_site == ('<string>', 2)  # type: ignore[union-attr]
+    assert place_of(caught.value).call_site == ('<string>', 2)  # type: ignore[union-attr]
 
 
 def test_node_of_another_package(context: LaunchContext) -> None:

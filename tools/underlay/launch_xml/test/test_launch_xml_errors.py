@@ -8,6 +8,7 @@ import io
 from typing import List  # noqa: UP035
 
 from launch import LaunchContext
+from launch._failure_place import place_of
 from launch.frontend import Entity, InvalidFrontendLaunchFileError, Parser
 from launch_xml import Parser as XMLParser
 from launch_xml.launch_description_sources import XMLLaunchDescriptionSource
@@ -55,7 +56,7 @@ def test_errors(content: str, error: type[Exception], text: str) -> None:
     with pytest.raises(error) as caught:
         parse(f'<launch>\n\n{content}</launch>')
     assert text in str(caught.value).splitlines()[0]
-    assert caught.value.launch_call_site == ('<string>', 3)  # type: ignore[attr-defined]
+    assert place_of(caught.value).call_site == ('<string>', 3)  # type: ignore[union-attr]
 
 
 @pytest.mark.parametrize(

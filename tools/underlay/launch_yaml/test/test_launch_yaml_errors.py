@@ -8,6 +8,7 @@ import io
 from typing import Any, List  # noqa: UP035
 
 from launch import LaunchContext
+from launch._failure_place import place_of
 from launch.frontend import Entity, InvalidFrontendLaunchFileError
 from launch_yaml import Parser
 from launch_yaml.entity import Entity as YAMLEntity
@@ -41,7 +42,7 @@ def test_errors(content: str, error: type[Exception], text: str) -> None:
     with pytest.raises(error) as caught:
         parse(f'launch:\n\n- log: {content}\n')
     assert text in str(caught.value).splitlines()[0]
-    assert caught.value.launch_call_site == ('<string>', 3)  # type: ignore[attr-defined]
+    assert place_of(caught.value).call_site == ('<string>', 3)  # type: ignore[union-attr]
 
 
 @pytest.mark.parametrize(
