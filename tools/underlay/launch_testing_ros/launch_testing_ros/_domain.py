@@ -7,21 +7,25 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 import os
 
-_DOMAIN = 'ROS_DOMAIN_ID'
 _DISABLED = 'DISABLE_ROS_ISOLATION'
+_NAMES = ('ROS_DOMAIN_ID', 'ROS_AUTOMATIC_DISCOVERY_RANGE')
 
 
 @contextmanager
 def isolated_domain() -> Iterator[None]:
-    """Set the domain to one that no other test on this machine uses, unless the user set one."""
-    if _DOMAIN in os.environ or _DISABLED in os.environ:
+    """Use a domain that no other test on this machine uses, and that other machines do not see."""
+    if _DISABLED in os.environ:
         yield
         return
     from domain_coordinator import domain_id
 
-    with domain_id() as domain:
-        os.environ[_DOMAIN] = str(domain)
-        try:
+    before = {name: os.environ.pop(name, None) for name in _NAMES}
+    try:
+        with domain_id() as domain:
+            os.environ.update(zip(_NAMES, (str(domain), 'LOCALHOST')))
             yield
-        finally:
-            os.environ.pop(_DOMAIN, None)
+    finally:
+        for name, value in before.items():
+            os.environ.pop(name, None)
+            if value is not None:
+                os.environ[name] = value

@@ -36,7 +36,6 @@ def test_pytest(tmp_path: Path) -> None:
     """A marked file runs in a domain that it got for itself."""
     (tmp_path / 'test_sample.py').write_text(SAMPLE)
     environment = {**os.environ, 'ROS_LOG_DIR': str(tmp_path / 'log')}
-    environment.pop('ROS_DOMAIN_ID', None)
     result = subprocess.run(
         [sys.executable, '-m', 'pytest', '-p', 'no:cacheprovider', '--strict-markers', '.'],
         cwd=tmp_path,
@@ -49,17 +48,19 @@ def test_pytest(tmp_path: Path) -> None:
 
 
 def test_domain(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A domain is reserved for a block, unless the user has chosen one or wants none."""
-    monkeypatch.delenv('ROS_DOMAIN_ID', raising=False)
+    """A domain is reserved for a block, unless the user wants none; two differ."""
+    monkeypatch.setenv('ROS_DOMAIN_ID', 'mine')
+    monkeypatch.delenv('ROS_AUTOMATIC_DISCOVERY_RANGE', raising=False)
     with isolated_domain():
-        assert 0 < int(os.environ['ROS_DOMAIN_ID']) <= 232
-    assert 'ROS_DOMAIN_ID' not in os.environ
+        first = int(os.environ['ROS_DOMAIN_ID'])
+        assert os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] == 'LOCALHOST'
+        with isolated_domain():
+            assert int(os.environ['ROS_DOMAIN_ID']) != first
+    assert os.environ['ROS_DOMAIN_ID'] == 'mine'
+    assert 'ROS_AUTOMATIC_DISCOVERY_RANGE' not in os.environ
     monkeypatch.setenv('DISABLE_ROS_ISOLATION', '1')
     with isolated_domain():
-        assert 'ROS_DOMAIN_ID' not in os.environ
-    monkeypatch.setenv('ROS_DOMAIN_ID', '7')
-    with isolated_domain():
-        assert os.environ['ROS_DOMAIN_ID'] == '7'
+        assert os.environ['ROS_DOMAIN_ID'] == 'mine'
 
 
 def test_rclpy_is_not_imported() -> None:
