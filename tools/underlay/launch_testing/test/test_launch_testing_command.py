@@ -107,6 +107,29 @@ def test_pytest_arguments_and_selection(launch_file: File, command: Command) -> 
     assert '1 passed' in result.stdout, result.stdout
 
 
+def test_pytest_restores_the_environment(launch_file: File, command: Command) -> None:
+    """What a launch sets in the environment does not reach other tests."""
+    set_it = """
+import os
+from launch.actions import SetEnvironmentVariable
+
+@pytest.mark.launch_test
+def generate_test_description():
+    os.environ['LEAKED'] = 'x'
+    leak = SetEnvironmentVariable('LEAKED', 'y')
+    return LaunchDescription([leak, KeepAliveProc(), ReadyToTest()])
+
+class TestIt(unittest.TestCase):
+    def test_it(self): assert os.environ['LEAKED'] == 'y'
+"""
+    first = launch_file(set_it, 'test_a.py')
+    second = launch_file(
+        "def test_it():\n    import os; assert 'LEAKED' not in os.environ\n", 'test_b.py'
+    )
+    result = command(*PYTEST, first, second)
+    assert '2 passed' in result.stdout, result.stdout
+
+
 def test_pytest_leaves_other_files_alone(launch_file: File, command: Command) -> None:
     """A file with another function of that name, or only a mark, is an ordinary one."""
     text = '# pytest.mark.launch_test\ndef test_it(): pass\n'

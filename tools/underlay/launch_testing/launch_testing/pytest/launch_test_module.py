@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 import io
+import os
 from typing import Any, Union
 
 from launch_testing.loader import LoadTestsFromPythonModule, TestRun
@@ -26,10 +27,15 @@ class LaunchTestItem(pytest.Item):
         self.test_run = test_run
 
     def runtest(self) -> None:
-        """Launch the description and run the tests."""
+        """Launch the description and run the tests; then the environment is as before."""
         arguments = self.config.getoption('--launch-args')
         runner = LaunchTestRunner([self.test_run], arguments, stream=io.StringIO())
-        (result,) = runner.run().values()
+        environment = dict(os.environ)
+        try:
+            (result,) = runner.run().values()
+        finally:
+            os.environ.clear()
+            os.environ.update(environment)
         self._tell(result)
 
     def _tell(self, result: TestResult) -> None:
