@@ -69,7 +69,7 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Report
             cwd=tmp_path,
             capture_output=True,
             encoding='utf-8',
-            timeout=60,
+            timeout=120,
         )
         return Report(result.stdout + result.stderr)
 

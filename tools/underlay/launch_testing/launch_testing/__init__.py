@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from launch_testing import actions, asserts, event_handlers, markers, tools, util
+    from launch_testing import actions, asserts, event_handlers, legacy, markers, tools, util
     from launch_testing._parametrize import parametrize
     from launch_testing._post_shutdown_test import post_shutdown_test
     from launch_testing.io_handler import ActiveIoHandler, IoHandler
@@ -26,6 +26,7 @@ __all__ = [
     'actions',
     'asserts',
     'event_handlers',
+    'legacy',
     'markers',
     'parametrize',
     'post_shutdown_test',
@@ -39,6 +40,7 @@ _ELSEWHERE = {
     'actions': '',
     'asserts': '',
     'event_handlers': '',
+    'legacy': '',
     'markers': '',
     'parametrize': '_parametrize',
     'post_shutdown_test': '_post_shutdown_test',

@@ -30,13 +30,22 @@ def _subclass(
     original: type[unittest.TestCase],
     injected: Mapping[str, Any],
 ) -> type[unittest.TestCase]:
-    """Return a class with the objects as attributes, and set-up methods that need no others."""
+    """
+    Return a class with the objects as attributes, and set-up methods that need no others.
+
+    An object with the name of a part of TestCase, perhaps from `locals()`, is an argument only.
+    """
+    attributes = {
+        name: staticmethod(value) if inspect.isfunction(value) else value
+        for name, value in injected.items()
+        if not hasattr(unittest.TestCase, name)
+    }
     names = {
         '__module__': original.__module__,
         '__qualname__': original.__qualname__,
         '__doc__': original.__doc__,
     }
-    result = type(original.__name__, (original,), {**injected, **names})
+    result = type(original.__name__, (original,), {**attributes, **names})
     for name in _OF_CLASS:
         setattr(result, name, staticmethod(_bound(getattr(result, name), injected)))
     return result

@@ -149,7 +149,7 @@ def command(tmp_path: Path) -> Callable[..., subprocess.CompletedProcess[str]]:
             cwd=tmp_path,
             capture_output=True,
             encoding='utf-8',
-            timeout=60,
+            timeout=120,
         )
 
     return execute

@@ -130,6 +130,21 @@ def test_injection() -> None:
     assert not hasattr(Sample, 'number')
 
 
+class Clashing(unittest.TestCase):
+    """A test on a launch whose function returned all its local variables."""
+
+    def test_it(self, run: int, double: Callable[[int], int]) -> None:
+        """Functions stay functions, and TestCase keeps its own parts."""
+        assert (run, double(4), self.double(4)) == (3, 8, 8)
+
+
+def test_injection_of_any_local_variable() -> None:
+    """Names of TestCase itself are handed over as arguments only."""
+    suite = bind([Clashing('test_it')], {'run': 3, 'id': 4, 'double': lambda number: 2 * number})
+    result = unittest.TextTestRunner(io.StringIO()).run(suite)
+    assert result.testsRun == 1 and result.wasSuccessful(), result.failures + result.errors
+
+
 def test_unknown_argument() -> None:
     """A test that asks for what nobody has is told what there is."""
     with pytest.raises(TypeError, match="Sample.setUpClass asks for 'number'.*: numbers, text. D"):
@@ -153,4 +168,4 @@ def test_retries_end() -> None:
 
 
 # These classes are data of the tests above, not tests of their own.
-Sample.__test__ = AsyncSample.__test__ = False  # type: ignore[attr-defined]
+Sample.__test__ = AsyncSample.__test__ = Clashing.__test__ = False  # type: ignore[attr-defined]

@@ -9,7 +9,7 @@ from typing import Any
 
 from launch import LaunchDescription, LaunchService
 from launch.actions import ExecuteProcess, OpaqueCoroutine
-from launch_testing import LaunchTestService
+from launch_testing.legacy import LaunchTestService
 from launch_testing.util import KeepAliveProc
 import pytest
 

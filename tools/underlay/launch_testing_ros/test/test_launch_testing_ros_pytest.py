@@ -42,7 +42,7 @@ def test_pytest(tmp_path: Path) -> None:
         env=environment,
         capture_output=True,
         encoding='utf-8',
-        timeout=60,
+        timeout=120,
     )
     assert '1 passed' in result.stdout, result.stdout
 
