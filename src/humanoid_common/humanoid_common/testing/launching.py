@@ -38,7 +38,8 @@ def description_under_test(path: Path, **arguments: str) -> LaunchDescription:
 def assert_clean_end(proc_info: ProcInfoHandler, proc_output: IoHandler) -> None:
     """Assert that every process of a launch test ended with status 0 and without a traceback."""
     assertExitCodes(proc_info)
-    assert not [event.process_name for event in proc_output if b'Traceback' in event.text]
+    names = {event.process_name for event in proc_output if b'Traceback' in event.text}
+    assert not names, f'there is a traceback in the output of {", ".join(sorted(names))}'
 
 
 def load_launch_file(path: Path) -> LaunchDescription:
