@@ -18,6 +18,8 @@ from launch.utilities.type_utils import normalize_typed_substitution, perform_ty
 if TYPE_CHECKING:
     import asyncio
 
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
 
 
@@ -47,6 +49,18 @@ class TimerAction(Action):
         self.__done: Optional[asyncio.Future[None]] = None
         self.__timer: Optional[Cancelable] = None
         self.__canceled = False
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Return the class, and what to construct it with, for an element of a launch file."""
+        _, kwargs = super().parse(entity, parser)
+        period = entity.get_attr('period', data_type=float)
+        kwargs['period'] = parser.parse_if_substitutions(period)
+        cancel = entity.get_attr('cancel_on_shutdown', data_type=bool, optional=True)
+        if cancel is not None:
+            kwargs['cancel_on_shutdown'] = parser.parse_if_substitutions(cancel)
+        kwargs['actions'] = parser.parse_actions(entity.children)
+        return cls, kwargs
 
     @property
     def period(self) -> Any:

@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, Optional
+from typing import Any, Optional, TYPE_CHECKING
 
-from launch.actions.execute_local import ExecuteLocal
-from launch.descriptions.executable import Executable, SomeVariables
+from launch.actions.execute_process import ExecuteProcess
+from launch.descriptions.executable import SomeVariables
 from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
@@ -30,8 +30,21 @@ from launch_ros.utilities.track_node_names import warn_of_same_names
 
 __all__ = ['Node', 'NodeActionExtension']
 
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
 
-class Node(ExecuteLocal):
+# Attributes in launch files, by the names that the constructor has for them.
+_TEXT_ATTRIBUTES = {
+    'pkg': 'package',
+    'name': 'name',
+    'namespace': 'namespace',
+    'exec_name': 'exec_name',
+}
+_COMMAND_ATTRIBUTES = {'args': 'arguments', 'ros_args': 'ros_arguments'}
+
+
+class Node(ExecuteProcess):
     """Runs an executable with the arguments that ROS nodes understand."""
 
     def __init__(
@@ -73,14 +86,12 @@ class Node(ExecuteLocal):
         words = [program, *_checked_list('arguments', arguments)]
         extra = _checked_list('ros_arguments', ros_arguments)
         super().__init__(
-            process_description=Executable(
-                cmd=[*words, *(['--ros-args', *extra] if extra else [])],
-                prefix=prefix,
-                name=exec_name,
-                cwd=cwd,
-                env=env,
-                additional_env=additional_env,
-            ),
+            cmd=[*words, *(['--ros-args', *extra] if extra else [])],
+            prefix=prefix,
+            name=exec_name,
+            cwd=cwd,
+            env=env,
+            additional_env=additional_env,
             **kwargs,
         )
         self.__package = package
@@ -94,6 +105,35 @@ class Node(ExecuteLocal):
         self.__remappings = [] if remappings is None else normalize_remap_rules(remappings)
         self.__names: Optional[NodeNames] = None
         self.__expanded_remappings: Optional[list[tuple[str, str]]] = None
+
+    @classmethod
+    def parse(
+        cls,
+        entity: Entity,
+        parser: Parser,
+        ignore: Optional[Iterable[str]] = None,
+    ) -> tuple[Any, dict[str, Any]]:
+        """Return the class and its arguments; attributes to `ignore` are left to the caller."""
+        from launch.frontend._process_attributes import parse_command, parse_texts
+        from launch_ros.utilities.parse_parameters import parse_parameters, parse_remappings
+
+        _, kwargs = super().parse(entity, parser, ignore=['cmd', 'name', *(ignore or ())])
+        kwargs['executable'] = parser.parse_substitution(entity.get_attr('exec'))
+        kwargs.update(parse_texts(entity, parser, _TEXT_ATTRIBUTES))
+        for attribute, keyword in _COMMAND_ATTRIBUTES.items():
+            line = entity.get_attr(attribute, optional=True)
+            if line is not None:
+                kwargs[keyword] = parse_command(line, parser)
+        kwargs.update(parse_parameters(entity, parser))
+        kwargs.update(parse_remappings(entity, parser))
+        return cls, kwargs
+
+    @staticmethod
+    def parse_nested_parameters(params: list[Entity], parser: Parser) -> list[Any]:
+        """Return a dictionary or a file for each element `param`."""
+        from launch_ros.utilities.parse_parameters import parse_nested_parameters
+
+        return parse_nested_parameters(params, parser)
 
     @property
     def node_package(self) -> Optional[SomeSubstitutionsType]:

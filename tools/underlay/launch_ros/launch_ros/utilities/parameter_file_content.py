@@ -8,7 +8,8 @@ from functools import cache
 import re
 from typing import Any
 
-from launch_ros.utilities.parameter_values import checked, EXPONENT
+from launch.utilities._scalars import EXPONENT
+from launch_ros.utilities.parameter_values import checked
 
 _PARAMETERS = 'ros__parameters'
 _WILDCARDS = {'*': '/[^/]+', '**': '(?:/[^/]+)*'}

@@ -24,13 +24,18 @@ def is_parameter_file(path: str) -> bool:
 
 
 def write_parameter_file(node_name: str, parameters: Mapping[str, Any]) -> str:
+    """Write the parameters of the nodes of a name to a file, and return its path."""
+    return write_text(parameter_file_text(node_name, parameters))
+
+
+def write_text(text: str) -> str:
     """Write a file, which is removed when this process ends, and return its path."""
     if not _written:
         atexit.register(_remove_all)
     descriptor, path = tempfile.mkstemp(prefix='launch_params_', text=True)
     _written.append(path)
     with open(descriptor, 'w', encoding='utf-8') as file:
-        file.write(parameter_file_text(node_name, parameters))
+        file.write(text)
     return path
 
 
