@@ -28,11 +28,11 @@ from launch_ros.utilities.normalize_parameters_impl import normalize_parameters
 from launch_ros.utilities.normalize_remap_rules_impl import normalize_remap_rules
 from launch_ros.utilities.track_node_names import warn_of_same_names
 
-__all__ = ['Node', 'NodeActionExtension']
-
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
+
+__all__ = ['Node', 'NodeActionExtension']
 
 # Attributes in launch files, by the names that the constructor has for them.
 _TEXT_ATTRIBUTES = {
