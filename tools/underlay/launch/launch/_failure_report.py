@@ -10,13 +10,13 @@ from typing import Optional
 def report_failure(logger: logging.Logger, error: BaseException) -> None:
     """Log an error and the line of the launch file that it comes from."""
     logger.error('Caught exception in launch (see debug for traceback): %s', error)
-    place = _place(error)
+    place = place_of(error)
     if place:
         logger.error('%s', place)
     logger.debug('the traceback of it', exc_info=error)
 
 
-def _place(error: Optional[BaseException]) -> str:
+def place_of(error: Optional[BaseException]) -> str:
     """Return where the innermost cause with a known place comes from."""
     found = ''
     while error is not None:

@@ -48,6 +48,7 @@ class LaunchCommand(CommandExtension):
 
 def _show(path: str, debug: bool) -> int | str | None:
     from launch import InvalidLaunchFileError
+    from launch._failure_report import place_of
     from ros2launch.api.showing import print_arguments_of_launch_file
 
     try:
@@ -55,5 +56,6 @@ def _show(path: str, debug: bool) -> int | str | None:
     except InvalidLaunchFileError as error:
         if debug:
             raise
-        return f"the launch file '{path}' cannot be loaded (-d shows the traceback): {error}"
+        text = f"the launch file '{path}' cannot be loaded (-d shows the traceback): {error}"
+        return '\n'.join(filter(None, [text, place_of(error)]))
     return 0
