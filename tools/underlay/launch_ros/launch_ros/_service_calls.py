@@ -16,7 +16,6 @@ _POLL_S = 0.05
 _CHECK_S = 0.5
 _PATIENCE_S = 10.0
 _LOST_AFTER_S = 5.0
-_PROBE_FOR_S = 5.0
 _NO_PROBE_AFTER_S = 1.0
 
 
@@ -84,25 +83,23 @@ class ServiceCaller:
             raise
 
     async def _until_ready(self) -> None:
-        late = _now() + _PATIENCE_S
+        patience = _Patience(self._logger)
         while not self._client.service_is_ready():
             self._require_server()
             await asyncio.sleep(_POLL_S)
-            if _now() > late:
-                self._logger.warning(
-                    "still waiting for the service '%s', which no running node offers", self._name
-                )
-                late = float('inf')
+            patience.check("the service '%s', which no running node offers", self._name)
 
     async def _until_heard(self) -> None:
         """Ask the harmless question until it is answered; nodes without it are not asked."""
-        end, no_probe = _now() + _PROBE_FOR_S, _now() + _NO_PROBE_AFTER_S
-        while _now() < end:
+        patience = _Patience(self._logger)
+        no_probe = _now() + _NO_PROBE_AFTER_S
+        while True:
             self._require_server()
             if self._probe.service_is_ready():
                 with PendingAnswer(self._probe, GetParameterTypes.Request()) as pending:
                     if await pending.arrives_within(_CHECK_S):
                         return
+                patience.check("the node that offers '%s', which is busy", self._name)
             elif _now() > no_probe:
                 return
             else:
@@ -125,6 +122,19 @@ class ServiceCaller:
     def _require_server(self) -> None:
         if self._server is not None and self._server.done():
             raise ServiceGoneError(f"the process that offers '{self._name}' has ended")
+
+
+class _Patience:
+    """Tells once what is still waited for, if that takes long."""
+
+    def __init__(self, logger: logging.Logger) -> None:
+        self._logger = logger
+        self._late = _now() + _PATIENCE_S
+
+    def check(self, what: str, name: str) -> None:
+        if _now() > self._late:
+            self._logger.warning(f'still waiting for {what}', name)
+            self._late = float('inf')
 
 
 def _now() -> float:

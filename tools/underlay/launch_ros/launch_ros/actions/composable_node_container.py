@@ -48,6 +48,11 @@ class ComposableNodeContainer(Node):
         kwargs['composable_node_descriptions'] = parse_composable_nodes(entity, parser)
         return cls, kwargs
 
+    @property
+    def composable_node_descriptions(self) -> list[ComposableNode]:
+        """Return the descriptions of the nodes."""
+        return self.__descriptions
+
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Start the container; loading the nodes comes next."""
         from launch_ros.actions.load_composable_nodes import LoadComposableNodes
