@@ -110,6 +110,13 @@ def test_no_xml(run: Run) -> None:
     assert lines[3].endswith("test.launch.xml', line 3")
 
 
+def test_name_of_several_formats(run: Run) -> None:
+    """If the name allows several formats, what each parser found is told."""
+    lines = run('<launch', name='a.launch')
+    assert lines[1].startswith(' - InvalidFrontendLaunchFileError: the file is not XML: unclosed')
+    assert lines[2] == "   the file must have the key 'launch', with a list of actions below it"
+
+
 def test_deprecated(run: Run) -> None:
     """A launch file may say that it should not be used."""
     lines = run('<launch deprecated="use another"/>')
@@ -146,7 +153,7 @@ def test_typed_attributes() -> None:
     assert entity.get_attr('s', data_type=list[str]) == ['a', 'b']
     assert entity.get_attr('v', data_type=int) == '$(var x)'
     entity.assert_entity_completely_parsed()
-    with pytest.raises(TypeError, match='must be a int, without substitutions'):
+    with pytest.raises(TypeError, match='must be of type int, without substitutions'):
         entity.get_attr('v', data_type=int, can_be_str=False)
 
 

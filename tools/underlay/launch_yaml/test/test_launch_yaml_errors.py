@@ -29,10 +29,10 @@ def parse(content: str) -> Any:
         ('{bogus: x, message: y}', ValueError, "Unexpected key(s) found in `log`: {'bogus'}"),
         ('{mesage: y}', AttributeError, "Attribute 'message' of type '<class 'str'>' not found"),
         ('{message: true}', TypeError, "Put it in quotes: 'true'"),
-        ('{message: 5}', TypeError, "got 5, which is a int. Put it in quotes: '5'"),
+        ('{message: 5}', TypeError, "got 5 of type int. Put it in quotes: '5'"),
         ('{message: }', TypeError, "Leave it out, or write '' for an empty text"),
         ('{message: x, if: true}', TypeError, "The attribute 'if' of `log` cannot be used"),
-        ('{message: [x]}', TypeError, "expected a str, but got ['x'], which is a "),
+        ('{message: [x]}', TypeError, "expected str, but got ['x'] of type "),
         ('hello', AttributeError, "Attribute 'message' of type"),
     ],
 )

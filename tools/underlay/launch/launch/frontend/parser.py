@@ -39,10 +39,10 @@ class Parser:
             except InvalidFrontendLaunchFileError as error:
                 errors[parser] = error
                 _rewind(file)
-        for parser, failure in errors.items():
-            if parser.claims(name):
-                raise failure
-        raise InvalidFrontendLaunchFileError()
+        claimed = [failure for parser, failure in errors.items() if parser.claims(name)]
+        if len(claimed) == 1:
+            raise claimed[0]
+        raise InvalidFrontendLaunchFileError('\n'.join(map(str, claimed)))
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:

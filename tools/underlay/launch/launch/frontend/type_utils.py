@@ -48,7 +48,7 @@ def value_of_text(text: str, data_type: Any, can_be_str: bool) -> Any:
     if '$(' in text:
         if can_be_str:
             return text
-        raise TypeError(f"'{text}' must be a {type_name(data_type)}, without substitutions")
+        raise TypeError(f"'{text}' must be of type {type_name(data_type)}, without substitutions")
     try:
         return coerce_to_type(text, data_type)
     except ValueError as error:
@@ -76,9 +76,9 @@ def checked_value(value: Any, data_type: Any, can_be_str: bool) -> Any:
     if can_be_str and get_origin(data_type) is list and _has_substitutions(value):
         return value
     if (data_type is float and isinstance(value, int)) or not _has_type(value, data_type):
-        what = 'nothing' if value is None else f'{value!r}, which is a {type(value).__name__}'
+        what = 'nothing' if value is None else f'{value!r} of type {type(value).__name__}'
         raise TypeError(
-            f'expected a {type_name(data_type)}, but got {what}. {_advice(value, data_type)}'
+            f'expected {type_name(data_type)}, but got {what}. {_advice(value, data_type)}'
         )
     return value
 

@@ -33,7 +33,6 @@ class SetParameter(Action):
 
         _, kwargs = super().parse(entity, parser)
         kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
-        entity.get_attr('value', data_type=None)
         kwargs['value'] = parse_value(entity, parser)
         return cls, kwargs
 
