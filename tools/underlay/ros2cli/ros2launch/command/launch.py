@@ -51,8 +51,10 @@ class LaunchCommand(CommandExtension):
 
 def _show(path: str, debug: bool) -> int | str | None:
     from launch import InvalidLaunchFileError
+    from launch.logging import launch_config
     from ros2launch.api.showing import print_arguments_of_launch_file
 
+    launch_config.log_dir  # noqa: B018  # a run of its own, even if nothing is logged
     try:
         print_arguments_of_launch_file(launch_file_path=path)
     except InvalidLaunchFileError as error:
