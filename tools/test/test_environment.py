@@ -28,7 +28,7 @@ def sourced(root: Path, file: str, script: str, **variables: str) -> str:
 @pytest.mark.parametrize('file', ['.venv/setup.bash', 'install/setup.bash'])
 def test_one_file_gives_all(root: Path, file: str) -> None:
     """Python, colcon and ros2 of the environment, rclpy and the distribution are there."""
-    modules = 'rclpy, tf2_msgs.msg, launch_ros.actions'
+    modules = 'rclpy, tf2_msgs.msg, composition_interfaces.srv, launch_ros.actions'
     script = f'python3 -c "import {modules}"; which ros2 colcon; echo $ROS_DISTRO'
     lines = sourced(root, file, script).splitlines()
     environment = root / '.venv' / 'bin'

@@ -6,7 +6,7 @@ from __future__ import annotations
 import sys
 from typing import NamedTuple, Optional
 
-_OWN_PACKAGES = frozenset(('launch', 'launch_ros'))
+_OWN_PACKAGES = frozenset(('launch', 'launch_ros', 'launch_xml', 'launch_yaml'))
 _COMMANDS = frozenset(('ros2cli', 'ros2launch'))
 
 
@@ -32,3 +32,11 @@ def calling_line() -> Optional[CallSite]:
             return CallSite(frame.f_code.co_filename, frame.f_lineno)
         frame = frame.f_back  # type: ignore[assignment]
     return None
+
+
+def note_place(error: Exception, site: Optional[CallSite], action_name: str = '') -> None:
+    """Note on an exception the line that it comes from, unless a more exact one is known."""
+    if site is None or hasattr(error, 'launch_call_site'):
+        return
+    error.launch_call_site = site  # type: ignore[attr-defined]
+    error.launch_action_name = action_name  # type: ignore[attr-defined]

@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Optional, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING
 
 from launch._call_site import calling_line, CallSite
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
     from launch.condition import Condition
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
 
 
@@ -23,6 +25,26 @@ class Action(LaunchDescriptionEntity):
         """Create an action that is executed if `condition` is None or fulfilled."""
         self.__condition = condition
         self.call_site = calling_line()
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """
+        Return the class, and what to construct it with, for an element of a launch file.
+
+        Subclasses extend what this returns.
+        """
+        from launch.conditions.if_condition import IfCondition
+        from launch.conditions.unless_condition import UnlessCondition
+
+        wanted = entity.get_attr('if', optional=True)
+        unwanted = entity.get_attr('unless', optional=True)
+        if wanted is not None and unwanted is not None:
+            raise RuntimeError("if and unless conditions can't be used simultaneously")
+        if wanted is not None:
+            return cls, {'condition': IfCondition(parser.parse_substitution(wanted))}
+        if unwanted is not None:
+            return cls, {'condition': UnlessCondition(parser.parse_substitution(unwanted))}
+        return cls, {}
 
     @property
     def condition(self) -> Optional[Condition]:

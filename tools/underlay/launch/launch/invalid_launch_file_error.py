@@ -21,5 +21,6 @@ class InvalidLaunchFileError(Exception):
         if len(self.likely_errors) == 1:
             return str(self.likely_errors[0])
         head = f'Caught multiple exceptions when trying to load file of format [{self.extension}]:'
-        lines = [f' - {type(error).__name__}: {error}' for error in self.likely_errors]
+        texts = [f'{type(error).__name__}: {error}' for error in self.likely_errors]
+        lines = [' - ' + text.replace('\n', '\n   ') for text in texts]
         return '\n'.join([head, *lines])

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     import asyncio
 
     from launch._supervision.process_registry import ProcessRegistry
+    from launch._supervision.program import Spawn
     from launch.event import Event
     from launch.event_handler import BaseEventHandler
     from launch.substitution import Substitution
@@ -43,6 +44,7 @@ class LaunchContext:
         self._event_queue: deque[Event] = deque()
         self._completion_futures: list[asyncio.Future[Any]] = []
         self._processes: Optional[ProcessRegistry] = None
+        self._spawn: Optional[Spawn] = None
 
     # What the launch was started with, and its state.
 

@@ -30,11 +30,17 @@ class LaunchService:
         argv: Optional[Iterable[str]] = None,
         noninteractive: bool = False,
         debug: bool = False,
+        prefork: bool = True,
     ) -> None:
-        """Create a service; `argv` is what the context knows as its arguments."""
+        """
+        Create a service; `argv` is what the context knows as its arguments.
+
+        Without `prefork`, Python nodes are executed and never forked from a template.
+        """
         self.__context = LaunchContext(argv=argv, noninteractive=noninteractive)
         self.__context.register_event_handler(_IncludeHandler())
         self.__debug = debug
+        self.__prefork = prefork
         self.__loop: Optional[asyncio.AbstractEventLoop] = None
         self.__task: Optional[asyncio.Task[int]] = None
         self.__interrupted = False
@@ -130,6 +136,7 @@ class LaunchService:
         self.__interrupted = False
         processor = EventProcessor(context, loop)
         context._processes = registry = ProcessRegistry()
+        context._spawn = registry.spawn if self.__prefork else None
         context._attach(loop, processor.wake_up)
         screen.when_closed(self._on_screen_closed)
         loop_error_handler = loop.get_exception_handler()
@@ -144,7 +151,7 @@ class LaunchService:
             screen.when_closed(None)
             context._attach(None, None)
             registry.close()
-            context._processes = None
+            context._processes = context._spawn = None
 
     def _set_level(self) -> None:
         if self.__debug:

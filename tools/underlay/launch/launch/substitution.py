@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import Any, ClassVar, TYPE_CHECKING
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -11,6 +12,22 @@ if TYPE_CHECKING:
 
 class Substitution:
     """A text that is known only when the launch runs."""
+
+    # What `$(name ...)` takes in a launch file, by the names that the constructor has for it.
+    frontend_required: ClassVar[tuple[str, ...]] = ()
+    frontend_optional: ClassVar[tuple[str, ...]] = ()
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[Any, dict[str, Any]]:
+        """Return the class, and what to construct it with, for arguments in a launch file."""
+        names = cls.frontend_required + cls.frontend_optional
+        if not len(cls.frontend_required) <= len(data) <= len(names):
+            described = [*cls.frontend_required, *(f'[{name}]' for name in cls.frontend_optional)]
+            raise TypeError(
+                f'{cls.__name__} takes the arguments ({", ".join(described)}), but '
+                f'{len(data)} are given'
+            )
+        return cls, dict(zip(names, data))
 
     def perform(self, context: LaunchContext) -> str:
         """Return the text; subclasses override this."""

@@ -76,7 +76,7 @@ def _outcome(read: Callable[[str], Any], text: str) -> str:
     """Return what reading a text gives."""
     try:
         return repr(read(text))
-    except yaml.YAMLError:
+    except (yaml.YAMLError, ValueError):
         return 'error'
 
 
@@ -102,6 +102,7 @@ def test_booleans(text: str, value: bool) -> None:
         ('5', str, '5'),
         ('no', bool, False),
         ('5', None, 5),
+        ('1e-3', None, 0.001),
         ('[1, 2]', list[int], [1, 2]),
         ('[1, 2]', list[float], [1.0, 2.0]),
         ('x', None, 'x'),

@@ -8,12 +8,24 @@ from typing import TYPE_CHECKING
 from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
-    from launch_ros import actions, descriptions, parameter_descriptions, substitutions, utilities
+    from launch_ros import (
+        actions,
+        descriptions,
+        event_handlers,
+        events,
+        parameter_descriptions,
+        ros_adapters,
+        substitutions,
+        utilities,
+    )
 
 __all__ = [
     'actions',
     'descriptions',
+    'event_handlers',
+    'events',
     'parameter_descriptions',
+    'ros_adapters',
     'substitutions',
     'utilities',
 ]
@@ -21,7 +33,10 @@ __all__ = [
 _ELSEWHERE = {
     'actions': '',
     'descriptions': '',
+    'event_handlers': '',
+    'events': '',
     'parameter_descriptions': '',
+    'ros_adapters': '',
     'substitutions': '',
     'utilities': '',
 }

@@ -8,6 +8,7 @@ from typing import Any, Optional
 
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
+from launch.substitution import Substitution
 from launch.utilities.ensure_argument_type_impl import ensure_argument_type
 from launch.utilities.normalize_to_list_of_substitutions_impl import (
     normalize_to_list_of_substitutions,
@@ -89,16 +90,20 @@ class ParameterFile:
         self.__allow_substs = allow_substs
 
     @property
+    def param_file(self) -> list[Substitution]:
+        """Return the parts of the path."""
+        return self.__param_file
+
+    @property
     def allow_substs(self) -> bool:
         """Return whether there may be substitutions in the file."""
         return self.__allow_substs
 
     def evaluate(self, context: LaunchContext) -> str:
-        """Return the path of the file."""
+        """Return the path of the file, or of a copy without substitutions."""
         path = os.fspath(perform_substitutions(context, self.__param_file))
-        if self.__allow_substs:
-            raise NotImplementedError(
-                f"the parameter file '{path}' is to be read with allow_substs=True, which this "
-                'version does not support yet; write the values into the launch file instead'
-            )
+        if self.__allow_substs and os.path.isfile(path):
+            from launch_ros.utilities.substituted_file import substitute_parameter_file
+
+            return substitute_parameter_file(context, path)
         return path

@@ -82,3 +82,14 @@ def prefix(tmp_path: Path) -> Prefix:
         return root
 
     return install
+
+
+@pytest.fixture
+def own_domain() -> Iterator[None]:
+    """Keep the nodes of a test apart from all others."""
+    from domain_coordinator import domain_id
+
+    with domain_id() as number:
+        os.environ['ROS_DOMAIN_ID'] = str(number)
+        os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+        yield

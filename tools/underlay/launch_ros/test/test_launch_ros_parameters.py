@@ -164,10 +164,50 @@ def test_missing_file_is_reported(
     assert f'Parameter file path is not a file: {tmp_path}/no.yaml' in capfd.readouterr().out
 
 
-def test_file_with_substitutions(context: LaunchContext) -> None:
-    """Substitutions in a file are refused clearly; the flag must be a truth value."""
-    with pytest.raises(NotImplementedError, match="'/x.yaml' .* does not support yet"):
-        ParameterFile('/x.yaml', allow_substs=True).evaluate(context)
+def test_file_with_substitutions(context: LaunchContext, tmp_path: Path) -> None:
+    """A copy of the file has what the substitutions in it have become."""
+    path = tmp_path / 'x.yaml'
+    path.write_text('/**:\n  ros__parameters:\n    robot: $(var robot)\n    plain: $x\n')
+    context.launch_configurations['robot'] = 'r1'
+    copy = Path(ParameterFile(path, allow_substs=True).evaluate(context))
+    assert copy != path
+    assert copy.read_text() == '/**:\n  ros__parameters:\n    robot: r1\n    plain: $x\n'
+
+
+@pytest.mark.parametrize(
+    'line, error',
+    [
+        ('$(bogus)', 'Unknown substitution: bogus'),
+        ('$(var robto)', "launch configuration 'robto' does not exist. Did you mean 'robot'"),
+        ('$(find p)', r"Unknown substitution: find\nROS 2 writes '\$\(find-pkg-share PACKAGE\)'"),
+    ],
+)
+def test_wrong_substitution_in_a_file(
+    line: str,
+    error: str,
+    context: LaunchContext,
+    tmp_path: Path,
+) -> None:
+    """The error of a substitution names the file and the line."""
+    path = tmp_path / 'x.yaml'
+    path.write_text(f'/**:\n  ros__parameters:\n    robot: {line}\n')
+    context.launch_configurations['robot'] = 'r1'
+    with pytest.raises(RuntimeError, match=error) as caught:
+        ParameterFile(path, allow_substs=True).evaluate(context)
+    assert caught.value.launch_call_site == (str(path), 3)
+
+
+def test_substituted_file_that_is_no_yaml(context: LaunchContext, tmp_path: Path) -> None:
+    """What the substitutions have become must still be YAML."""
+    path = tmp_path / 'x.yaml'
+    path.write_text('a: $(var text)\n')
+    context.launch_configurations['text'] = '[1'
+    with pytest.raises(ValueError, match='substituted parameter file is not a valid yaml file'):
+        ParameterFile(path, allow_substs=True).evaluate(context)
+
+
+def test_flag_of_a_file() -> None:
+    """The flag must be a truth value."""
     with pytest.raises(TypeError, match='allow_substs'):
         ParameterFile('/x.yaml', allow_substs='true')  # type: ignore[arg-type]
 

@@ -114,3 +114,10 @@ def test_workspace_is_nearest_folder_with_packages(
     (folder / 'src').mkdir()
     assert find_workspace(folder / 'src') == workspace
     assert find_workspace(tmp_path / 'elsewhere') is None
+
+
+def test_package_that_cannot_be_there(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A package without a wheel is explained by what to do without it."""
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(install(workspace, 'arm')))
+    text = explain_missing_package('rclcpp_components')
+    assert text.startswith("'rclcpp_components' has no wheel on PyPI") and 'from source' in text

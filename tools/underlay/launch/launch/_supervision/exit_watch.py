@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import asyncio
 import os
-import subprocess
 import threading
+
+from launch._supervision.program import Child
 
 
 def watch_exit(
-    child: subprocess.Popen[bytes],
+    child: Child,
     loop: asyncio.AbstractEventLoop,
 ) -> asyncio.Future[int]:
     """Return a future of the return code of a child process."""
@@ -25,7 +26,7 @@ def watch_exit(
 
 
 def _reap(
-    child: subprocess.Popen[bytes],
+    child: Child,
     loop: asyncio.AbstractEventLoop,
     future: asyncio.Future[int],
     descriptor: int,
@@ -36,7 +37,7 @@ def _reap(
 
 
 def _watch_in_thread(
-    child: subprocess.Popen[bytes],
+    child: Child,
     loop: asyncio.AbstractEventLoop,
     future: asyncio.Future[int],
 ) -> None:

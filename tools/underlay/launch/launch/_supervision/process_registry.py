@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Optional, TYPE_CHECKING
 
 from launch._supervision.orphan_guard import OrphanGuard
+from launch._supervision.program import Child, execute, Program
 
 if TYPE_CHECKING:
+    from launch._supervision.prefork.prefork import Prefork
     from launch._supervision.running_process import RunningProcess
 
 
@@ -18,6 +20,17 @@ class ProcessRegistry:
         """Create an empty registry."""
         self._processes: set[RunningProcess] = set()
         self._guard = OrphanGuard()
+        self._prefork: Optional[Prefork] = None
+
+    async def spawn(self, program: Program, stdout: int, stderr: int) -> Child:
+        """Start a program; it is forked if that is faster and makes no difference to it."""
+        if program.preloader is None:
+            return await execute(program, stdout, stderr)
+        if self._prefork is None:
+            from launch._supervision.prefork.prefork import Prefork
+
+            self._prefork = Prefork(self._guard)
+        return await self._prefork.spawn(program, stdout, stderr)
 
     def add(self, process: RunningProcess) -> None:
         """Note a process that was started."""
@@ -31,6 +44,8 @@ class ProcessRegistry:
 
     def close(self) -> None:
         """Kill what is still running; after an orderly shutdown that is nothing."""
+        if self._prefork is not None:
+            self._prefork.close()
         for process in self._processes:
             process.kill_at_once()
             self._guard.remove(process.pid)

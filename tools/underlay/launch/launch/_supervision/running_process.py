@@ -4,16 +4,15 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 import os
 import signal
-import subprocess
-from typing import Optional
 
 from launch._supervision.exit_watch import watch_exit
 from launch._supervision.output_stream import OutputStream
 from launch._supervision.process_group import send_signal
+from launch._supervision.program import Child, Program, Spawn
 
 OnOutput = Callable[[int, bytes], None]
 
@@ -23,39 +22,19 @@ class RunningProcess:
 
     def __init__(
         self,
-        command: Sequence[str],
+        child: Child,
+        readers: Sequence[int],
         *,
-        cwd: Optional[str],
-        env: Optional[Mapping[str, str]],
-        shell: bool,
-        emulate_tty: bool,
         loop: asyncio.AbstractEventLoop,
         on_output: OnOutput,
     ) -> None:
-        """Start a process; what it writes goes to `on_output` with the stream, 1 or 2."""
-        readers, writers = zip(*[_channel(emulate_tty) for _ in range(2)])
-        try:
-            self._child: subprocess.Popen[bytes] = subprocess.Popen(
-                ' '.join(command) if shell else list(command),
-                shell=shell,
-                cwd=cwd,
-                env=env,
-                stdin=subprocess.PIPE,
-                stdout=writers[0],
-                stderr=writers[1],
-                bufsize=0,
-                start_new_session=True,
-            )
-        except BaseException:
-            _close(readers)
-            raise
-        finally:
-            _close(writers)
+        """Take over a child; what it writes goes to `on_output` with the stream, 1 or 2."""
+        self._child = child
         self._streams = [
             OutputStream(loop, reader, partial(on_output, number))
             for number, reader in zip((1, 2), readers)
         ]
-        self.exited = watch_exit(self._child, loop)
+        self.exited = watch_exit(child, loop)
 
     @property
     def pid(self) -> int:
@@ -91,6 +70,26 @@ class RunningProcess:
         send_signal(self.pid, signal.SIGKILL)
         self._child.wait()
         self.close()
+
+
+async def start_process(
+    program: Program,
+    *,
+    spawn: Spawn,
+    emulate_tty: bool,
+    loop: asyncio.AbstractEventLoop,
+    on_output: OnOutput,
+) -> RunningProcess:
+    """Start a program in a session and a group of its own."""
+    readers, writers = zip(*[_channel(emulate_tty) for _ in range(2)])
+    try:
+        child = await spawn(program, *writers)
+    except BaseException:
+        _close(readers)
+        raise
+    finally:
+        _close(writers)
+    return RunningProcess(child, readers, loop=loop, on_output=on_output)
 
 
 def _channel(emulate_tty: bool) -> tuple[int, int]:

@@ -13,7 +13,8 @@ from launch._supervision.leftovers import end_leftovers
 from launch._supervision.line_format import LineFormat
 from launch._supervision.process_options import ProcessOptions
 from launch._supervision.process_output import ProcessOutput
-from launch._supervision.running_process import RunningProcess
+from launch._supervision.program import execute, Program
+from launch._supervision.running_process import RunningProcess, start_process
 from launch._supervision.spawn_failure import explain_spawn_failure
 from launch.events.process.process_exited import ProcessExited
 from launch.events.process.process_started import ProcessStarted
@@ -105,7 +106,7 @@ class Supervisor:
 
     async def _run_once(self) -> bool:
         """Run the process to its end; return whether it could be started."""
-        process = self._start()
+        process = await self._start()
         if process is None:
             return False
         self._process = process
@@ -120,14 +121,12 @@ class Supervisor:
             self._forget(process)
         return True
 
-    def _start(self) -> Optional[RunningProcess]:
+    async def _start(self) -> Optional[RunningProcess]:
         details = self._details
         try:
-            process = RunningProcess(
-                details['cmd'],
-                cwd=details['cwd'],
-                env=details['env'],
-                shell=self._options.shell,
+            process = await start_process(
+                self._program(),
+                spawn=self._context._spawn or execute,
                 emulate_tty=self._options.wants_tty(self._context),
                 loop=self._loop,
                 on_output=self._on_output,
@@ -139,6 +138,16 @@ class Supervisor:
         if self._context._processes is not None:
             self._context._processes.add(process)
         return process
+
+    def _program(self) -> Program:
+        details = self._details
+        return Program(
+            command=details['cmd'],
+            cwd=details['cwd'],
+            env=details['env'],
+            shell=self._options.shell,
+            preloader=self._action.preloader,
+        )
 
     def _report_start(self, process: RunningProcess) -> None:
         self._details['pid'] = process.pid

@@ -16,6 +16,8 @@ from launch.utilities.perform_substitutions_impl import perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
 if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
 
 
@@ -36,6 +38,20 @@ class AppendEnvironmentVariable(Action):
         self.__value = normalize_to_list_of_substitutions(value)
         self.__prepend = normalize_typed_substitution(prepend, bool)
         self.__separator = normalize_to_list_of_substitutions(separator)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Return the class, and what to construct it with, for an element of a launch file."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
+        kwargs['value'] = parser.parse_substitution(entity.get_attr('value'))
+        prepend = entity.get_attr('prepend', data_type=bool, optional=True)
+        if prepend is not None:
+            kwargs['prepend'] = parser.parse_if_substitutions(prepend)
+        separator = entity.get_attr('separator', optional=True)
+        if separator is not None:
+            kwargs['separator'] = parser.parse_substitution(separator)
+        return cls, kwargs
 
     @property
     def name(self) -> list[Substitution]:

@@ -16,6 +16,8 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
 
 
@@ -41,6 +43,24 @@ class DeclareLaunchArgument(Action):
             None if default_value is None else normalize_to_list_of_substitutions(default_value)
         )
         self._check_choices(default_value)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Return the class, and what to construct it with, for an element of a launch file."""
+        from launch.frontend._children import children_named
+
+        _, kwargs = super().parse(entity, parser)
+        kwargs['name'] = parser.escape_characters(entity.get_attr('name'))
+        default = entity.get_attr('default', optional=True)
+        if default is not None:
+            kwargs['default_value'] = parser.parse_substitution(default)
+        description = entity.get_attr('description', optional=True)
+        if description is not None:
+            kwargs['description'] = parser.escape_characters(description)
+        choices = children_named(entity, 'choice')
+        if choices:
+            kwargs['choices'] = [_parse_choice(choice, parser) for choice in choices]
+        return cls, kwargs
 
     def _check_choices(self, default_value: Any) -> None:
         if self.__choices is None:
@@ -105,6 +125,12 @@ def _describe(description: Optional[str], choices: Optional[Iterable[str]]) -> s
         return f'One of: {choices}'
     stop = '' if description.endswith('.') else '.'
     return f'{description}{stop} Valid choices are: {choices}'
+
+
+def _parse_choice(entity: Entity, parser: Parser) -> str:
+    value = parser.escape_characters(entity.get_attr('value'))
+    entity.assert_entity_completely_parsed()
+    return value
 
 
 def _fail(text: str) -> NoReturn:

@@ -29,6 +29,9 @@ _OVERRIDE_OUTPUT = 'OVERRIDE_LAUNCH_PROCESS_OUTPUT'
 class ExecuteLocal(Action):
     """Runs the program that a description stands for, and watches over it."""
 
+    preloader: Optional[str] = None
+    """The module that knows what Python programs of this kind import; without, none is forked."""
+
     def __init__(
         self,
         *,

@@ -4,11 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, Optional
+from typing import Any, Optional, TYPE_CHECKING
 
 from launch.actions.execute_local import ExecuteLocal
 from launch.descriptions.executable import Executable, SomeVariables
 from launch.some_substitutions_type import SomeSubstitutionsType
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
 
 
 class ExecuteProcess(ExecuteLocal):
@@ -39,3 +43,17 @@ class ExecuteProcess(ExecuteLocal):
             cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env
         )
         super().__init__(process_description=description, **kwargs)
+
+    @classmethod
+    def parse(
+        cls,
+        entity: Entity,
+        parser: Parser,
+        ignore: Optional[Iterable[str]] = None,
+    ) -> tuple[Any, dict[str, Any]]:
+        """Return the class and its arguments; attributes to `ignore` are left to the caller."""
+        from launch.frontend._process_attributes import parse_process
+
+        _, kwargs = super().parse(entity, parser)
+        kwargs.update(parse_process(entity, parser, frozenset(ignore or ())))
+        return cls, kwargs

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any, Optional, TYPE_CHECKING
+from typing import Any, Optional, TYPE_CHECKING, Union
 
 from launch.action import Action
 from launch.actions.pop_environment import PopEnvironment
@@ -16,8 +16,15 @@ from launch.actions.reset_launch_configurations import ResetLaunchConfigurations
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.utilities.type_utils import (
+    is_substitution,
+    normalize_typed_substitution,
+    perform_typed_substitution,
+)
 
 if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
 
 
@@ -28,8 +35,8 @@ class GroupAction(Action):
         self,
         actions: Iterable[LaunchDescriptionEntity],
         *,
-        scoped: bool = True,
-        forwarding: bool = True,
+        scoped: Union[bool, SomeSubstitutionsType] = True,
+        forwarding: Union[bool, SomeSubstitutionsType] = True,
         launch_configurations: Optional[
             Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
         ] = None,
@@ -38,18 +45,35 @@ class GroupAction(Action):
         """Create the group; without `forwarding` only `launch_configurations` get into it."""
         super().__init__(**left_over_kwargs)
         self.__actions = list(actions)
-        self.__scoped = scoped
-        self.__forwarding = forwarding
+        self.__scoped = normalize_typed_substitution(scoped, bool)
+        self.__forwarding = normalize_typed_substitution(forwarding, bool)
         self.__launch_configurations = dict(launch_configurations or {})
         self.__entities: Optional[list[LaunchDescriptionEntity]] = None
 
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Return the class, and what to construct it with, for an element of a launch file."""
+        from launch.frontend._children import parse_pairs
+
+        _, kwargs = super().parse(entity, parser)
+        for name in ('scoped', 'forwarding'):
+            value = entity.get_attr(name, data_type=bool, optional=True)
+            if value is not None:
+                kwargs[name] = parser.parse_if_substitutions(value)
+        kwargs['launch_configurations'] = dict(parse_pairs(entity, parser, 'keep'))
+        kwargs['actions'] = parser.parse_actions(
+            child for child in entity.children if child.type_name != 'keep'
+        )
+        return cls, kwargs
+
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the actions, with those around them that make the scope."""
+        """Return the actions, with those around them that make the scope, if it is one."""
         if self.__entities is None:
-            self.__entities = (
-                self._in_scope() if self.__scoped else [*self._settings(), *self.__actions]
-            )
+            self.__entities = self._around_actions(bool(self.__scoped), bool(self.__forwarding))
         return self.__entities
+
+    def _around_actions(self, scoped: bool, forwarding: bool) -> list[LaunchDescriptionEntity]:
+        return self._in_scope(forwarding) if scoped else [*self._settings(), *self.__actions]
 
     def _settings(self) -> list[LaunchDescriptionEntity]:
         return [
@@ -57,9 +81,9 @@ class GroupAction(Action):
             for name, value in self.__launch_configurations.items()
         ]
 
-    def _in_scope(self) -> list[LaunchDescriptionEntity]:
+    def _in_scope(self, forwarding: bool) -> list[LaunchDescriptionEntity]:
         start: list[LaunchDescriptionEntity] = [PushLaunchConfigurations(), PushEnvironment()]
-        if self.__forwarding:
+        if forwarding:
             start += self._settings()
         else:
             start += [ResetEnvironment(), ResetLaunchConfigurations(self.__launch_configurations)]
@@ -67,4 +91,9 @@ class GroupAction(Action):
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Return the actions, which are visited next."""
-        return self.get_sub_entities()
+        if not is_substitution(self.__scoped) and not is_substitution(self.__forwarding):
+            return self.get_sub_entities()
+        return self._around_actions(
+            perform_typed_substitution(context, self.__scoped, bool),
+            perform_typed_substitution(context, self.__forwarding, bool),
+        )

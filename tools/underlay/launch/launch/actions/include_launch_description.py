@@ -20,6 +20,8 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
 
 Arguments = Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]]
@@ -45,6 +47,17 @@ class IncludeLaunchDescription(Action):
             launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
         self.__source = launch_description_source
         self.__launch_arguments = () if launch_arguments is None else tuple(launch_arguments)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Return the class, and what to construct it with, for an element of a launch file."""
+        from launch.frontend._children import parse_pairs
+
+        _, kwargs = super().parse(entity, parser)
+        path = parser.parse_substitution(entity.get_attr('file'))
+        kwargs['launch_description_source'] = path
+        kwargs['launch_arguments'] = parse_pairs(entity, parser, 'arg', 'let')
+        return cls, kwargs
 
     @property
     def launch_description_source(self) -> LaunchDescriptionSource:

@@ -14,6 +14,8 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
 
 
@@ -33,6 +35,15 @@ class ResetLaunchConfigurations(Action):
             (normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value))
             for name, value in (launch_configurations or {}).items()
         ]
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Return the class, and what to construct it with, for an element of a launch file."""
+        from launch.frontend._children import parse_pairs
+
+        _, kwargs = super().parse(entity, parser)
+        kwargs['launch_configurations'] = dict(parse_pairs(entity, parser, 'keep'))
+        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         """Remove them."""

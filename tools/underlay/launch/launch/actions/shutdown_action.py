@@ -15,6 +15,8 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
 
 
@@ -30,6 +32,15 @@ class Shutdown(Action):
         """Create the action, with the reason for people."""
         super().__init__(**kwargs)
         self.__reason = normalize_to_list_of_substitutions(reason)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Return the class, and what to construct it with, for an element of a launch file."""
+        _, kwargs = super().parse(entity, parser)
+        reason = entity.get_attr('reason', optional=True)
+        if reason is not None:
+            kwargs['reason'] = parser.parse_substitution(reason)
+        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         """Emit the event of the shutdown."""

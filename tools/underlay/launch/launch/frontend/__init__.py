@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the file formats besides Python share."""
+"""Launch files in other formats than Python: what their readers share."""
 
 from __future__ import annotations
 
@@ -8,10 +8,31 @@ from typing import TYPE_CHECKING
 from launch._lazy import lazy_exports
 
 if TYPE_CHECKING:
+    from launch.frontend import expose, parse_substitution, type_utils
+    from launch.frontend.entity import Entity
+    from launch.frontend.expose import expose_action, expose_substitution
     from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
+    from launch.frontend.invalid_substitution_error import InvalidSubstitutionError
+    from launch.frontend.parser import Parser
 
 __all__ = [
+    'Entity',
     'InvalidFrontendLaunchFileError',
+    'InvalidSubstitutionError',
+    'Parser',
+    'expose',
+    'expose_action',
+    'expose_substitution',
+    'parse_substitution',
+    'type_utils',
 ]
 
-__getattr__, __dir__ = lazy_exports(__name__, __all__)
+_ELSEWHERE = {
+    'expose': '',
+    'expose_action': 'expose',
+    'expose_substitution': 'expose',
+    'parse_substitution': '',
+    'type_utils': '',
+}
+
+__getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

@@ -12,5 +12,6 @@ class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
     def __init__(self, text: str = '') -> None:
         """Create the error; without a text it says that the format is unknown."""
         super().__init__()
+        self.is_about_content = bool(text)
         if text:
             self.args = (text,)

@@ -14,6 +14,12 @@ if TYPE_CHECKING:
     from launch.launch_description_sources.any_launch_file_utilities import (
         get_launch_description_from_any_launch_file,
     )
+    from launch.launch_description_sources.frontend_launch_description_source import (
+        FrontendLaunchDescriptionSource,
+    )
+    from launch.launch_description_sources.frontend_launch_file_utilities import (
+        get_launch_description_from_frontend_launch_file,
+    )
     from launch.launch_description_sources.python_launch_description_source import (
         PythonLaunchDescriptionSource,
     )
@@ -25,9 +31,11 @@ if TYPE_CHECKING:
 
 __all__ = [
     'AnyLaunchDescriptionSource',
+    'FrontendLaunchDescriptionSource',
     'InvalidPythonLaunchFileError',
     'PythonLaunchDescriptionSource',
     'get_launch_description_from_any_launch_file',
+    'get_launch_description_from_frontend_launch_file',
     'get_launch_description_from_python_launch_file',
     'load_python_launch_file_as_module',
 ]
@@ -35,6 +43,7 @@ __all__ = [
 _ELSEWHERE = {
     'InvalidPythonLaunchFileError': 'python_launch_file_utilities',
     'get_launch_description_from_any_launch_file': 'any_launch_file_utilities',
+    'get_launch_description_from_frontend_launch_file': 'frontend_launch_file_utilities',
     'get_launch_description_from_python_launch_file': 'python_launch_file_utilities',
     'load_python_launch_file_as_module': 'python_launch_file_utilities',
 }

@@ -8,12 +8,12 @@ import os
 from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
+from launch.launch_description_sources._missing_file import missing_file
 from launch.launch_description_sources.python_launch_file_utilities import (
     get_launch_description_from_python_launch_file,
-    missing_file,
 )
 
-_OTHER_FORMATS = ('.xml', '.launch', '.yaml', '.yml')
+_PYTHON = '.py'
 
 
 def get_launch_description_from_any_launch_file(
@@ -24,20 +24,41 @@ def get_launch_description_from_any_launch_file(
     if not os.path.isfile(path):
         raise FileNotFoundError(missing_file(path))
     extension = os.path.splitext(path)[1]
-    if extension in _OTHER_FORMATS:
-        raise InvalidFrontendLaunchFileError(
-            f"The launch file may have a syntax error, or its format is unknown: '{path}' is not "
-            'a launch file in Python, the only format that this version reads'
-        )
     try:
-        return get_launch_description_from_python_launch_file(path)
+        return _load_first(path, extension)
     except Exception as error:
-        raise _both(path, extension, error) from error
+        first = error
+    try:
+        return _load_second(path, extension)
+    except Exception as error:
+        raise _both(extension, first, error) from first
 
 
-def _both(path: str, extension: str, error: Exception) -> InvalidLaunchFileError:
-    """Return the error of a file that is neither Python nor anything else."""
-    if extension != '.py' and isinstance(error, SyntaxError):
+def _load_first(path: str, extension: str) -> LaunchDescription:
+    """Load a file in the format that its name tells."""
+    if extension == _PYTHON:
+        return get_launch_description_from_python_launch_file(path)
+    return _load_other_format(path)
+
+
+def _load_second(path: str, extension: str) -> LaunchDescription:
+    """Load it in another format; files named as Python's are Python or nothing."""
+    if extension == _PYTHON:
+        raise InvalidFrontendLaunchFileError()
+    return get_launch_description_from_python_launch_file(path)
+
+
+def _load_other_format(path: str) -> LaunchDescription:
+    from launch.launch_description_sources.frontend_launch_file_utilities import (
+        get_launch_description_from_frontend_launch_file,
+    )
+
+    return get_launch_description_from_frontend_launch_file(path)
+
+
+def _both(extension: str, first: Exception, second: Exception) -> InvalidLaunchFileError:
+    """Return the error of a file that could not be loaded in either way."""
+    unknown = isinstance(first, InvalidFrontendLaunchFileError) and not first.is_about_content
+    if unknown and isinstance(second, SyntaxError):
         return InvalidFrontendLaunchFileError()
-    errors: list[BaseException] = [error, InvalidFrontendLaunchFileError()]
-    return InvalidLaunchFileError(extension, likely_errors=errors)
+    return InvalidLaunchFileError(extension, likely_errors=[first, second])

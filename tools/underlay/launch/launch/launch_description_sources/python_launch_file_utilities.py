@@ -9,9 +9,10 @@ import os
 from traceback import walk_tb
 from types import ModuleType
 
-from launch._call_site import CallSite
+from launch._call_site import CallSite, note_place
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
+from launch.launch_description_sources._missing_file import missing_file
 
 _MODULE_NAME = 'python_launch_file'
 
@@ -73,21 +74,9 @@ def _generate(path: str) -> LaunchDescription:
     return result
 
 
-def missing_file(path: str) -> str:
-    """Say that a launch file does not exist, and which one in its folder comes closest."""
-    import difflib
-
-    folder, name = os.path.split(path)
-    there = os.listdir(folder or '.') if os.path.isdir(folder or '.') else []
-    close = difflib.get_close_matches(name, there, n=1)
-    hint = f". Did you mean '{close[0]}'?" if close else ''
-    return f"the launch file '{path}' does not exist{hint}"
-
-
 def _point_at_line(path: str, error: Exception) -> None:
     """Note on an exception the last line of the launch file that led to it."""
     lines = [
         line for frame, line in walk_tb(error.__traceback__) if frame.f_code.co_filename == path
     ]
-    if lines and not hasattr(error, 'launch_call_site'):
-        error.launch_call_site = CallSite(path, lines[-1])  # type: ignore[attr-defined]
+    note_place(error, CallSite(path, lines[-1]) if lines else None)

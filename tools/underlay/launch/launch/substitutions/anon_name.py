@@ -22,6 +22,8 @@ _FORBIDDEN = str.maketrans('.-:', '___')
 class AnonName(Substitution):
     """Stands for a name made unique; the same name always gives the same result."""
 
+    frontend_required = ('name',)
+
     def __init__(self, name: SomeSubstitutionsType) -> None:
         """Create the substitution of a name."""
         self.__name = normalize_to_list_of_substitutions(name)

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Sequence
+from functools import partial
+from typing import Any, TYPE_CHECKING
 
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
@@ -49,6 +50,8 @@ class _BooleanSubstitution(Substitution):
 class NotSubstitution(_BooleanSubstitution):
     """Stands for `true` if the operand is false, and the other way round."""
 
+    frontend_required = ('value',)
+
     def __init__(self, value: SomeSubstitutionsType) -> None:
         """Create the substitution of an operand."""
         super().__init__(value)
@@ -64,6 +67,8 @@ class NotSubstitution(_BooleanSubstitution):
 
 class _BinarySubstitution(_BooleanSubstitution):
     """The base of the logic with two operands."""
+
+    frontend_required = ('left', 'right')
 
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
         """Create the substitution of two operands."""
@@ -94,25 +99,29 @@ class OrSubstitution(_BinarySubstitution):
         return any(values)
 
 
-class AnySubstitution(_BooleanSubstitution):
-    """Stands for `true` if any of the operands is true."""
+class _ManySubstitution(_BooleanSubstitution):
+    """The base of the logic with any number of operands."""
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[Any, dict[str, Any]]:
+        """Return what creates the substitution of any number of operands."""
+        return partial(cls, *data), {}
 
     @property
     def args(self) -> Iterable[list[Substitution]]:
         """Return the operands."""
         return self._operands
+
+
+class AnySubstitution(_ManySubstitution):
+    """Stands for `true` if any of the operands is true."""
 
     def _decide(self, values: list[bool]) -> bool:
         return any(values)
 
 
-class AllSubstitution(_BooleanSubstitution):
+class AllSubstitution(_ManySubstitution):
     """Stands for `true` if all operands are true."""
-
-    @property
-    def args(self) -> Iterable[list[Substitution]]:
-        """Return the operands."""
-        return self._operands
 
     def _decide(self, values: list[bool]) -> bool:
         return all(values)

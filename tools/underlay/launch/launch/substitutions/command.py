@@ -25,6 +25,9 @@ _MODES = ('fail', 'ignore', 'warn', 'capture')
 class Command(Substitution):
     """Stands for what a command writes to its standard output."""
 
+    frontend_required = ('command',)
+    frontend_optional = ('on_stderr',)
+
     def __init__(
         self,
         command: SomeSubstitutionsType,

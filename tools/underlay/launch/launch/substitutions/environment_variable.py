@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 class EnvironmentVariable(Substitution):
     """Stands for the value that an environment variable has at run time."""
 
+    frontend_required = ('name',)
+    frontend_optional = ('default_value',)
+
     def __init__(
         self,
         name: SomeSubstitutionsType,

@@ -21,6 +21,8 @@ Comparable = Optional[Union[bool, int, float, SomeSubstitutionsType]]
 class EqualsSubstitution(Substitution):
     """Stands for `true` if two values are equal, as truth values, numbers or texts."""
 
+    frontend_required = ('left', 'right')
+
     def __init__(self, left: Comparable, right: Comparable) -> None:
         """Create the substitution of two values."""
         self.__left = _normalize(left)

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 class FileContent(Substitution):
     """Stands for the text in a file."""
 
+    frontend_required = ('path',)
+
     def __init__(self, path: SomeSubstitutionsType) -> None:
         """Create the substitution of the file at a path."""
         self.__path = normalize_to_list_of_substitutions(path)

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 class FindExecutable(Substitution):
     """Stands for the path of a program that the shell would find."""
 
+    frontend_required = ('name',)
+
     def __init__(self, *, name: SomeSubstitutionsType) -> None:
         """Create the substitution of the program with this name."""
         self.__name = normalize_to_list_of_substitutions(name)

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 class IfElseSubstitution(Substitution):
     """Stands for one of two texts; only the one that is chosen is performed."""
 
+    frontend_required = ('condition',)
+    frontend_optional = ('if_value', 'else_value')
+
     def __init__(
         self,
         condition: SomeSubstitutionsType,

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 class LaunchConfiguration(Substitution):
     """Stands for the value that a launch configuration has at run time."""
 
+    frontend_required = ('variable_name',)
+    frontend_optional = ('default',)
+
     def __init__(
         self,
         variable_name: SomeSubstitutionsType,

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib import import_module
 from typing import Any, TYPE_CHECKING
 
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 class PythonExpression(Substitution):
     """Stands for the value of a Python expression, as a text."""
 
+    frontend_required = ('expression',)
+    frontend_optional = ('python_modules',)
+
     def __init__(
         self,
         expression: SomeSubstitutionsType,
@@ -28,6 +32,17 @@ class PythonExpression(Substitution):
         """Create the substitution; the expression can use the modules named, no others."""
         self.__expression = normalize_to_list_of_substitutions(expression)
         self.__python_modules = normalize_to_list_of_substitutions(python_modules)
+
+    @classmethod
+    def parse(cls, data: Sequence[Any]) -> tuple[Any, dict[str, Any]]:
+        """Return the class and its arguments; the modules are separated by commas."""
+        _, kwargs = super().parse(data)
+        if 'python_modules' in kwargs:
+            from launch.launch_context import LaunchContext
+
+            names = perform_substitutions(LaunchContext(), kwargs['python_modules'])
+            kwargs['python_modules'] = [name.strip() for name in names.split(',')]
+        return cls, kwargs
 
     @property
     def expression(self) -> list[Substitution]:

@@ -11,11 +11,16 @@ _FALSE = frozenset(('false', 'False', 'FALSE', 'no', 'No', 'NO', 'off', 'Off', '
 _NOTHING = frozenset(('null', 'Null', 'NULL'))
 _DECIMAL = re.compile(r'[-+]?(?:0|[1-9][0-9]*)')
 _POINT = re.compile(r'[-+]?[0-9]+\.[0-9]*(?:[eE][-+][0-9]+)?')
+EXPONENT = re.compile(r'[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+')
 _PLAIN_WORD = re.compile(r'[A-Za-z/_][A-Za-z0-9/_.-]*')
 
 
 def read_yaml(text: str) -> Any:
-    """Return what a YAML document says; the common scalars are read here."""
+    """
+    Return what a YAML document says; a ValueError says that it is none.
+
+    The common scalars are read here.
+    """
     if text in _TRUE:
         return True
     if text in _FALSE:
@@ -28,7 +33,15 @@ def read_yaml(text: str) -> Any:
         return text
     import yaml
 
-    return yaml.safe_load(text)
+    try:
+        return yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise ValueError(f"'{text}' is not YAML: {error}") from error
+
+
+def read_value(text: str) -> Any:
+    """Return the same, but read `1e3` as a number, as YAML 1.2 and ROS do."""
+    return float(text) if EXPONENT.fullmatch(text) else read_yaml(text)
 
 
 def read_boolean(text: str) -> bool:

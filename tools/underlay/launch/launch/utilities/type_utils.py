@@ -8,7 +8,7 @@ import os
 from typing import Any, get_args, get_origin, Optional, TYPE_CHECKING
 
 from launch.substitution import Substitution
-from launch.utilities._scalars import read_boolean, read_yaml
+from launch.utilities._scalars import read_boolean, read_value
 from launch.utilities.normalize_to_list_of_substitutions_impl import (
     normalize_to_list_of_substitutions,
 )
@@ -33,8 +33,10 @@ def normalize_typed_substitution(value: Any, data_type: Optional[Any]) -> Any:
     """Return a value of the type as it is, and anything like a text as substitutions."""
     if isinstance(value, (str, os.PathLike)) or is_substitution(value):
         return normalize_to_list_of_substitutions(value)
-    if data_type is not None and not _fits(value, data_type):
-        raise TypeError(f"value='{value!r}' is not of type '{_name(data_type)}'")
+    if _has_texts_as_items(value):
+        return [tuple(normalize_to_list_of_substitutions(item)) for item in value]
+    if data_type is not None and not has_type(value, data_type):
+        raise TypeError(f"value='{value!r}' is not of type '{type_name(data_type)}'")
     return value
 
 
@@ -46,9 +48,20 @@ def perform_typed_substitution(
     """Perform a value from `normalize_typed_substitution` and give it the type."""
     if is_substitution(value):
         value = perform_substitutions(context, normalize_to_list_of_substitutions(value))
+    elif _has_texts_as_items(value):
+        item_type = get_args(data_type)[0] if get_origin(data_type) is list else None
+        items = [coerce_to_type(perform_substitutions(context, item), item_type) for item in value]
+        return items if data_type is not None else uniform_or_raise(items)
     if isinstance(value, str):
         return coerce_to_type(value, data_type)
     return value
+
+
+def _has_texts_as_items(value: Any) -> bool:
+    """Return whether a value is a list of lists with substitutions, each of which is an item."""
+    return isinstance(value, list) and any(
+        isinstance(item, (list, tuple)) and is_substitution(item) for item in value
+    )
 
 
 def coerce_to_type(value: str, data_type: Optional[Any] = None) -> Any:
@@ -65,32 +78,47 @@ def coerce_to_type(value: str, data_type: Optional[Any] = None) -> Any:
 
 
 def _coerce_by_yaml(text: str) -> Any:
-    value = read_yaml(text)
-    items = value if isinstance(value, list) else [value]
-    kinds = {type(item) for item in items}
-    if len(kinds) > 1 or not kinds.issubset(_SCALARS):
+    value = read_value(text)
+    if isinstance(value, list):
+        return uniform_or_raise(value)
+    if not isinstance(value, _SCALARS):
         raise ValueError(
             f"cannot read '{text}' as one of str, int, float, bool or a list of one of them"
         )
     return value
 
 
+def uniform_or_raise(items: list[Any]) -> list[Any]:
+    """Return a list if its items have one of the scalar types, and all the same."""
+    kinds = {type(item) for item in items}
+    if len(kinds) > 1 or not kinds.issubset(_SCALARS):
+        raise ValueError(
+            f'The result is a non-uniform list: {items!r}, but all items must be str, int, float '
+            'or bool'
+        )
+    return items
+
+
 def _coerce_to_list(text: str, item_type: Any) -> list[Any]:
-    value = read_yaml(text)
-    if not isinstance(value, list) or not all(_fits(item, item_type) for item in value):
-        raise ValueError(f"cannot read '{text}' as a list of {_name(item_type)}")
+    value = read_value(text)
+    if not isinstance(value, list) or not all(has_type(item, item_type) for item in value):
+        raise ValueError(f"cannot read '{text}' as a list of {type_name(item_type)}")
     return [item_type(item) for item in value]
 
 
-def _fits(value: Any, data_type: Any) -> bool:
+def has_type(value: Any, data_type: Any) -> bool:
+    """Return whether a value has a type; whole numbers count as floats, too."""
     if get_origin(data_type) is list:
         return isinstance(value, (list, tuple)) and all(
-            _fits(item, get_args(data_type)[0]) for item in value
+            has_type(item, get_args(data_type)[0]) for item in value
         )
     if isinstance(value, bool):
         return data_type is bool
     return isinstance(value, (int, float) if data_type is float else data_type)
 
 
-def _name(data_type: Any) -> str:
+def type_name(data_type: Any) -> str:
+    """Return the name of a type for people."""
+    if data_type is None:
+        return 'str, int, float, bool or list of one of them'
     return getattr(data_type, '__name__', str(data_type))

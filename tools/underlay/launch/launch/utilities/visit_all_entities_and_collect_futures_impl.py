@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Any, TYPE_CHECKING
 
+from launch._call_site import note_place
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ def visit_into(
             for child in children:
                 visit_into(_checked(child, entity), context, futures)
     except Exception as error:
-        _remember_place(error, entity)
+        note_place(error, getattr(entity, 'call_site', None), type(entity).__name__)
         raise
 
 
@@ -52,11 +53,3 @@ def _checked(child: LaunchDescriptionEntity, parent: LaunchDescriptionEntity) ->
         f"'{type(child).__name__}' object has no attribute 'visit': the entities of "
         f'{type(parent).__name__} must be actions or launch descriptions, but one is {child!r}'
     )
-
-
-def _remember_place(error: Exception, entity: LaunchDescriptionEntity) -> None:
-    """Note on the exception which line created the innermost action that failed."""
-    place = getattr(entity, 'call_site', None)
-    if place is not None and not hasattr(error, 'launch_call_site'):
-        error.launch_call_site = place  # type: ignore[attr-defined]
-        error.launch_action_name = type(entity).__name__  # type: ignore[attr-defined]

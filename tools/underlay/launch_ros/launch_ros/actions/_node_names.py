@@ -41,17 +41,22 @@ class NodeNames:
         return f'{self.described_namespace.rstrip("/")}/{name}'
 
     @property
+    def name_in_root(self) -> str:
+        """Return the full name of a node that is in the root unless a namespace is known."""
+        return NodeNames(self.name, self.namespace or '/').full_name
+
+    @property
     def parameter_key(self) -> str:
         """Return which nodes a parameter file is for: this one, or any if it is not known."""
         return self.full_name if self.are_complete else '/**'
 
-    def arguments(self) -> list[str]:
-        """Return what the node is told."""
-        arguments = []
+    def ros_specific_arguments(self) -> dict[str, str]:
+        """Return what the node is told, by what it is about."""
+        arguments = {}
         if self.name is not None:
-            arguments += ['-r', f'__node:={self.name}']
+            arguments['name'] = f'__node:={self.name}'
         if self.namespace is not None:
-            arguments += ['-r', f'__ns:={self.namespace}']
+            arguments['ns'] = f'__ns:={self.namespace}'
         return arguments
 
 

@@ -5,28 +5,36 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 import os
-from typing import Any
+from typing import Any, Union
 
 from launch.launch_context import LaunchContext
-from launch.logging import get_logger
 from launch_ros.actions._node_names import NodeNames
 from launch_ros.parameter_descriptions import Parameter
 from launch_ros.utilities.evaluate_parameters_impl import evaluate_parameters, EvaluatedParameters
 from launch_ros.utilities.normalize_parameters_impl import NormalizedParameters
 from launch_ros.utilities.normalize_remap_rules_impl import evaluate_remap_rule, RemapRule
-from launch_ros.utilities.parameter_files import write_parameter_file
+from launch_ros.utilities.parameter_files import is_parameter_file, write_parameter_file
 from launch_ros.utilities.yaml_text import flow_text
 
 
 def global_arguments(context: LaunchContext) -> list[str]:
     """Return the parameters and files that are set for all nodes, in order."""
     arguments = []
-    for item in context.launch_configurations.get('global_params', []):
-        if isinstance(item, tuple):
-            arguments += ['-p', f'{item[0]}:={_global_text(item[1])}']
+    for element in global_parameters(context):
+        if isinstance(element, dict):
+            for name, value in element.items():
+                arguments += ['-p', f'{name}:={_global_text(value)}']
         else:
-            arguments += ['--params-file', os.fspath(item)]
+            arguments += ['--params-file', element]
     return arguments
+
+
+def global_parameters(context: LaunchContext) -> list[Union[dict[str, Any], str]]:
+    """Return the parameters and the paths of files that are set for all nodes, in order."""
+    return [
+        {item[0]: item[1]} if isinstance(item, tuple) else os.fspath(item)
+        for item in context.launch_configurations.get('global_params', [])
+    ]
 
 
 def _global_text(value: Any) -> str:
@@ -51,18 +59,20 @@ def _parameter_argument(element: EvaluatedParameters, names: NodeNames) -> list[
         return ['-p', element.get_parameter_rule()]
     if isinstance(element, dict):
         return ['--params-file', write_parameter_file(names.parameter_key, element)]
-    if os.path.isfile(element):
-        return ['--params-file', element]
-    get_logger('launch_ros.actions.node').warning('Parameter file path is not a file: %s', element)
-    return []
+    return ['--params-file', element] if is_parameter_file(element) else []
 
 
-def remap_arguments(
-    context: LaunchContext,
-    rules: Iterable[RemapRule],
-) -> tuple[list[str], list[tuple[str, str]]]:
-    """Return the remappings of all nodes and of this one as arguments, and as pairs."""
+def remap_pairs(context: LaunchContext, rules: Iterable[RemapRule]) -> list[tuple[str, str]]:
+    """Return the remappings of all nodes and then those of one, with both sides as texts."""
     pairs: list[tuple[str, str]] = list(context.launch_configurations.get('ros_remaps', []))
-    pairs += [evaluate_remap_rule(context, rule) for rule in rules]
-    arguments = [word for source, target in pairs for word in ('-r', f'{source}:={target}')]
-    return arguments, pairs
+    return pairs + [evaluate_remap_rule(context, rule) for rule in rules]
+
+
+def remap_rules(pairs: Iterable[tuple[str, str]]) -> list[str]:
+    """Return remappings as ROS reads them."""
+    return [f'{source}:={target}' for source, target in pairs]
+
+
+def rule_arguments(rules: Iterable[str]) -> list[str]:
+    """Return rules as arguments."""
+    return [word for rule in rules for word in ('-r', rule)]

@@ -4,30 +4,50 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, Optional
+from typing import Any, Optional, TYPE_CHECKING
 
-from launch.actions.execute_local import ExecuteLocal
-from launch.descriptions.executable import Executable, SomeVariables
+from launch.actions.execute_process import ExecuteProcess
+from launch.descriptions.executable import SomeVariables
 from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.utilities.normalize_to_list_of_substitutions_impl import (
     normalize_to_list_of_substitutions,
 )
+from launch_ros.actions._node_extensions import extend_node, NodeActionExtension
 from launch_ros.actions._node_names import expand_node_names, NodeNames
 from launch_ros.actions._ros_arguments import (
     global_arguments,
     own_parameter_arguments,
-    remap_arguments,
+    remap_pairs,
+    remap_rules,
+    rule_arguments,
 )
 from launch_ros.substitutions.executable_in_package import ExecutableInPackage
 from launch_ros.utilities.normalize_parameters_impl import normalize_parameters
 from launch_ros.utilities.normalize_remap_rules_impl import normalize_remap_rules
-from launch_ros.utilities.track_node_names import add_node_name
+from launch_ros.utilities.track_node_names import warn_of_same_names
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+
+__all__ = ['Node', 'NodeActionExtension']
+
+# Attributes in launch files, by the names that the constructor has for them.
+_TEXT_ATTRIBUTES = {
+    'pkg': 'package',
+    'name': 'name',
+    'namespace': 'namespace',
+    'exec_name': 'exec_name',
+}
+_COMMAND_ATTRIBUTES = {'args': 'arguments', 'ros_args': 'ros_arguments'}
 
 
-class Node(ExecuteLocal):
+class Node(ExecuteProcess):
     """Runs an executable with the arguments that ROS nodes understand."""
+
+    preloader = 'launch_ros._preload'
 
     def __init__(
         self,
@@ -68,14 +88,12 @@ class Node(ExecuteLocal):
         words = [program, *_checked_list('arguments', arguments)]
         extra = _checked_list('ros_arguments', ros_arguments)
         super().__init__(
-            process_description=Executable(
-                cmd=[*words, *(['--ros-args', *extra] if extra else [])],
-                prefix=prefix,
-                name=exec_name,
-                cwd=cwd,
-                env=env,
-                additional_env=additional_env,
-            ),
+            cmd=[*words, *(['--ros-args', *extra] if extra else [])],
+            prefix=prefix,
+            name=exec_name,
+            cwd=cwd,
+            env=env,
+            additional_env=additional_env,
             **kwargs,
         )
         self.__package = package
@@ -89,6 +107,35 @@ class Node(ExecuteLocal):
         self.__remappings = [] if remappings is None else normalize_remap_rules(remappings)
         self.__names: Optional[NodeNames] = None
         self.__expanded_remappings: Optional[list[tuple[str, str]]] = None
+
+    @classmethod
+    def parse(
+        cls,
+        entity: Entity,
+        parser: Parser,
+        ignore: Optional[Iterable[str]] = None,
+    ) -> tuple[Any, dict[str, Any]]:
+        """Return the class and its arguments; attributes to `ignore` are left to the caller."""
+        from launch.frontend._process_attributes import parse_command, parse_texts
+        from launch_ros.utilities.parse_parameters import parse_parameters, parse_remappings
+
+        _, kwargs = super().parse(entity, parser, ignore=['cmd', 'name', *(ignore or ())])
+        kwargs['executable'] = parser.parse_substitution(entity.get_attr('exec'))
+        kwargs.update(parse_texts(entity, parser, _TEXT_ATTRIBUTES))
+        for attribute, keyword in _COMMAND_ATTRIBUTES.items():
+            line = entity.get_attr(attribute, optional=True)
+            if line is not None:
+                kwargs[keyword] = parse_command(line, parser)
+        kwargs.update(parse_parameters(entity, parser))
+        kwargs.update(parse_remappings(entity, parser))
+        return cls, kwargs
+
+    @staticmethod
+    def parse_nested_parameters(params: list[Entity], parser: Parser) -> list[Any]:
+        """Return a dictionary or a file for each element `param`."""
+        from launch_ros.utilities.parse_parameters import parse_nested_parameters
+
+        return parse_nested_parameters(params, parser)
 
     @property
     def node_package(self) -> Optional[SomeSubstitutionsType]:
@@ -129,17 +176,19 @@ class Node(ExecuteLocal):
         what = f'package={self.__package}, executable={self.__executable}, {self.__raw_names}'
         names = expand_node_names(context, self.__name, self.__namespace, what)
         self.__names = names
-        remappings, self.__expanded_remappings = remap_arguments(context, self.__remappings)
+        self.__expanded_remappings = remap_pairs(context, self.__remappings)
+        added, known = extend_node(context, names.ros_specific_arguments(), self)
         self.process_description.prepare(
             context,
             self,
             shell=self.shell,
             extra_arguments=[
                 '--ros-args',
-                *names.arguments(),
+                *rule_arguments(known[each] for each in ('name', 'ns') if each in known),
                 *global_arguments(context),
                 *own_parameter_arguments(context, self.__parameters, names),
-                *remappings,
+                *rule_arguments(remap_rules(self.__expanded_remappings)),
+                *added,
             ],
         )
 
@@ -147,16 +196,7 @@ class Node(ExecuteLocal):
         """Start the node as soon as all that is being visited is done."""
         entities = super().execute(context)
         if self.is_node_name_fully_specified():
-            count = add_node_name(context, self.node_name)
-            if count > 1:
-                from launch.logging import get_logger
-
-                get_logger(self.name).warning(
-                    'there are now at least %s nodes with the name %s created within this launch '
-                    'context',
-                    count,
-                    self.node_name,
-                )
+            warn_of_same_names(context, self.node_name, self.name)
         return entities
 
 

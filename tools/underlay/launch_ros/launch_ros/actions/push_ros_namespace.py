@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 from launch.action import Action
 from launch.launch_context import LaunchContext
@@ -16,6 +16,10 @@ from launch.utilities.perform_substitutions_impl import perform_substitutions
 from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
 from launch_ros.utilities.validate_names import InvalidNameError, validate_namespace
 
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+
 
 class PushROSNamespace(Action):
     """Puts the nodes that follow below a namespace, to the end of the group that it is in."""
@@ -24,6 +28,13 @@ class PushROSNamespace(Action):
         """Create the action."""
         super().__init__(**kwargs)
         self.__namespace = normalize_to_list_of_substitutions(namespace)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Return the class, and what to construct it with, for an element of a launch file."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs['namespace'] = parser.parse_substitution(entity.get_attr('namespace'))
+        return cls, kwargs
 
     @property
     def namespace(self) -> list[Substitution]:

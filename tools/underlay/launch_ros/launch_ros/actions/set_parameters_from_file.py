@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 from launch.action import Action
 from launch.launch_context import LaunchContext
@@ -14,6 +14,10 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
 )
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+
 
 class SetParametersFromFile(Action):
     """Gives a parameter file to the nodes that follow, to the end of the group that it is in."""
@@ -22,6 +26,13 @@ class SetParametersFromFile(Action):
         """Create the action."""
         super().__init__(**kwargs)
         self.__filename = normalize_to_list_of_substitutions(filename)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Return the class, and what to construct it with, for an element of a launch file."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs['filename'] = parser.parse_substitution(entity.get_attr('filename'))
+        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         """Set them."""

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 from launch.action import Action
 from launch.launch_context import LaunchContext
@@ -15,6 +15,10 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
 )
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+
 
 class SetROSLogDir(Action):
     """Sets ROS_LOG_DIR for the nodes that follow; a relative path adds to the one of now."""
@@ -23,6 +27,14 @@ class SetROSLogDir(Action):
         """Create the action."""
         super().__init__(**kwargs)
         self.__log_dir = normalize_to_list_of_substitutions(new_log_dir)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Return the class, and what to construct it with, for an element of a launch file."""
+        _, kwargs = super().parse(entity, parser)
+        path = entity.get_attr('dir', optional=True) or entity.get_attr('new_log_dir')
+        kwargs['new_log_dir'] = parser.parse_substitution(path)
+        return cls, kwargs
 
     @property
     def log_dir(self) -> list[Substitution]:

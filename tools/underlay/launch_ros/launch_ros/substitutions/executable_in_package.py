@@ -19,6 +19,8 @@ from launch_ros.substitutions.find_package import FindPackagePrefix
 class ExecutableInPackage(FindPackagePrefix):
     """Stands for the path of an executable that a package has installed."""
 
+    frontend_required = ('executable', 'package')
+
     def __init__(
         self,
         executable: SomeSubstitutionsType,

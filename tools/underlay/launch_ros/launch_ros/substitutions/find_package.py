@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+from typing import ClassVar
 
 from ament_index_python.packages import get_package_prefix, PackageNotFoundError
 from launch.launch_context import LaunchContext
@@ -29,6 +30,8 @@ class _ExplainedPackageNotFoundError(PackageNotFoundError):
 
 class FindPackage(PathOperator):
     """The base of the substitutions that stand for a folder of a package."""
+
+    frontend_required: ClassVar[tuple[str, ...]] = ('package',)
 
     def __init__(self, package: SomeSubstitutionsType) -> None:
         """Create the substitution of a package."""

@@ -18,6 +18,9 @@ from launch.utilities.perform_substitutions_impl import perform_substitutions
 class Parameter(Substitution):
     """Stands for the value of a parameter that SetParameter has set in this scope."""
 
+    frontend_required = ('name',)
+    frontend_optional = ('default',)
+
     def __init__(
         self,
         name: SomeSubstitutionsType,

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         normalize_remap_rule,
         normalize_remap_rules,
     )
+    from launch_ros.utilities.parameter_list import to_parameters_list
     from launch_ros.utilities.track_node_names import add_node_name, get_node_name_count
 
 __all__ = [
@@ -33,6 +34,7 @@ __all__ = [
     'normalize_remap_rule',
     'normalize_remap_rules',
     'prefix_namespace',
+    'to_parameters_list',
 ]
 
 _ELSEWHERE = {
@@ -46,6 +48,7 @@ _ELSEWHERE = {
     'normalize_remap_rule': 'normalize_remap_rules_impl',
     'normalize_remap_rules': 'normalize_remap_rules_impl',
     'prefix_namespace': 'namespace_utils',
+    'to_parameters_list': 'parameter_list',
 }
 
 __getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

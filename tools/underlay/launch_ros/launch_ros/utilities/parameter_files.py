@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write parameters to files that nodes can read."""
+"""Files of parameters: those that there are, and those that are written for nodes."""
 
 from __future__ import annotations
 
@@ -8,12 +8,26 @@ from collections.abc import Mapping
 import os
 from typing import Any
 
+from launch.logging import get_logger
 from launch_ros.utilities.yaml_text import parameter_file_text
 
 _written: list[str] = []
 
 
+def is_parameter_file(path: str) -> bool:
+    """Return whether there is a file; log a warning if there is none."""
+    if os.path.isfile(path):
+        return True
+    get_logger('launch_ros.actions.node').warning('Parameter file path is not a file: %s', path)
+    return False
+
+
 def write_parameter_file(node_name: str, parameters: Mapping[str, Any]) -> str:
+    """Write the parameters of the nodes of a name to a file, and return its path."""
+    return write_text(parameter_file_text(node_name, parameters))
+
+
+def write_text(text: str) -> str:
     """Write a file, which is removed when this process ends, and return its path."""
     if not _written:
         atexit.register(_remove_all)
@@ -22,7 +36,7 @@ def write_parameter_file(node_name: str, parameters: Mapping[str, Any]) -> str:
     descriptor, path = tempfile.mkstemp(prefix='launch_params_', text=True)
     _written.append(path)
     with open(descriptor, 'w', encoding='utf-8') as file:
-        file.write(parameter_file_text(node_name, parameters))
+        file.write(text)
     return path
 
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 import os
-import re
 from typing import Any
 
 from launch.launch_context import LaunchContext
 from launch.substitution import Substitution
-from launch.utilities._scalars import read_yaml
+from launch.utilities._scalars import read_value
 from launch.utilities.normalize_to_list_of_substitutions_impl import (
     normalize_to_list_of_substitutions,
 )
@@ -20,7 +19,6 @@ _SCALARS = (bool, int, float, str, bytes)
 _ALLOWED = (
     'bytes, bool, int, float, str, Sequence[bool], Sequence[int], Sequence[float], Sequence[str]'
 )
-_EXPONENT = re.compile(r'[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+')
 _ADVICE = (
     'If the parameter is meant to be a string, try wrapping it in '
     'launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)'
@@ -78,13 +76,9 @@ def type_text(text: str, name: str) -> Any:
     """Return the value that YAML rules see in a text; an empty one stays a text."""
     if not text:
         return text
-    if _EXPONENT.fullmatch(text):
-        return float(text)
-    import yaml
-
     try:
-        value = read_yaml(text)
-    except yaml.YAMLError as error:
+        value = read_value(text)
+    except ValueError as error:
         raise TypeError(
             f'Unable to parse the value of parameter {name} as yaml. {_ADVICE}'
         ) from error

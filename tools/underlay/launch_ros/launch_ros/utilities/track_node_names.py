@@ -20,3 +20,16 @@ def get_node_name_count(context: LaunchContext, node_name: str) -> int:
     """Return how many nodes of this full name have been created."""
     counts: dict[str, int] = context.get_locals_as_dict().get(_KEY) or {}
     return counts.get(node_name, 0)
+
+
+def warn_of_same_names(context: LaunchContext, node_name: str, logger_name: str) -> None:
+    """Note that a node of this full name is created; log if it is not the only one."""
+    count = add_node_name(context, node_name)
+    if count > 1:
+        from launch.logging import get_logger
+
+        get_logger(logger_name).warning(
+            'there are now at least %s nodes with the name %s created within this launch context',
+            count,
+            node_name,
+        )

@@ -16,6 +16,7 @@ def launch_a_launch_file(
     noninteractive: bool = False,
     debug: bool = False,
     check_names: bool = True,
+    prefork: bool = True,
 ) -> int:
     """Run a launch file until everything that it started has ended; return the status."""
     arguments = parse_launch_arguments(launch_file_arguments)
@@ -27,7 +28,10 @@ def launch_a_launch_file(
     if check_names and arguments:
         _check_names([name for name, _ in arguments], source)
     service = LaunchService(
-        argv=list(launch_file_arguments), noninteractive=noninteractive, debug=debug
+        argv=list(launch_file_arguments),
+        noninteractive=noninteractive,
+        debug=debug,
+        prefork=prefork,
     )
     service.include_launch_description(
         LaunchDescription([IncludeLaunchDescription(source, launch_arguments=arguments)])

@@ -46,6 +46,7 @@ class LaunchCommand(CommandExtension):
             noninteractive=args.noninteractive,
             debug=args.debug,
             check_names=not args.allow_unknown_args,
+            prefork=not args.no_prefork,
         )
 
 

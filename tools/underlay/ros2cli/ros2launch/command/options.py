@@ -41,6 +41,11 @@ def add_launch_options(parser: argparse.ArgumentParser) -> None:
         action='store_true',
         help='Accept names of arguments that look like misspelt ones',
     )
+    add(
+        '--no-prefork',
+        action='store_true',
+        help='Start every Python node from scratch, not as a copy of a process that is ready',
+    )
     _add_prefix_options(parser)
     _add_positionals(parser)
 

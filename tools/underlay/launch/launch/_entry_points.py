@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The entry points of installed distributions, looked up cheaply where there are none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import os
+import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+
+def entry_points_of(group: str) -> list[EntryPoint]:
+    """Return the entry points of a group; importlib.metadata is loaded only if there are any."""
+    section = f'[{group}]'.encode()
+    if not any(section in content for content in _contents()):
+        return []
+    from importlib.metadata import entry_points
+
+    return list(entry_points(group=group))
+
+
+def _contents() -> Iterator[bytes]:
+    """Yield what the files with entry points contain, wherever modules are found."""
+    for folder in sys.path:
+        try:
+            names = os.listdir(folder or '.')
+        except OSError:
+            continue  # no folder: an archive, or nothing at all
+        for name in names:
+            if name.endswith(('.dist-info', '.egg-info')):
+                yield _content(os.path.join(folder, name, 'entry_points.txt'))
+
+
+def _content(path: str) -> bytes:
+    try:
+        with open(path, 'rb') as file:
+            return file.read()
+    except OSError:
+        return b''

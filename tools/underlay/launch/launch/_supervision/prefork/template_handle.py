@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Start the template, and have it make processes."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping, Sequence
+import os
+import signal
+import socket
+import subprocess
+
+from launch._supervision.orphan_guard import OrphanGuard
+from launch._supervision.prefork.eligibility import Kind
+from launch._supervision.prefork.fork_request import ForkRequest
+from launch._supervision.prefork.forked_child import ForkedChild
+from launch._supervision.prefork.template_failure import TemplateFailure
+from launch._supervision.program import Program
+
+_PATIENCE_S = 20.0
+
+
+class TemplateHandle:
+    """The launch's end of the connection to a template."""
+
+    def __init__(
+        self,
+        kind: Kind,
+        environment: Mapping[str, str],
+        scripts: Sequence[str],
+        guard: OrphanGuard,
+    ) -> None:
+        """Start the template in a group of its own; it imports what the scripts need."""
+        self._guard = guard
+        self.is_open = True
+        self._kind = kind
+        self._control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        self._control.setblocking(False)
+        with theirs:
+            self._origin = _start(kind, environment, theirs.fileno(), scripts)
+        guard.add(self.group)
+        self._ready: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self._life = asyncio.ensure_future(self._live())
+
+    @property
+    def group(self) -> int:
+        """Return the id of the group of processes that the template leads."""
+        return self._origin.pid
+
+    async def _live(self) -> None:
+        """Get ready, and wait for the end."""
+        reason = 'the template has ended'
+        try:
+            await self._prepare()
+            self._ready.set_result(None)
+            await self._expect('')
+        except (OSError, TemplateFailure) as error:
+            reason = str(error)
+        self.close(reason)
+
+    async def _prepare(self) -> None:
+        """Adopt the copy in which the template goes on once it has imported everything."""
+        from launch._supervision.prefork.linux import adopting_orphans
+
+        await self._expect('loaded')
+        with adopting_orphans():
+            self._control.send(b'settle %d' % os.getpid())
+            await self._expect('ready')
+        self._origin.wait()
+
+    async def _expect(self, word: str) -> None:
+        """Wait for a message; another one than the expected tells of a failure."""
+        loop = asyncio.get_running_loop()
+        message = (await loop.sock_recv(self._control, 1100)).decode('utf-8', 'replace')
+        if message != word:
+            raise TemplateFailure(message or 'the template has ended')
+
+    async def fork(self, program: Program, stdout: int, stderr: int) -> ForkedChild:
+        """Have a process made that runs a program; a TemplateFailure says that there is none."""
+        try:
+            await asyncio.wait_for(asyncio.shield(self._ready), _PATIENCE_S)
+            return await self._make(ForkRequest(self._kind.interpreter, program), stdout, stderr)
+        except (OSError, asyncio.TimeoutError) as error:
+            self.close()
+            raise TemplateFailure(str(error) or 'the template does not answer') from None
+
+    async def _make(self, request: ForkRequest, stdout: int, stderr: int) -> ForkedChild:
+        try:
+            request.send(self._control, stdout, stderr)
+            return await asyncio.wait_for(request.process(), _PATIENCE_S)
+        except BaseException:
+            self.close()
+            request.give_up()
+            raise
+
+    def close(self, reason: str = 'the template was ended') -> None:
+        """End the template; the programs that it has become go on."""
+        if not self.is_open:
+            return
+        self.is_open = False
+        self._life.cancel()
+        if not self._ready.done():
+            self._ready.set_exception(TemplateFailure(reason))
+            self._ready.exception()
+        self._control.close()
+        os.killpg(self.group, signal.SIGKILL)
+        self._origin.wait()
+        _reap(self.group)
+        self._guard.remove(self.group)
+
+
+def _start(
+    kind: Kind,
+    environment: Mapping[str, str],
+    descriptor: int,
+    scripts: Sequence[str],
+) -> subprocess.Popen[bytes]:
+    template = os.path.join(os.path.dirname(__file__), 'template.py')
+    return subprocess.Popen(
+        [kind.interpreter, template, str(descriptor), kind.preloader, *scripts],
+        cwd='/',
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        pass_fds=[descriptor],
+        start_new_session=True,
+    )
+
+
+def _reap(group: int) -> None:
+    """Take note of the end of all children in a group."""
+    try:
+        while True:
+            os.waitpid(-group, 0)
+    except ChildProcessError:
+        pass

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is started, and what starts it."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Mapping, Sequence
+from dataclasses import dataclass
+import subprocess
+from typing import IO, Optional, Protocol
+
+
+@dataclass(frozen=True)
+class Program:
+    """A command, and what its process finds when it starts."""
+
+    command: Sequence[str]
+    cwd: Optional[str]
+    env: Optional[Mapping[str, str]]
+    shell: bool
+    preloader: Optional[str] = None  # the module that knows what such a process imports
+
+
+class Child(Protocol):
+    """A child process that leads a session of its own."""
+
+    @property
+    def pid(self) -> int:
+        """Return the id of the process."""
+
+    @property
+    def stdin(self) -> Optional[IO[bytes]]:
+        """Return the end to write to of the standard input."""
+
+    def wait(self) -> int:
+        """Wait for the end; return the exit status, negative for a signal."""
+
+
+Spawn = Callable[[Program, int, int], Awaitable[Child]]
+
+
+async def execute(program: Program, stdout: int, stderr: int) -> subprocess.Popen[bytes]:
+    """Start a program whose output goes to two descriptors."""
+    return subprocess.Popen(
+        ' '.join(program.command) if program.shell else list(program.command),
+        shell=program.shell,
+        cwd=program.cwd,
+        env=program.env,
+        stdin=subprocess.PIPE,
+        stdout=stdout,
+        stderr=stderr,
+        bufsize=0,
+        start_new_session=True,
+    )

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The tags and substitutions of launch itself, by the place where each is defined.
+
+They are loaded when a launch file uses them; other packages use `launch.frontend.expose`.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import import_module
+from importlib.util import find_spec
+
+ACTIONS = {
+    'append_env': 'launch.actions.append_environment_variable:AppendEnvironmentVariable',
+    'arg': 'launch.actions.declare_launch_argument:DeclareLaunchArgument',
+    'executable': 'launch.actions.execute_process:ExecuteProcess',
+    'group': 'launch.actions.group_action:GroupAction',
+    'include': 'launch.actions.include_launch_description:IncludeLaunchDescription',
+    'let': 'launch.actions.set_launch_configuration:SetLaunchConfiguration',
+    'log': 'launch.actions.log_info:LogInfo',
+    'reset': 'launch.actions.reset_launch_configurations:ResetLaunchConfigurations',
+    'reset_env': 'launch.actions.reset_environment:ResetEnvironment',
+    'set_env': 'launch.actions.set_environment_variable:SetEnvironmentVariable',
+    'shutdown': 'launch.actions.shutdown_action:Shutdown',
+    'timer': 'launch.actions.timer_action:TimerAction',
+    'unset_env': 'launch.actions.unset_environment_variable:UnsetEnvironmentVariable',
+}
+
+SUBSTITUTIONS = {
+    'all': 'launch.substitutions.boolean_substitution:AllSubstitution',
+    'and': 'launch.substitutions.boolean_substitution:AndSubstitution',
+    'anon': 'launch.substitutions.anon_name:AnonName',
+    'any': 'launch.substitutions.boolean_substitution:AnySubstitution',
+    'command': 'launch.substitutions.command:Command',
+    'dirname': 'launch.substitutions.this_launch_file_dir:ThisLaunchFileDir',
+    'env': 'launch.substitutions.environment_variable:EnvironmentVariable',
+    'equals': 'launch.substitutions.equals_substitution:EqualsSubstitution',
+    'eval': 'launch.substitutions.python_expression:PythonExpression',
+    'file-content': 'launch.substitutions.file_content:FileContent',
+    'filename': 'launch.substitutions.this_launch_file:ThisLaunchFile',
+    'find-exec': 'launch.substitutions.find_executable:FindExecutable',
+    'if': 'launch.substitutions.if_else_substitution:IfElseSubstitution',
+    'launch_log_dir': 'launch.substitutions.launch_log_dir:LaunchLogDir',
+    'log_dir': 'launch.substitutions.launch_log_dir:LaunchLogDir',
+    'not': 'launch.substitutions.boolean_substitution:NotSubstitution',
+    'not-equals': 'launch.substitutions.not_equals_substitution:NotEqualsSubstitution',
+    'or': 'launch.substitutions.boolean_substitution:OrSubstitution',
+    'var': 'launch.substitutions.launch_configuration:LaunchConfiguration',
+}
+
+PARSERS = {
+    'xml': 'launch_xml.parser:Parser',
+    'yaml': 'launch_yaml.parser:Parser',
+}
+
+# Modules of other packages with such tables.
+_MORE = ('launch_ros._known_names',)
+
+
+@cache
+def known_actions() -> dict[str, str]:
+    """Return where the action of each tag is."""
+    return _together('ACTIONS', ACTIONS)
+
+
+@cache
+def known_substitutions() -> dict[str, str]:
+    """Return where each substitution is."""
+    return _together('SUBSTITUTIONS', SUBSTITUTIONS)
+
+
+def load(place: str) -> type:
+    """Return the class at a place."""
+    module, _, name = place.partition(':')
+    found: type = getattr(import_module(module), name)
+    return found
+
+
+def _together(table: str, own: dict[str, str]) -> dict[str, str]:
+    places = dict(own)
+    for module in _MORE:
+        if find_spec(module.partition('.')[0]) is not None:
+            places.update(getattr(import_module(module), table))
+    return places

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Read the attributes of elements that stand for processes."""
+
+from __future__ import annotations
+
+from typing import Any, TYPE_CHECKING
+
+from launch.frontend._children import parse_pairs
+from launch.frontend._command_words import command_words
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+
+# Attributes with substitutions, by the names that the constructor has for them.
+_TEXTS = {
+    'cwd': 'cwd',
+    'launch-prefix': 'prefix',
+    'name': 'name',
+    'output': 'output',
+    'sigkill_timeout': 'sigkill_timeout',
+    'sigterm_timeout': 'sigterm_timeout',
+}
+# Attributes that must have a type at once.
+_TYPED = {'emulate_tty': bool, 'respawn_delay': float, 'respawn_max_retries': int, 'shell': bool}
+
+
+def parse_process(entity: Entity, parser: Parser, ignored: frozenset[str]) -> dict[str, Any]:
+    """Return the arguments of ExecuteProcess, but those of attributes that are ignored."""
+    kwargs = parse_texts(
+        entity, parser, {name: kw for name, kw in _TEXTS.items() if name not in ignored}
+    )
+    for name, data_type in _TYPED.items():
+        if name not in ignored:
+            value = entity.get_attr(name, data_type=data_type, optional=True, can_be_str=False)
+            if value is not None:
+                kwargs[name] = value
+    if 'cmd' not in ignored:
+        kwargs['cmd'] = parse_command(entity.get_attr('cmd'), parser)
+    if 'respawn' not in ignored:
+        kwargs.update(_parse_respawn(entity, parser))
+    if 'on_exit' not in ignored:
+        kwargs.update(_parse_on_exit(entity))
+    if 'env' not in ignored:
+        pairs = parse_pairs(entity, parser, 'env')
+        kwargs.update({'additional_env': dict(pairs)} if pairs else {})
+    return kwargs
+
+
+def parse_texts(entity: Entity, parser: Parser, names: dict[str, str]) -> dict[str, Any]:
+    """Return attributes that need not be there, each under the other name that it gets."""
+    kwargs: dict[str, Any] = {}
+    for name, keyword in names.items():
+        text = entity.get_attr(name, optional=True)
+        if text is not None:
+            kwargs[keyword] = parser.parse_substitution(text)
+    return kwargs
+
+
+def parse_command(text: str, parser: Parser) -> list[Any]:
+    """Return the words of a command line."""
+    return list(command_words(parser.parse_substitution(text)))
+
+
+def _parse_respawn(entity: Entity, parser: Parser) -> dict[str, Any]:
+    respawn = entity.get_attr('respawn', data_type=bool, optional=True)
+    return {} if respawn is None else {'respawn': parser.parse_if_substitutions(respawn)}
+
+
+def _parse_on_exit(entity: Entity) -> dict[str, Any]:
+    reaction = entity.get_attr('on_exit', optional=True)
+    if reaction is None:
+        return {}
+    if reaction != 'shutdown':
+        raise ValueError(
+            f"Attribute on_exit of Entity {entity.type_name} must be 'shutdown', the only "
+            f"reaction that a launch file can name there, but it is '{reaction}'"
+        )
+    from launch.actions.shutdown_action import Shutdown
+
+    return {'on_exit': [Shutdown()]}

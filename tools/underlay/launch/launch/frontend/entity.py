@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An element of a launch file, in whatever format."""
+
+from __future__ import annotations
+
+from typing import Any, Optional, TYPE_CHECKING
+
+from launch.frontend._complaints import missing_attribute, unexpected_names
+from launch.frontend.type_utils import check_is_list_entity
+
+if TYPE_CHECKING:
+    from launch._call_site import CallSite
+
+
+class Entity:
+    """
+    An element with attributes and children, which notes what has been asked for.
+
+    A format derives from this class and says where attributes and children are.
+    """
+
+    def __init__(
+        self,
+        type_name: str,
+        *,
+        parent: Optional[Entity] = None,
+        call_site: Optional[CallSite] = None,
+    ) -> None:
+        """Create the element with this tag, which lies at a line of a file."""
+        self.__type_name = type_name
+        self.__parent = parent
+        self.__asked: list[str] = []
+        self.call_site = call_site
+
+    @property
+    def type_name(self) -> str:
+        """Return the tag."""
+        return self.__type_name
+
+    @property
+    def parent(self) -> Optional[Entity]:
+        """Return the element around this one, None for the root."""
+        return self.__parent
+
+    @property
+    def children(self) -> list[Entity]:
+        """Return the elements in this one; subclasses override this."""
+        raise NotImplementedError
+
+    def get_attr(
+        self,
+        name: str,
+        *,
+        data_type: Any = str,
+        optional: bool = False,
+        can_be_str: bool = True,
+    ) -> Any:
+        """
+        Return the value of an attribute, or the children with a tag.
+
+        :param name: the attribute, or the tag
+        :param data_type: str, int, float, bool, a list of one of them, None for any of those, or
+            List[Entity] for children
+        :param optional: whether None is returned if there is none, rather than an error raised
+        :param can_be_str: whether a value with substitutions is returned as a text
+        """
+        self.__asked.append(name)
+        if check_is_list_entity(data_type):
+            value = self._children_of_type(name) or None
+        else:
+            value = self._value(name, data_type, can_be_str)
+        if value is None and not optional:
+            raise AttributeError(missing_attribute(self, name, data_type, self._names_left()))
+        return value
+
+    def assert_entity_completely_parsed(self) -> None:
+        """Raise a ValueError if there is anything in the element that nobody asked for."""
+        for kind, names in self._left():
+            if names:
+                raise ValueError(unexpected_names(self, kind, names, self.__asked))
+
+    def _names_left(self) -> list[str]:
+        return [name for _, names in self._left() for name in names]
+
+    def _value(self, name: str, data_type: Any, can_be_str: bool) -> Any:
+        """Return the value of an attribute, None if there is none."""
+        raise NotImplementedError
+
+    def _children_of_type(self, name: str) -> list[Entity]:
+        """Return the children with a tag."""
+        raise NotImplementedError
+
+    def _left(self) -> list[tuple[str, list[str]]]:
+        """Return each kind of thing that can be in the element, with the names left over."""
+        raise NotImplementedError

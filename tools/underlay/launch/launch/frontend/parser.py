@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Turn the elements of a launch file into actions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+import os
+from typing import Any, Optional, TextIO, TYPE_CHECKING, Union
+
+from launch._call_site import note_place
+from launch.frontend.expose import instantiate_action
+from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
+from launch.frontend.parse_substitution import (
+    parse_if_substitutions,
+    parse_substitution,
+    replace_escaped_characters,
+)
+from launch.launch_description import LaunchDescription
+
+if TYPE_CHECKING:
+    from launch.action import Action
+    from launch.frontend.entity import Entity
+    from launch.substitution import Substitution
+
+SomeFile = Union[str, 'os.PathLike[str]', TextIO]
+
+
+class Parser:
+    """Reads launch files; a format derives from this class and overrides `load`."""
+
+    @classmethod
+    def load(cls, file: SomeFile) -> tuple[Entity, Parser]:
+        """Return the root element of a file, and the parser of its format."""
+        errors: dict[type[Parser], InvalidFrontendLaunchFileError] = {}
+        name = os.fspath(getattr(file, 'name', '') if hasattr(file, 'read') else file)
+        for parser in cls._in_order(name):
+            try:
+                return parser.load(file)
+            except InvalidFrontendLaunchFileError as error:
+                errors[parser] = error
+                _rewind(file)
+        for parser, failure in errors.items():
+            if parser.claims(name):
+                raise failure
+        raise InvalidFrontendLaunchFileError()
+
+    @classmethod
+    def get_file_extensions(cls) -> set[str]:
+        """Return the ends of the names of files that have this format; overridden likewise."""
+        return set()
+
+    @classmethod
+    def claims(cls, file_name: str) -> bool:
+        """Return whether the name of a file says that it has this format."""
+        return any(file_name.endswith(f'.{end}') for end in cls.get_file_extensions())
+
+    @classmethod
+    def get_available_extensions(cls) -> list[str]:
+        """Return the ends of the names of files in any format that there is."""
+        return sorted(end for each in cls._available() for end in each.get_file_extensions())
+
+    @classmethod
+    def is_extension_valid(cls, extension: str) -> bool:
+        """Return whether files with this end of the name have a known format."""
+        return extension.lstrip('.') in cls.get_available_extensions()
+
+    @classmethod
+    def _in_order(cls, file_name: str) -> Iterator[type[Parser]]:
+        """Yield the parsers, those first that claim files of this name."""
+        known = list(_known_parsers())
+        yield from sorted(known, key=lambda parser: not parser.claims(file_name))
+        yield from (parser for parser in cls._available() if parser not in known)
+
+    @classmethod
+    def _available(cls) -> Iterable[type[Parser]]:
+        from launch.frontend._extensions import extension_parsers
+
+        return [*_known_parsers(), *extension_parsers().values()]
+
+    def parse_action(self, entity: Entity) -> Action:
+        """Return the action that an element stands for; it knows the line of its element."""
+        try:
+            action = instantiate_action(entity, self)
+        except Exception as error:
+            note_place(error, entity.call_site, entity.type_name)
+            raise
+        if entity.call_site is not None:
+            action.call_site = entity.call_site
+        return action
+
+    def parse_actions(self, entities: Iterable[Entity]) -> list[Action]:
+        """Return the actions that some elements stand for."""
+        return [self.parse_action(entity) for entity in entities]
+
+    def parse_substitution(self, value: str) -> list[Substitution]:
+        """Return what a text stands for."""
+        return parse_substitution(value)
+
+    def escape_characters(self, value: str) -> str:
+        """Return a text that cannot have substitutions, without its backslashes."""
+        return replace_escaped_characters(value)
+
+    def parse_if_substitutions(self, value: Any) -> Any:
+        """Return what a text, or a list of texts, stands for, and anything else as it is."""
+        return parse_if_substitutions(value)
+
+    def parse_description(self, entity: Entity) -> LaunchDescription:
+        """Return the launch description that the root element stands for."""
+        if entity.type_name != 'launch':
+            raise RuntimeError("Expected 'launch' as root tag")
+        deprecated: Optional[str] = entity.get_attr('deprecated', optional=True)
+        return LaunchDescription(self.parse_actions(entity.children), deprecated_reason=deprecated)
+
+
+def _known_parsers() -> Iterator[type[Parser]]:
+    """Yield the parsers of this workspace, as far as they are installed."""
+    from importlib.util import find_spec
+
+    from launch.frontend._known_names import load, PARSERS
+
+    for place in PARSERS.values():
+        if find_spec(place.partition('.')[0]) is not None:
+            yield load(place)
+
+
+def _rewind(file: SomeFile) -> None:
+    seek = getattr(file, 'seek', None)
+    if seek is not None:
+        seek(0)

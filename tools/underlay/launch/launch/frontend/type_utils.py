@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The types of attributes."""
+
+from __future__ import annotations
+
+from typing import Any, get_args, get_origin
+
+from launch.utilities.type_utils import coerce_to_type, has_type, type_name, uniform_or_raise
+
+_TYPES: dict[str, Any] = {
+    'bool': bool,
+    'float': float,
+    'int': int,
+    'str': str,
+    'list_of_bool': list[bool],
+    'list_of_bools': list[bool],
+    'list_of_float': list[float],
+    'list_of_floats': list[float],
+    'list_of_int': list[int],
+    'list_of_ints': list[int],
+    'list_of_str': list[str],
+    'list_of_strs': list[str],
+    'yaml': None,
+}
+
+
+def check_is_list_entity(data_type: Any) -> bool:
+    """Return whether a type is that of a list of entities."""
+    from launch.frontend.entity import Entity
+
+    if get_origin(data_type) is not list:
+        return False
+    (item,) = get_args(data_type)
+    return isinstance(item, type) and issubclass(item, Entity)
+
+
+def get_data_type_from_identifier(type_name: str) -> Any:
+    """Return the type that a launch file calls by a name; None stands for YAML rules."""
+    if type_name not in _TYPES:
+        raise ValueError(f"unknown type '{type_name}': expected one of {', '.join(_TYPES)}")
+    return _TYPES[type_name]
+
+
+def value_of_text(text: str, data_type: Any, can_be_str: bool) -> Any:
+    """Return what a text stands for; one with substitutions stays a text if that is allowed."""
+    if data_type is str or (not text and data_type is None):
+        return text
+    if '$(' in text:
+        if can_be_str:
+            return text
+        raise TypeError(f"'{text}' must be a {type_name(data_type)}, without substitutions")
+    try:
+        return coerce_to_type(text, data_type)
+    except ValueError as error:
+        raise TypeError(f"'{text}' is not a {type_name(data_type)}: {error}") from error
+
+
+def value_of_texts(texts: list[str], data_type: Any, can_be_str: bool) -> list[Any]:
+    """Return what the texts of a list stand for."""
+    item_type = get_args(data_type)[0] if get_origin(data_type) is list else None
+    if can_be_str and any('$(' in text for text in texts):
+        return list(texts)
+    values = [value_of_text(text, item_type, can_be_str) for text in texts]
+    return values if item_type is not None else uniform_or_raise(values)
+
+
+def checked_value(value: Any, data_type: Any, can_be_str: bool) -> Any:
+    """Return a value that has a type already, if it has the right one."""
+    if data_type is None:
+        return uniform_or_raise(value) if isinstance(value, list) else value
+    if isinstance(value, str):
+        return value_of_text(value, data_type, can_be_str)
+    if can_be_str and get_origin(data_type) is list and _has_substitutions(value):
+        return value
+    if (data_type is float and isinstance(value, int)) or not has_type(value, data_type):
+        raise TypeError(
+            f'expected a {type_name(data_type)}, but got {value!r}, which is a '
+            f'{type(value).__name__}. {_advice(value, data_type)}'
+        )
+    return value
+
+
+def _has_substitutions(value: Any) -> bool:
+    return isinstance(value, list) and any(
+        isinstance(item, str) and '$(' in item for item in value
+    )
+
+
+def _advice(value: Any, data_type: Any) -> str:
+    if data_type is float and isinstance(value, int) and not isinstance(value, bool):
+        return f'Write {float(value)} instead'
+    if data_type is str and isinstance(value, (bool, int, float)):
+        return f"Put it in quotes: '{str(value).lower() if isinstance(value, bool) else value}'"
+    return 'Write a value of that type'

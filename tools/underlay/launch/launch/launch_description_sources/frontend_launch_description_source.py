@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The source of a launch description in another format than Python."""
+
+from __future__ import annotations
+
+from launch.frontend.parser import Parser
+from launch.launch_description import LaunchDescription
+from launch.launch_description_source import LaunchDescriptionSource
+from launch.launch_description_sources.frontend_launch_file_utilities import (
+    get_launch_description_from_frontend_launch_file,
+)
+from launch.some_substitutions_type import SomeSubstitutionsType
+
+
+class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
+    """Loads a launch file in XML, YAML or another format that a parser is installed for."""
+
+    def __init__(
+        self,
+        launch_file_path: SomeSubstitutionsType,
+        *,
+        method: str = 'interpreted frontend launch file',
+        parser: type[Parser] = Parser,
+    ) -> None:
+        """Create the source of the file at a path, which only `parser` reads."""
+        super().__init__(None, launch_file_path, method)
+        self.__parser = parser
+
+    def _get_launch_description(self, location: str) -> LaunchDescription:
+        return get_launch_description_from_frontend_launch_file(location, parser=self.__parser)

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Load launch files in other formats than Python."""
+
+from __future__ import annotations
+
+import os
+
+from launch.frontend.parser import Parser
+from launch.launch_description import LaunchDescription
+from launch.launch_description_sources._missing_file import missing_file
+
+
+def get_launch_description_from_frontend_launch_file(
+    frontend_launch_file_path: str | os.PathLike[str],
+    *,
+    parser: type[Parser] = Parser,
+) -> LaunchDescription:
+    """Return the launch description of a file in a format that `parser` reads."""
+    path = os.fspath(frontend_launch_file_path)
+    if not os.path.isfile(path):
+        raise FileNotFoundError(missing_file(path))
+    root, reader = parser.load(path)
+    return reader.parse_description(root)

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The tags and substitutions of this package, which launch.frontend loads when they are used."""
+
+from __future__ import annotations
+
+ACTIONS = {
+    'node': 'launch_ros.actions.node:Node',
+    'push-ros-namespace': 'launch_ros.actions.push_ros_namespace:PushROSNamespace',
+    'push_ros_namespace': 'launch_ros.actions.push_ros_namespace:PushROSNamespace',
+    'set_parameter': 'launch_ros.actions.set_parameter:SetParameter',
+    'set_parameters_from_file': (
+        'launch_ros.actions.set_parameters_from_file:SetParametersFromFile'
+    ),
+    'set_remap': 'launch_ros.actions.set_remap:SetRemap',
+    'set_ros_log_dir': 'launch_ros.actions.set_ros_log_dir:SetROSLogDir',
+    'set_use_sim_time': 'launch_ros.actions.set_use_sim_time:SetUseSimTime',
+}
+
+SUBSTITUTIONS = {
+    'exec-in-pkg': 'launch_ros.substitutions.executable_in_package:ExecutableInPackage',
+    'find-pkg-prefix': 'launch_ros.substitutions.find_package:FindPackagePrefix',
+    'find-pkg-share': 'launch_ros.substitutions.find_package:FindPackageShare',
+    'param': 'launch_ros.substitutions.parameter:Parameter',
+}

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What nodes written in Python import: it is imported once for all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import import_module
+from importlib.util import find_spec
+import os
+import sys
+from typing import Any
+
+from launch_ros._tracing import Tracing
+
+EARLY_VARIABLES = frozenset(
+    ('RCL_ASSERT_RMW_ID_MATCHES', 'RMW_IMPLEMENTATION', 'ROS_PYTHON_CHECK_FIELDS')
+)
+"""What is read when rclpy and messages are imported, not only when a node is created."""
+
+# What every node of rclpy makes use of.
+_COMMON = (
+    ('rclpy', ()),
+    ('rclpy.executors', ()),
+    ('rclpy.node', ()),
+    ('rcl_interfaces.msg', ('ParameterEvent',)),
+    ('rcl_interfaces.srv', ('DescribeParameters', 'GetParameters', 'GetParameterTypes')),
+    ('rcl_interfaces.srv', ('ListParameters', 'SetParameters', 'SetParametersAtomically')),
+)
+# Loading these changes nothing but the memory of the process.
+_HARMLESS = frozenset(('numpy', 'rclpy', 'yaml'))
+
+_tracing = Tracing()
+
+
+def preload(scripts: Sequence[str]) -> None:
+    """Import what the nodes behind some scripts need; nothing of it is initialised."""
+    from launch_ros._imports import imports_of
+
+    for module, names in (*_COMMON, *imports_of(scripts)):
+        package = module.partition('.')[0]
+        if package in _HARMLESS:
+            _import(module)
+        elif _holds_interfaces(package):
+            _load_type_supports(_import(module), names)
+    sys.modules['rclpy'].get_rmw_implementation_identifier()
+
+
+def before_fork() -> None:
+    """Make libraries ready for copies of the process."""
+    _tracing.before_fork()
+
+
+def after_fork() -> None:
+    """Make libraries work in a copy of the process."""
+    _tracing.after_fork()
+    if 'numpy.random' in sys.modules:
+        sys.modules['numpy.random'].seed()
+
+
+def _import(module: str) -> Any:
+    """Import a module; whoever needs one that cannot be imported will say so."""
+    try:
+        return import_module(module)
+    except ImportError:
+        return None
+
+
+def _holds_interfaces(package: str) -> bool:
+    """Return whether a package was made from descriptions of messages, services and actions."""
+    spec = find_spec(package)
+    folders = (spec.submodule_search_locations or ()) if spec is not None else ()
+    library = f'{package}_s__rosidl_typesupport_c.'
+    return any(name.startswith(library) for folder in folders for name in os.listdir(folder))
+
+
+def _load_type_supports(module: Any, names: Sequence[str]) -> None:
+    """Load the libraries that describe interfaces to the middleware."""
+    from rclpy.type_support import check_for_type_support
+
+    for name in names:
+        interface = getattr(module, name, None)
+        if isinstance(interface, type):
+            check_for_type_support(interface)

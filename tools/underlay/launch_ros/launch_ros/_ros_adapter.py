@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run a ROS node beside the event loop of a launch."""
+
+from __future__ import annotations
+
+import asyncio
+import atexit
+from collections.abc import Coroutine
+import os
+import threading
+from typing import Any, Optional, TYPE_CHECKING
+
+from launch.logging import get_logger
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
+
+class ROSAdapter:
+    """A ROS node in a ROS context of its own, whose callbacks run in a thread of their own."""
+
+    def __init__(
+        self,
+        *,
+        use_sim_time: bool = False,
+        loop: Optional[asyncio.AbstractEventLoop] = None,
+    ) -> None:
+        """Make the node and start the thread; `loop` is the one that runs the launch."""
+        self._loop = loop
+        self._tasks: set[asyncio.Task[Any]] = set()
+        self._stopping = threading.Event()
+        self._ros_context = Context()
+        self._ros_context.init(args=[])
+        self._ros_node = Node(
+            f'launch_ros_{os.getpid()}',
+            context=self._ros_context,
+            use_global_arguments=False,
+            enable_rosout=False,
+            start_parameter_services=False,
+            parameter_overrides=[_use_sim_time(use_sim_time)],
+        )
+        self._ros_executor = SingleThreadedExecutor(context=self._ros_context)
+        self._ros_executor.add_node(self._ros_node)
+        self._ended: Optional[asyncio.Future[None]] = None
+        self._thread = threading.Thread(target=self._spin, name='launch_ros', daemon=True)
+        self._thread.start()
+        atexit.register(self.shutdown)
+
+    @property
+    def ros_context(self) -> Context:
+        """Return the ROS context."""
+        return self._ros_context
+
+    @property
+    def ros_node(self) -> Node:
+        """Return the node."""
+        return self._ros_node
+
+    @property
+    def ros_executor(self) -> SingleThreadedExecutor:
+        """Return the executor of the callbacks."""
+        return self._ros_executor
+
+    @property
+    def is_running(self) -> bool:
+        """Return whether the node is there and not about to end."""
+        return not self._stopping.is_set()
+
+    def set_use_sim_time(self, value: bool) -> None:
+        """Choose whether the node's clock follows /clock."""
+        self._ros_node.set_parameters([_use_sim_time(value)])
+
+    def start_task(self, coroutine: Coroutine[Any, Any, Any]) -> asyncio.Task[Any]:
+        """Start a coroutine that uses the node; it is canceled before the node ends."""
+        if self._loop is None:
+            coroutine.close()
+            raise RuntimeError("the launch's own ROS node can only be used by a running launch")
+        task = self._loop.create_task(coroutine)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+        return task
+
+    # The thread.
+
+    def _spin(self) -> None:
+        while not self._stopping.is_set() and self._ros_context.ok():
+            try:
+                self._ros_executor.spin_once()
+            except Exception as error:
+                get_logger('launch_ros').error(
+                    "a callback of the launch's own ROS node failed: %s: %s",
+                    type(error).__name__,
+                    error,
+                )
+        self._take_down()
+
+    def _take_down(self) -> None:
+        self._stopping.set()
+        self._ros_executor.shutdown()
+        self._ros_node.destroy_node()
+        self._ros_context.try_shutdown()
+        if self._loop is not None and self._ended is not None:
+            self._loop.call_soon_threadsafe(self._ended.set_result, None)
+
+    # The end.
+
+    def _stop(self) -> None:
+        """Let the thread leave its loop: a task makes it look up from its waiting."""
+        if not self._stopping.is_set():
+            self._stopping.set()
+            self._ros_executor.create_task(lambda: None)
+
+    def shutdown(self) -> None:
+        """End the node, and wait until that is done."""
+        self._stop()
+        self._thread.join()
+        atexit.unregister(self.shutdown)
+
+    def end_within(self, context: LaunchContext) -> None:
+        """End the node while the loop of the launch goes on, which waits for it at its end."""
+        if self._loop is None:
+            self.shutdown()
+        else:
+            context.add_completion_future(self._loop.create_task(self._end()))
+
+    async def _end(self) -> None:
+        tasks = list(self._tasks)
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+        if self.is_running:
+            self._ended = asyncio.get_running_loop().create_future()
+            self._stop()
+            await self._ended
+        self.shutdown()
+
+
+def _use_sim_time(value: bool) -> Parameter:
+    return Parameter('use_sim_time', Parameter.Type.BOOL, value)

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What connects a launch to a node with a life cycle."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any, Optional, TYPE_CHECKING
+
+from launch.event_handler import BaseEventHandler
+from launch.logging import get_logger
+from launch_ros._service_calls import ServiceCaller, ServiceGoneError
+from launch_ros.events.lifecycle.change_state import ChangeState
+from launch_ros.events.lifecycle.state_transition import StateTransition
+from lifecycle_msgs import srv
+from lifecycle_msgs.msg import TransitionEvent
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+    from launch_ros._ros_adapter import ROSAdapter
+    from launch_ros.actions.lifecycle_node import LifecycleNode
+
+_MATCH_WITHIN_S = 1.0
+
+
+class LifecycleLink:
+    """Makes events of a node's transitions, and asks it for those that events want."""
+
+    def __init__(
+        self,
+        action: LifecycleNode,
+        context: LaunchContext,
+        adapter: ROSAdapter,
+    ) -> None:
+        """Follow the node that `action` is about to start."""
+        self._action = action
+        self._context = context
+        self._adapter = adapter
+        self._logger = get_logger('launch_ros.actions.lifecycle_node')
+        self._one_at_a_time = asyncio.Lock()
+        self._available_at: Optional[float] = None
+        node, name = adapter.ros_node, action.node_name
+        self._subscription = node.create_subscription(
+            TransitionEvent, f'{name}/transition_event', self._on_transition, 10
+        )
+        self._client = node.create_client(srv.ChangeState, f'{name}/change_state')
+        context.register_event_handler(_ChangeStateHandler(self))
+
+    def _on_transition(self, msg: TransitionEvent) -> None:
+        self._context.emit_event_sync(StateTransition(action=self._action, msg=msg))
+
+    def is_target(self, event: Any) -> bool:
+        """Return whether an event asks this node for a transition."""
+        return isinstance(event, ChangeState) and event.lifecycle_node_matcher(self._action)
+
+    def change_state(self, transition_id: int) -> None:
+        """Ask the node for a transition, when those asked for before are done."""
+        if self._adapter.is_running and not self._context.is_shutdown:
+            task = self._adapter.start_task(self._change_state(transition_id))
+            self._context.add_completion_future(task)
+        else:
+            self._logger.warning(
+                "Abandoning wait for the '%s' service, due to shutdown.", self._client.srv_name
+            )
+
+    async def _change_state(self, transition_id: int) -> None:
+        request = srv.ChangeState.Request()
+        request.transition.id = transition_id
+        caller = ServiceCaller(
+            self._client,
+            self._logger,
+            server=self._action.get_asyncio_future(),
+            is_ready=self._is_ready,
+        )
+        problem = ''
+        async with self._one_at_a_time:
+            try:
+                answer = await caller.call(request)
+            except ServiceGoneError as error:
+                problem = str(error)
+            else:
+                if answer.success:
+                    return
+        self._report_failure(transition_id, problem)
+
+    def _is_ready(self) -> bool:
+        """Return whether a call makes sense: if it can be, the answer's event will arrive."""
+        if not self._client.service_is_ready():
+            self._available_at = None
+            return False
+        now = asyncio.get_running_loop().time()
+        if self._available_at is None:
+            self._available_at = now
+        is_heard = self._subscription.get_publisher_count() > 0
+        return is_heard or now - self._available_at > _MATCH_WITHIN_S
+
+    def _report_failure(self, transition_id: int, problem: str) -> None:
+        self._logger.error(
+            "Failed to make transition '%s' for LifecycleNode '%s'",
+            ChangeState.valid_transitions[transition_id],
+            self._action.node_name,
+        )
+        if problem:
+            self._logger.error('%s', problem)
+
+
+class _ChangeStateHandler(BaseEventHandler):
+    """Hands what is asked of a node over to its link."""
+
+    def __init__(self, link: LifecycleLink) -> None:
+        super().__init__(matcher=link.is_target)
+        self._link = link
+
+    def handle(self, event: Any, context: LaunchContext) -> None:
+        """Ask the node."""
+        super().handle(event, context)
+        self._link.change_state(event.transition_id)

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that runs a container of nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Optional, TYPE_CHECKING
+
+from launch.launch_context import LaunchContext
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch_ros.actions.node import Node
+
+if TYPE_CHECKING:
+    from launch_ros.descriptions.composable_node import ComposableNode
+
+
+class ComposableNodeContainer(Node):
+    """Runs a container and loads nodes into it."""
+
+    def __init__(
+        self,
+        *,
+        name: SomeSubstitutionsType,
+        namespace: SomeSubstitutionsType,
+        composable_node_descriptions: Optional[Iterable[ComposableNode]] = None,
+        **kwargs: Any,
+    ) -> None:
+        """Create the action; the other arguments are those of Node."""
+        super().__init__(name=name, namespace=namespace, **kwargs)
+        self.__descriptions = list(composable_node_descriptions or ())
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
+        """Start the container; loading the nodes comes next."""
+        from launch_ros.actions.load_composable_nodes import LoadComposableNodes
+
+        entities: list[LaunchDescriptionEntity] = list(super().execute(context) or ())
+        if self.__descriptions:
+            entities.append(
+                LoadComposableNodes(
+                    composable_node_descriptions=self.__descriptions, target_container=self
+                )
+            )
+        return entities

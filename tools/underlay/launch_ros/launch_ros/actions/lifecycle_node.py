@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that runs a ROS node with a life cycle."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+from launch.launch_context import LaunchContext
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch_ros.actions.node import Node
+
+
+class LifecycleNode(Node):
+    """Runs a node whose states can be followed (OnStateTransition) and changed (ChangeState)."""
+
+    def __init__(
+        self,
+        *,
+        name: SomeSubstitutionsType,
+        namespace: SomeSubstitutionsType,
+        **kwargs: Any,
+    ) -> None:
+        """Create the action; the other arguments are those of Node."""
+        super().__init__(name=name, namespace=namespace, **kwargs)
+
+    def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
+        """Start the node, and follow its states from the first one on."""
+        entities = super().execute(context)
+        if not context.is_shutdown:
+            from launch_ros.actions._lifecycle_link import LifecycleLink
+            from launch_ros.ros_adapters import get_ros_adapter
+
+            LifecycleLink(self, context, get_ros_adapter(context))
+        return entities

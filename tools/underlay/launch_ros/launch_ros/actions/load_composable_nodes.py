@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that loads nodes into a container."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Optional, TYPE_CHECKING, Union
+
+from launch.action import Action
+from launch.launch_context import LaunchContext
+from launch.some_substitutions_type import SomeSubstitutionsType, SomeSubstitutionsType_types_tuple
+from launch.utilities.ensure_argument_type_impl import ensure_argument_type
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch_ros.actions.composable_node_container import ComposableNodeContainer
+from launch_ros.utilities.track_node_names import warn_of_same_names
+
+if TYPE_CHECKING:
+    import asyncio
+
+    from launch_ros.actions._load_request import LoadRequest
+    from launch_ros.descriptions.composable_node import ComposableNode
+
+
+class LoadComposableNodes(Action):
+    """Loads nodes into a container that runs or is about to, one after the other."""
+
+    def __init__(
+        self,
+        *,
+        composable_node_descriptions: Iterable[ComposableNode],
+        target_container: Union[SomeSubstitutionsType, ComposableNodeContainer],
+        **kwargs: Any,
+    ) -> None:
+        """
+        Create the action.
+
+        :param composable_node_descriptions: the nodes
+        :param target_container: the action that runs the container, or its full name
+        """
+        super().__init__(**kwargs)
+        self.__descriptions = list(composable_node_descriptions)
+        self.__container: Any = target_container
+        if not isinstance(target_container, ComposableNodeContainer):
+            ensure_argument_type(
+                target_container,
+                (ComposableNodeContainer, *SomeSubstitutionsType_types_tuple),
+                'target_container',
+                'LoadComposableNodes',
+            )
+            self.__container = normalize_to_list_of_substitutions(target_container)
+        self.__task: Optional[asyncio.Task[None]] = None
+
+    def execute(self, context: LaunchContext) -> None:
+        """Find out what is loaded and how; the container is asked while the launch goes on."""
+        requests = self._requests(context)
+        if not requests or context.is_shutdown:
+            return
+        name, process = self._target(context)
+        for request in requests:
+            if request.names.name is not None:
+                warn_of_same_names(context, request.names.name_in_root, name)
+        from launch_ros.actions._container_client import ContainerClient
+        from launch_ros.ros_adapters import get_ros_adapter
+
+        adapter = get_ros_adapter(context)
+        client = ContainerClient(adapter.ros_node, name, process)
+        self.__task = adapter.start_task(client.load(requests))
+
+    def _requests(self, context: LaunchContext) -> list[LoadRequest]:
+        from launch_ros.actions._load_request import build_load_request
+
+        conditions = [description.condition() for description in self.__descriptions]
+        return [
+            build_load_request(context, description)
+            for description, condition in zip(self.__descriptions, conditions)
+            if condition is None or condition.evaluate(context)
+        ]
+
+    def _target(self, context: LaunchContext) -> tuple[str, Optional[asyncio.Future[Any]]]:
+        """Return the name of the container, and its process if it is of this launch."""
+        if isinstance(self.__container, ComposableNodeContainer):
+            return self.__container.node_name, self.__container.get_asyncio_future()
+        return perform_substitutions(context, self.__container), None
+
+    def get_asyncio_future(self) -> Optional[asyncio.Future[None]]:
+        """Return a future that is done when all has been loaded or has failed."""
+        return self.__task

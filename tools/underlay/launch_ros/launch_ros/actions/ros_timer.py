@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The timer that follows the time of ROS."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TYPE_CHECKING
+
+from launch.actions.timer_action import TimerAction
+from launch.event_handlers.on_shutdown import OnShutdown
+
+if TYPE_CHECKING:
+    import asyncio
+
+    from launch.launch_context import LaunchContext
+
+
+class ROSTimer(TimerAction):
+    """
+    Visits actions once, when a period of ROS time is over.
+
+    That is the time of a simulation after SetUseSimTime(True). The timer ends with the launch at
+    the latest, whatever `cancel_on_shutdown` says, as the node that has the clock ends then.
+    """
+
+    def execute(self, context: LaunchContext) -> None:
+        """Start the timer."""
+        super().execute(context)
+        context.register_event_handler(
+            OnShutdown(on_shutdown=lambda *_: self.cancel(), handle_once=True)
+        )
+
+    def _start(
+        self,
+        context: LaunchContext,
+        loop: asyncio.AbstractEventLoop,
+        period_s: float,
+    ) -> Alarm:
+        """Let the period begin on the clock of the launch's own node."""
+        from launch_ros.ros_adapters import get_ros_node
+
+        def run_out() -> None:
+            loop.call_soon_threadsafe(self._run_out, context)
+
+        return Alarm(get_ros_node(context), period_s, run_out)
+
+
+class Alarm:
+    """A timer of a node that goes off once."""
+
+    def __init__(self, node: Any, period_s: float, callback: Callable[[], Any]) -> None:
+        """Call back from the thread of the node when the period is over by the node's clock."""
+        self._node = node
+        self._callback = callback
+        self._timer = node.create_timer(period_s, self._go_off, autostart=False)
+        self._timer.reset()
+
+    def _go_off(self) -> None:
+        self.cancel()
+        self._callback()
+
+    def cancel(self) -> None:
+        """Stop the timer."""
+        self._node.destroy_timer(self._timer)

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The description of a node that runs in a container."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Optional, TYPE_CHECKING
+
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
+from launch.utilities.normalize_to_list_of_substitutions_impl import (
+    normalize_to_list_of_substitutions,
+)
+from launch_ros.utilities.normalize_parameters_impl import (
+    normalize_parameters,
+    NormalizedParameters,
+)
+from launch_ros.utilities.normalize_remap_rules_impl import normalize_remap_rules, RemapRule
+
+if TYPE_CHECKING:
+    from launch.condition import Condition
+
+
+class ComposableNode:
+    """A node that is loaded into a container, as a plugin."""
+
+    def __init__(
+        self,
+        *,
+        package: SomeSubstitutionsType,
+        plugin: SomeSubstitutionsType,
+        name: Optional[SomeSubstitutionsType] = None,
+        namespace: Optional[SomeSubstitutionsType] = None,
+        parameters: Optional[list[Any]] = None,
+        remappings: Optional[Iterable[Any]] = None,
+        extra_arguments: Optional[list[Any]] = None,
+        condition: Optional[Condition] = None,
+    ) -> None:
+        """
+        Create the description.
+
+        :param package: the package that has the plugin
+        :param plugin: the name of the node's class, such as `composition::Talker`
+        :param name: the name of the node; what the class itself says if it is left out
+        :param namespace: the namespace, below the one that PushROSNamespace has set
+        :param parameters: dictionaries, paths of files, and single parameters
+        :param remappings: tuples of a name and what it becomes
+        :param extra_arguments: what the container is told, in the same form as parameters
+        :param condition: the node is loaded if this is None or fulfilled
+        """
+        self.__package = normalize_to_list_of_substitutions(package)
+        self.__plugin = normalize_to_list_of_substitutions(plugin)
+        self.__name = _optional(name)
+        self.__namespace = _optional(namespace)
+        self.__parameters = normalize_parameters(parameters or [])
+        self.__remappings = normalize_remap_rules(remappings or [])
+        self.__extra_arguments = normalize_parameters(extra_arguments or [])
+        self.__condition = condition
+
+    @property
+    def package(self) -> list[Substitution]:
+        """Return the parts of the name of the package."""
+        return self.__package
+
+    @property
+    def node_plugin(self) -> list[Substitution]:
+        """Return the parts of the name of the class."""
+        return self.__plugin
+
+    @property
+    def node_name(self) -> Optional[list[Substitution]]:
+        """Return the parts of the name, None if there is none."""
+        return self.__name
+
+    @property
+    def node_namespace(self) -> Optional[list[Substitution]]:
+        """Return the parts of the namespace, None if there is none."""
+        return self.__namespace
+
+    @property
+    def parameters(self) -> list[NormalizedParameters]:
+        """Return the parameters."""
+        return self.__parameters
+
+    @property
+    def remappings(self) -> list[RemapRule]:
+        """Return the remappings."""
+        return self.__remappings
+
+    @property
+    def extra_arguments(self) -> list[NormalizedParameters]:
+        """Return what the container is told."""
+        return self.__extra_arguments
+
+    def condition(self) -> Optional[Condition]:
+        """Return the condition, None if the node is always loaded."""
+        return self.__condition
+
+
+def _optional(text: Optional[SomeSubstitutionsType]) -> Optional[list[Substitution]]:
+    return None if text is None else normalize_to_list_of_substitutions(text)

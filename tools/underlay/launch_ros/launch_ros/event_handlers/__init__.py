@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The event handlers that know about ROS nodes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from launch_ros.event_handlers.on_state_transition import OnStateTransition
+
+__all__ = [
+    'OnStateTransition',
+]
+
+__getattr__, __dir__ = lazy_exports(__name__, __all__)

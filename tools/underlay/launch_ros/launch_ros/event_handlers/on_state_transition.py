@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A handler of the transitions of nodes with a life cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Optional, TYPE_CHECKING
+
+from launch.event_handler import EventHandler
+from launch.some_entities_type import SomeEntitiesType
+from launch_ros.events.lifecycle.state_transition import StateTransition
+
+if TYPE_CHECKING:
+    from launch_ros.actions.lifecycle_node import LifecycleNode
+
+_STATES = (
+    'unknown',
+    'unconfigured',
+    'inactive',
+    'active',
+    'finalized',
+    'configuring',
+    'cleaningup',
+    'shuttingdown',
+    'activating',
+    'deactivating',
+    'errorprocessing',
+)
+
+
+class OnStateTransition(EventHandler):
+    """Reacts when a lifecycle node has changed its state."""
+
+    def __init__(
+        self,
+        *,
+        entities: SomeEntitiesType,
+        target_lifecycle_node: Optional[LifecycleNode] = None,
+        transition: Optional[str] = None,
+        start_state: Optional[str] = None,
+        goal_state: Optional[str] = None,
+        matcher: Optional[Callable[[Any], bool]] = None,
+        **kwargs: Any,
+    ) -> None:
+        """
+        Create a handler; what is left out may be anything.
+
+        :param entities: what is visited
+        :param target_lifecycle_node: the action that runs the node
+        :param transition: the label of the transition, such as `configure`
+        :param start_state: the label of the state before, such as `configuring`
+        :param goal_state: the label of the state now, such as `inactive`
+        :param matcher: decides alone, in place of all the others
+        """
+        wanted = {'transition': transition, 'start_state': start_state, 'goal_state': goal_state}
+        self.__wanted = {name: value for name, value in wanted.items() if value is not None}
+        self.__target = target_lifecycle_node
+        if matcher is not None and (self.__wanted or target_lifecycle_node is not None):
+            raise ValueError(
+                'OnStateTransition takes either a matcher or what is to be matched, not both'
+            )
+        _warn_of_unknown_states(start_state, goal_state)
+        super().__init__(matcher=matcher or self._is_meant, entities=entities, **kwargs)
+
+    @property
+    def matcher_description(self) -> str:
+        """Return which events the handler accepts, for people."""
+        conditions = [f"event.{name} == '{value}'" for name, value in self.__wanted.items()]
+        if self.__target is not None:
+            conditions.insert(0, f'event.action == {self.__target}')
+        return ' and '.join(['event is StateTransition', *conditions])
+
+    def _is_meant(self, event: Any) -> bool:
+        return (
+            isinstance(event, StateTransition)
+            and (self.__target is None or event.action is self.__target)
+            and all(getattr(event, name) == value for name, value in self.__wanted.items())
+        )
+
+
+def _warn_of_unknown_states(*labels: Optional[str]) -> None:
+    """Say that a handler waits for a state that no node is ever in."""
+    for label in labels:
+        if label is None or label in _STATES:
+            continue
+        import difflib
+
+        from launch.logging import get_logger
+
+        close = difflib.get_close_matches(label, _STATES, n=1, cutoff=0.5)
+        get_logger('launch_ros.event_handlers').warning(
+            "OnStateTransition waits for the state '%s', which lifecycle nodes do not have%s",
+            label,
+            f": did you mean '{close[0]}'?" if close else f'; they are: {", ".join(_STATES)}',
+        )

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The event that asks nodes to change their state."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from launch.event import Event
+
+if TYPE_CHECKING:
+    from launch_ros.actions.lifecycle_node import LifecycleNode
+
+
+class ChangeState(Event):
+    """The lifecycle nodes that a matcher accepts are to make a transition."""
+
+    name = 'launch_ros.events.lifecycle.ChangeState'
+
+    # The transitions of lifecycle_msgs/Transition that there are to ask for.
+    valid_transitions = {
+        0: 'TRANSITION_CREATE',
+        1: 'TRANSITION_CONFIGURE',
+        2: 'TRANSITION_CLEANUP',
+        3: 'TRANSITION_ACTIVATE',
+        4: 'TRANSITION_DEACTIVATE',
+        5: 'TRANSITION_UNCONFIGURED_SHUTDOWN',
+        6: 'TRANSITION_INACTIVE_SHUTDOWN',
+        7: 'TRANSITION_ACTIVE_SHUTDOWN',
+        8: 'TRANSITION_DESTROY',
+    }
+
+    def __init__(
+        self,
+        *,
+        lifecycle_node_matcher: Callable[[LifecycleNode], bool],
+        transition_id: int,
+    ) -> None:
+        """Create the event; the ids are constants of lifecycle_msgs.msg.Transition."""
+        if transition_id not in self.valid_transitions:
+            known = ', '.join(f'{key} ({name})' for key, name in self.valid_transitions.items())
+            raise ValueError(
+                f"transition_id of ChangeState is invalid: '{transition_id}'; the transitions "
+                f'that can be asked for are: {known}'
+            )
+        self.__lifecycle_node_matcher = lifecycle_node_matcher
+        self.__transition_id = transition_id
+
+    @property
+    def lifecycle_node_matcher(self) -> Callable[[LifecycleNode], bool]:
+        """Return the matcher."""
+        return self.__lifecycle_node_matcher
+
+    @property
+    def transition_id(self) -> int:
+        """Return the id of the transition."""
+        return self.__transition_id

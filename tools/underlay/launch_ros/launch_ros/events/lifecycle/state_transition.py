@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The event of a node that has changed its state."""
+
+from __future__ import annotations
+
+from typing import Any, TYPE_CHECKING
+
+from launch.event import Event
+
+if TYPE_CHECKING:
+    from launch_ros.actions.lifecycle_node import LifecycleNode
+
+
+class StateTransition(Event):
+    """A lifecycle node has gone from one state to another."""
+
+    name = 'launch_ros.events.lifecycle.StateTransition'
+
+    def __init__(self, *, action: LifecycleNode, msg: Any) -> None:
+        """Create the event from the node's message (lifecycle_msgs/TransitionEvent)."""
+        self.__action = action
+        self.__msg = msg
+
+    @property
+    def action(self) -> LifecycleNode:
+        """Return the action that runs the node."""
+        return self.__action
+
+    @property
+    def msg(self) -> Any:
+        """Return the message."""
+        return self.__msg
+
+    @property
+    def timestamp(self) -> int:
+        """Return the node's time stamp, in nanoseconds."""
+        return int(self.__msg.timestamp)
+
+    @property
+    def transition(self) -> str:
+        """Return the label of the transition."""
+        return str(self.__msg.transition.label)
+
+    @property
+    def start_state(self) -> str:
+        """Return the label of the state before."""
+        return str(self.__msg.start_state.label)
+
+    @property
+    def goal_state(self) -> str:
+        """Return the label of the state now."""
+        return str(self.__msg.goal_state.label)

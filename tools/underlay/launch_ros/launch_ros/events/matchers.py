@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Functions that tell whether an event belongs to a node."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from launch_ros.actions.node import Node
+
+
+def matches_node_name(node_name: str) -> Callable[[Node], bool]:
+    """Return a matcher of the nodes of this full name; a leading slash may be left out."""
+    full_name = node_name if node_name.startswith('/') else f'/{node_name}'
+    return lambda action: bool(action.node_name == full_name)

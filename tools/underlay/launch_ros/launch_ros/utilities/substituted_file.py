@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Parameter files with substitutions in them."""
+
+from __future__ import annotations
+
+from launch._call_site import CallSite, note_place
+from launch.launch_context import LaunchContext
+from launch_ros.utilities.parameter_files import write_text
+
+
+def substitute_parameter_file(context: LaunchContext, path: str) -> str:
+    """Return the path of a copy of a file with each `$(name arguments)` in it performed."""
+    with open(path, encoding='utf-8') as file:
+        text = _substituted(context, file.read(), path)
+    _check_yaml(text, path)
+    return write_text(text)
+
+
+def _substituted(context: LaunchContext, text: str, path: str) -> str:
+    from launch.frontend.invalid_substitution_error import InvalidSubstitutionError
+    from launch.frontend.parse_substitution import parse_with_positions
+
+    try:
+        parts = list(parse_with_positions(text))
+    except InvalidSubstitutionError as error:
+        note_place(error, CallSite(path, error.line))
+        raise
+    result = ''
+    for part, position in parts:
+        try:
+            result += context.perform_substitution(part)
+        except Exception as error:
+            note_place(error, CallSite(path, text.count('\n', 0, position) + 1))
+            raise
+    return result
+
+
+def _check_yaml(text: str, path: str) -> None:
+    import yaml
+
+    try:
+        yaml.load(text, Loader=getattr(yaml, 'CSafeLoader', yaml.SafeLoader))  # noqa: S506
+    except yaml.YAMLError as error:
+        raise ValueError(
+            'The substituted parameter file is not a valid yaml file\n'
+            f"'{path}', with what its substitutions have become: {error}"
+        ) from error

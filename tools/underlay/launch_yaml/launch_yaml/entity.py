@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An element of a launch file in YAML."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Optional
+
+from launch._call_site import CallSite
+from launch.frontend._complaints import wrong_value
+from launch.frontend.entity import Entity as BaseEntity
+from launch.frontend.type_utils import checked_value
+
+_CHILDREN = 'children'
+
+
+class Entity(BaseEntity):
+    """A key with what lies below it: a dictionary of attributes, or a list of children."""
+
+    def __init__(
+        self,
+        element: Any,
+        type_name: str,
+        *,
+        file_name: str = '<string>',
+        line: int = 1,
+        parent: Optional[BaseEntity] = None,
+    ) -> None:
+        """Create the element of what lies below the key `type_name`."""
+        super().__init__(type_name, parent=parent, call_site=CallSite(file_name, line))
+        self.__element = {} if element is None else element
+        self.__file_name = file_name
+        self.__line = line
+        self.__read: set[str] = set()
+
+    @property
+    def children(self) -> list[BaseEntity]:
+        """Return the elements in this one."""
+        self.__read.add(_CHILDREN)
+        items = self.__element
+        if isinstance(items, dict):
+            items = items.get(_CHILDREN) or []
+        return [self._child(item) for item in self._checked_list(items, _CHILDREN)]
+
+    def _child(self, item: Any) -> Entity:
+        if not isinstance(item, dict) or len(item) != 1:
+            raise RuntimeError(
+                f'each child of `{self.type_name}` must be one key with what lies below it, such '
+                f"as '- log: {{message: hello}}', but one is {item!r}"
+            )
+        [(key, content)] = item.items()
+        return self._below(str(key), content, item)
+
+    def _children_of_type(self, name: str) -> list[BaseEntity]:
+        self.__read.add(name)
+        items = self._attributes().get(name) or []
+        return [self._below(name, item, item) for item in self._checked_list(items, name)]
+
+    def _below(self, type_name: str, content: Any, place: Any) -> Entity:
+        line = getattr(place, 'line', self.__line)
+        return Entity(content, type_name, file_name=self.__file_name, line=line, parent=self)
+
+    def _checked_list(self, items: Any, name: str) -> Iterable[Any]:
+        if isinstance(items, list):
+            return items
+        raise TypeError(
+            f"'{name}' of `{self.type_name}` must be a list, but it is {items!r}; begin each item "
+            "with '- '"
+        )
+
+    def _value(self, name: str, data_type: Any, can_be_str: bool) -> Any:
+        self.__read.add(name)
+        value = self._attributes().get(name)
+        if value is None:
+            return None
+        try:
+            return checked_value(value, data_type, can_be_str)
+        except (TypeError, ValueError) as error:
+            raise type(error)(wrong_value(self, name, error)) from error
+
+    def _attributes(self) -> dict[Any, Any]:
+        return self.__element if isinstance(self.__element, dict) else {}
+
+    def _left(self) -> list[tuple[str, list[str]]]:
+        if not isinstance(self.__element, dict) and _CHILDREN not in self.__read:
+            return [('value(s)', [str(self.__element)])]
+        return [('key(s)', [str(key) for key in self._attributes() if key not in self.__read])]

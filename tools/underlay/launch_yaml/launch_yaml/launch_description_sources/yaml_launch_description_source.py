@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The source of a launch description in YAML."""
+
+from __future__ import annotations
+
+from launch.launch_description_sources.frontend_launch_description_source import (
+    FrontendLaunchDescriptionSource,
+)
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch_yaml.parser import Parser
+
+
+class YAMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
+    """Loads a launch file in YAML."""
+
+    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
+        """Create the source of the file at a path."""
+        super().__init__(launch_file_path, method='interpreted YAML launch file', parser=Parser)
