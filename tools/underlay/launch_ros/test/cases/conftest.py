@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import os
 from pathlib import Path
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -236,8 +237,9 @@ class Launcher:
         return path
 
     def _start(self, command: list[str], stdin: Any, env: dict[str, str]) -> Running:
-        (self.here / 'rec').mkdir(exist_ok=True)
-        (self.here / 'tmp').mkdir(exist_ok=True)
+        for name in ('rec', 'tmp'):
+            shutil.rmtree(self.here / name, ignore_errors=True)
+            (self.here / name).mkdir()
         with open(self.here / 'stdout', 'wb') as out, open(self.here / 'stderr', 'wb') as err:
             process = subprocess.Popen(
                 command,
@@ -255,7 +257,7 @@ class Launcher:
         kept = {
             name: value
             for name, value in os.environ.items()
-            if not name.startswith(('OVERRIDE_LAUNCH_', 'ROS_HOME', 'PYTEST_'))
+            if not name.startswith(('OVERRIDE_LAUNCH_', 'PYTHONUN', 'ROS_HOME'))
         }
         return {
             **kept,

@@ -21,8 +21,15 @@ def test_the_four_words(launch: Any) -> None:
     assert out.said == [f'{n} if' if n < 4 else f'{n} unless' for n in range(8)]
 
 
-@pytest.mark.parametrize('condition', ['IfCondition', 'UnlessCondition'])
-@pytest.mark.parametrize('value', ['', 'yes', 'None', '2', 'on'])
+@pytest.mark.parametrize(
+    ('condition', 'value'),
+    [
+        ('IfCondition', ''),
+        ('IfCondition', 'yes'),
+        ('UnlessCondition', 'None'),
+        ('UnlessCondition', '2'),
+    ],
+)
 def test_other_words(condition: str, value: str, launch: Any) -> None:
     """3.6 Any other word, also none, is an error."""
     out = launch(

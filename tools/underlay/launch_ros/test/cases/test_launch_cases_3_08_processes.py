@@ -31,11 +31,9 @@ def test_words_and_folder_and_environment(launch: Any) -> None:
     assert 'AMENT_PREFIX_PATH' in env
 
 
-def test_python_output_is_not_forced(launch: Any) -> None:
-    """3.8 The environment and folder are those of the launch if nothing else is said."""
-    out = launch("ExecuteProcess(cmd=['rec']),")
-    assert out.run.cwd == str(out.here)
-    assert {name for name in out.run.env if name.startswith('LAUNCH')} == set()
+def test_folder(launch: Any) -> None:
+    """3.8 The folder is that of the launch if nothing else is said."""
+    assert launch("ExecuteProcess(cmd=['rec']),").run.cwd == str(launch.here)
 
 
 def test_whole_environment(launch: Any) -> None:
@@ -160,7 +158,7 @@ def test_input(launch: Any) -> None:
         TimerAction(period=0.5, actions=[LogInfo(msg='still reading'), Shutdown()]),
         """
     )
-    assert 'read ended' not in out.text
+    assert '[sh-1] read ended' not in out.lines
     assert out.said == ['still reading']
 
 
@@ -204,11 +202,12 @@ def test_details_of_a_command(launch: Any) -> None:
     ]
 
 
-def test_program_that_does_not_exist(launch: Any) -> None:
+def test_program_that_cannot_be_started(launch: Any) -> None:
     """3.8 What cannot be started is an error in the log; the status stays 0."""
+    launch.write('broken', '#!/no/such/interpreter').chmod(0o755)
     out = launch(
         """
-        it = ExecuteProcess(cmd=['no_such_program'], on_exit=[LogInfo(msg='exit')])
+        it = ExecuteProcess(cmd=['./broken'], on_exit=[LogInfo(msg='exit')])
         ---
         RegisterEventHandler(OnProcessStart(on_start=[LogInfo(msg='start')])),
         it,
@@ -216,9 +215,9 @@ def test_program_that_does_not_exist(launch: Any) -> None:
     )
     assert out.status == 0
     assert out.said == []
-    head = '[ERROR] [no_such_program-1]: exception occurred while executing process:'
+    head = '[ERROR] [broken-1]: exception occurred while executing process:'
     assert any(line.startswith(head) for line in out.lines)
-    assert 'no_such_program' in out.text.partition(head)[2]
+    assert './broken' in out.text.partition(head)[2]
 
 
 RESPAWN = """
@@ -322,11 +321,11 @@ def test_where_output_goes(
     files = sorted(file.name for file in (out.here / 'log/latest').iterdir())
     if own:
         assert files == ['launch.log', 'p-1-stderr.log', 'p-1-stdout.log', 'p-1.log']
-        assert out.own_log('p-1-stdout.log') == 'to out\n'
-        assert out.own_log('p-1-stderr.log') == 'to err\n'
-        assert sorted(out.own_log('p-1.log').splitlines()) == ['to err', 'to out']
+        assert out.own_log('p-1-stdout.log') == '[p-1] to out\n'
+        assert out.own_log('p-1-stderr.log') == '[p-1] to err\n'
+        assert sorted(out.own_log('p-1.log').splitlines()) == ['[p-1] to err', '[p-1] to out']
     elif own is None:
-        assert out.own_log('p-1-stdout.log') == 'to out\n'
+        assert out.own_log('p-1-stdout.log') == '[p-1] to out\n'
     else:
         assert files == ['launch.log']
 
@@ -424,8 +423,15 @@ def test_underlying_pair(launch: Any) -> None:
 
 
 def test_environment_has_nothing_added(launch: Any) -> None:
-    """3.8 A process that runs no Python gets the environment of the launch as it is."""
-    out = launch("ExecuteProcess(cmd=['rec']),")
-    env = {name: value for name, value in out.run.env.items() if name not in ('_', 'PWD')}
-    assert {name for name in env if name not in os.environ} <= {'REC_DIR', 'TMPDIR'}
-    assert 'PYTHONUNBUFFERED' not in env
+    """3.8 A process gets the environment as it is; but Python's output is not late (README)."""
+    out = launch(
+        """
+        ExecuteProcess(cmd=['rec']),
+        ExecuteProcess(cmd=['python3', '-c', 'import os; print(os.environ["PYTHONUNBUFFERED"])'],
+                       output='screen'),
+        """
+    )
+    added = {name for name in out.run.env if name not in os.environ}
+    assert added <= {'REC_DIR', 'ROS_LOG_DIR', 'TMPDIR', 'OLDPWD', 'SHLVL', '_'}
+    assert 'PYTHONUNBUFFERED' not in out.run.env
+    assert '[python3-2] 1' in out.lines

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import pytest
@@ -64,30 +65,37 @@ def test_path_instead_of_package(launch: Any) -> None:
     assert '[INFO] [true-2]: process has finished cleanly [pid N]' in out.lines
 
 
-@pytest.mark.parametrize(
-    ('options', 'before', 'expected'),
-    [
-        ("name='n'", '', ['__node:=n']),
-        ("namespace='a'", '', ['__ns:=/a']),
-        ("namespace=''", '', ['__ns:=/']),
-        ("namespace='/'", '', ['__ns:=/']),
-        ("namespace='/a/'", '', ['__ns:=/a']),
-        ("namespace=['a', '/b']", '', ['__ns:=/a/b']),
-        ('', "PushRosNamespace('p'),", ['__ns:=/p']),
-        ("namespace='a'", "PushRosNamespace('p'),", ['__ns:=/p/a']),
-        ("namespace='/a'", "PushRosNamespace('p'),", ['__ns:=/a']),
-        ("namespace=''", "PushRosNamespace('p'),", ['__ns:=/p']),
-        ("namespace='a'", "PushRosNamespace('p'), PushROSNamespace('q'),", ['__ns:=/p/q/a']),
-        ("namespace='a'", "PushRosNamespace('/p'), PushROSNamespace('/q'),", ['__ns:=/q/a']),
-        ('', "PushRosNamespace(''),", ['__ns:=/']),
-        ('', "GroupAction([PushRosNamespace('p')]),", []),
-        ('', "GroupAction([PushRosNamespace('p')], scoped=False),", ['__ns:=/p']),
-    ],
-)
-def test_names(options: str, before: str, expected: list[str], launch: Any) -> None:
+NAMES = [
+    ("name='n'", '', ['__node:=n']),
+    ("namespace='a'", '', ['__ns:=/a']),
+    ("namespace=''", '', ['__ns:=/']),
+    ("namespace='/'", '', ['__ns:=/']),
+    ("namespace='/a/'", '', ['__ns:=/a']),
+    ("namespace=['a', '/b']", '', ['__ns:=/a/b']),
+    ('', "PushRosNamespace('p'),", ['__ns:=/p']),
+    ("namespace='a'", "PushRosNamespace('p'),", ['__ns:=/p/a']),
+    ("namespace='/a'", "PushRosNamespace('p'),", ['__ns:=/a']),
+    ("namespace=''", "PushRosNamespace('p'),", ['__ns:=/p']),
+    ("namespace='a'", "PushRosNamespace('p'), PushROSNamespace('q'),", ['__ns:=/p/q/a']),
+    ("namespace='a'", "PushRosNamespace('/p'), PushROSNamespace('/q'),", ['__ns:=/q/a']),
+    ('', "PushRosNamespace(''),", ['__ns:=/']),
+    ('', "GroupAction([PushRosNamespace('p')]),", []),
+    ('', "GroupAction([PushRosNamespace('p')], scoped=False),", ['__ns:=/p']),
+]
+
+
+def test_names(launch: Any) -> None:
     """3.12 Name and namespace are told if they are given, the latter absolute."""
-    words = [word for each in expected for word in ('-r', each)]
-    assert _args(launch, options, before) == ['--ros-args', *words]
+    groups = ''.join(
+        f"GroupAction([{before} Node(package='stub', executable='rec', arguments=['{n}'], "
+        f'{options})]),\n'
+        for n, (options, before, _) in enumerate(NAMES)
+    )
+    found = {args[0]: args[2:] for args in launch(groups).args}
+    assert found == {
+        str(n): [word for rule in rules for word in ('-r', rule)]
+        for n, (_, _, rules) in enumerate(NAMES)
+    }
 
 
 @pytest.mark.parametrize(
@@ -213,24 +221,18 @@ from launch_ros.actions.node import NodeActionExtension
 
 class Adds(NodeActionExtension):
     def prepare_for_execute(self, context, ros_specific_arguments, node_action):
-        return [*node_action_words()], ros_specific_arguments
-
-
-def node_action_words():
-    return ['from', 'the extension']
+        return ['from', 'the extension'], ros_specific_arguments
 """
 
 
 def test_extensions(launch: Any) -> None:
     """3.12 A package can add to the commands of nodes by an entry point."""
     folder = 'site/case_extension-1.0.dist-info'
-    launch.write('site/case_extension.py', EXTENSION)
-    launch.write(f'{folder}/METADATA', 'Metadata-Version: 2.1\nName: case_extension\nVersion: 1.0\n')
+    launch.write('site/case_extension.py', EXTENSION, wrap=False)
+    launch.write(f'{folder}/METADATA', 'Name: case_extension\nVersion: 1.0\n')
     launch.write(
         f'{folder}/entry_points.txt', '[launch_ros.node_action]\ncase = case_extension:Adds\n'
     )
-    import os
-
     path = f'{launch.here / "site"}:{os.environ.get("PYTHONPATH", "")}'
     out = launch(NODE.format(", arguments=['own']"), PYTHONPATH=path)
     assert out.status == 0
