@@ -41,9 +41,7 @@ class ParameterValue:
     def evaluate(self, context: LaunchContext) -> Any:
         """Return the value that there is when this is first asked for."""
         if self.__evaluated is _NOT_YET:
-            self.__evaluated = perform_typed_substitution(
-                context, self.__value, self.__value_type
-            )
+            self.__evaluated = perform_typed_substitution(context, self.__value, self.__value_type)
         return self.__evaluated
 
     def __repr__(self) -> str:

@@ -155,6 +155,6 @@ def _warn_of_text(period: str) -> None:
     import warnings
 
     warnings.warn(
-        f"the period of a TimerAction should be a float or a substitution, not the text '{period}'",
+        f"the period of a TimerAction should be a float or substitutions, not the text '{period}'",
         stacklevel=4,
     )

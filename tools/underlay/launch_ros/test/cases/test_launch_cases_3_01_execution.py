@@ -151,9 +151,7 @@ WITH_EXCEPTION = """
 def test_exception_ends_the_launch(launch: Any) -> None:
     """3.1 An exception is one line, ends the processes by SIGINT, and makes the status 1."""
     out = launch(WITH_EXCEPTION)
-    error = (
-        '[ERROR] [launch]: Caught exception in launch (see debug for traceback): it went wrong'
-    )
+    error = '[ERROR] [launch]: Caught exception in launch (see debug for traceback): it went wrong'
     assert out.status == 1
     assert len([line for line in out.lines if line.startswith(error)]) == 1
     assert '[sh-1] got INT' in out.lines
@@ -254,7 +252,7 @@ def test_a_process_action_may_not_run_twice(entities: str, launch: Any) -> None:
     [
         ("LogInfo(msg='a'), None,", "has no attribute '"),
         ("OpaqueFunction(function=lambda context: LogInfo(msg='a')),", 'not iterable'),
-        ("OpaqueFunction(function=lambda context: [None]),", "has no attribute '"),
+        ('OpaqueFunction(function=lambda context: [None]),', "has no attribute '"),
         ("[LogInfo(msg='nested')],", "has no attribute '"),
         ('def generate_launch_description():\n    return None\n', 'None'),
     ],

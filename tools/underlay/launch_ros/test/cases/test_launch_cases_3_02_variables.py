@@ -26,7 +26,8 @@ def test_configuration_is_looked_up_when_performed(launch: Any) -> None:
     out = launch(
         """
         SetLaunchConfiguration('name', 'a'),
-        SetLaunchConfiguration(['x', LaunchConfiguration('name')], ['1', LaunchConfiguration('name')]),
+        SetLaunchConfiguration(['x', LaunchConfiguration('name')],
+                               ['1', LaunchConfiguration('name')]),
         LogInfo(msg=LaunchConfiguration(['x', LaunchConfiguration('name')])),
         LogInfo(msg=LaunchConfiguration('no', default=['d', LaunchConfiguration('name')])),
         LogInfo(msg=LaunchConfiguration('no', default=False)),

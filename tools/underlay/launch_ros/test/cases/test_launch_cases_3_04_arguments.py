@@ -48,12 +48,12 @@ def test_choices(launch: Any) -> None:
     """
     assert launch(entities, 'b:=cee').said == ['cee']
     out = launch(entities, 'b:=zzz')
-    error = "Argument \"b\" provided value \"zzz\" is not valid. Valid options are: ['bee', 'cee']"
+    error = 'Argument "b" provided value "zzz" is not valid. Valid options are: [\'bee\', \'cee\']'
     assert (out.status, out.said) == (1, [])
     assert f'[ERROR] [launch.actions.declare_launch_argument]: {error}' in out.lines
     assert out.error.startswith(error)
     out = launch(entities, 't:=3')
-    assert 'provided value "3" is not valid. Valid options are: (\'1\', \'2\')' in out.error
+    assert "provided value \"3\" is not valid. Valid options are: ('1', '2')" in out.error
     out = launch(entities)
     assert out.error.startswith('Argument "s" provided value "bee" is not valid.')
 
@@ -86,7 +86,9 @@ def test_wrong_choices(arguments: str, error: str, launch: Any) -> None:
 
 def test_position_matters(launch: Any) -> None:
     """3.4 An argument exists behind its declaration, and inside the scope of it."""
-    out = launch("LogInfo(msg=LaunchConfiguration('a')), DeclareLaunchArgument('a', default_value='1'),")
+    out = launch(
+        "LogInfo(msg=LaunchConfiguration('a')), DeclareLaunchArgument('a', default_value='1'),"
+    )
     assert "launch configuration 'a' does not exist" in out.error
     out = launch(
         """
@@ -114,8 +116,9 @@ def test_show_args(launch: Any) -> None:
         ExecuteProcess(cmd=['rec']),
         """
     )
-    assert out.stdout == HEADER + indent(dedent(
-        """
+    assert out.stdout == HEADER + indent(
+        dedent(
+            """
             'need':
                 must be given
 
@@ -137,7 +140,10 @@ def test_show_args(launch: Any) -> None:
                 first
           second
         """
-    ), '  ', str.strip)
+        ),
+        '  ',
+        str.strip,
+    )
     assert (out.status, out.err, out.runs) == (0, '', [])
 
 

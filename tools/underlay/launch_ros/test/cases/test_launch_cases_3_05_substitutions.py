@@ -198,7 +198,7 @@ def test_commands(launch: Any) -> None:
             'Captured stderr output: why',
         ),
         (
-            "Command('sh -c \"echo why >&2\"')",
+            'Command(\'sh -c "echo why >&2"\')',
             'executed command showed stderr output. Command: sh -c "echo why >&2"',
         ),
         ("Command('no_such_command')", 'file not found: [Errno 2]'),
@@ -217,7 +217,7 @@ def test_python_expressions(launch: Any) -> None:
         'x = TextSubstitution(text="2")',
         "PythonExpression(['1 + ', x])",
         "PythonExpression(['1.0 * ', x])",
-        "PythonExpression([\"'\", x, \"' == '2'\"])",
+        'PythonExpression(["\'", x, "\' == \'2\'"])',
         "PythonExpression('sqrt(4) + math.pi - pi')",
         "PythonExpression(\"os.path.join('a', 'b')\", ['os'])",
         "PythonExpression(['len(sys.argv) > 0 and ', 'os.sep'], python_modules=['sys', 'os'])",
@@ -285,9 +285,9 @@ def test_anonymous_names(launch: Any) -> None:
 
 def test_content_of_a_file(launch: Any) -> None:
     """3.5 The content of a file is its whole text."""
-    assert _results(
-        launch, '', "FileContent(['a', '.txt'])", files={'a.txt': 'one\ntwo\n'}
-    ) == ['one\ntwo\n']
+    assert _results(launch, '', "FileContent(['a', '.txt'])", files={'a.txt': 'one\ntwo\n'}) == [
+        'one\ntwo\n'
+    ]
 
 
 def test_logic(launch: Any) -> None:

@@ -127,7 +127,7 @@ def test_shell(launch: Any) -> None:
     assert out.run.args == ['a b']
     assert '[s-1] one' in out.lines
     assert (
-        "[ERROR] [s-1]: process has died [pid N, exit code 4, cmd 'echo one; rec \"$CASE_X\" | "
+        '[ERROR] [s-1]: process has died [pid N, exit code 4, cmd \'echo one; rec "$CASE_X" | '
         "cat; exit 4']."
     ) in out.lines
 
@@ -305,9 +305,7 @@ OUTPUT = """
         (", output={'stdout': 'own_log', 'both': 'screen'}", 'oe', '', None),
     ],
 )
-def test_where_output_goes(
-    output: str, screen: str, log: str, own: Any, launch: Any
-) -> None:
+def test_where_output_goes(output: str, screen: str, log: str, own: Any, launch: Any) -> None:
     """3.8 The outputs of a process go to the screen, launch.log and logs of their own."""
     out = launch(OUTPUT.format(output=output))
     lines = {'o': '[p-1] to out', 'e': '[p-1] to err'}

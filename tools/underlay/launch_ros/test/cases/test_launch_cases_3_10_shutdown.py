@@ -38,7 +38,7 @@ def test_escalation(launch: Any) -> None:
         "[ERROR] [it-1]: process[it-1] failed to terminate '0.75' seconds after receiving "
         "'SIGTERM', escalating to 'SIGKILL'",
         "[INFO] [it-1]: sending signal 'SIGKILL' to process[it-1]",
-        "[ERROR] [it-1]: process has died [pid N, exit code -9, cmd 'sh -c trap \"\" INT TERM; "
+        '[ERROR] [it-1]: process has died [pid N, exit code -9, cmd \'sh -c trap "" INT TERM; '
         "echo up; while :; do sleep 0.1; done'].",
     ]
     assert out.status == 0
@@ -147,7 +147,8 @@ def test_descendants_end_too(launch: Any, alive: Any) -> None:
     """3.10 What a process has started ends with it (issue)."""
     run = launch.start(
         """
-        ExecuteProcess(cmd=['sh', '-c', 'sleep 60 & echo up $!; wait'], output='screen', name='it'),
+        ExecuteProcess(
+            cmd=['sh', '-c', 'sleep 60 & echo up $!; wait'], output='screen', name='it'),
         """
     ).wait_for('[it-1] up')
     grandchild = int(run.stdout.partition('[it-1] up ')[2].split()[0])

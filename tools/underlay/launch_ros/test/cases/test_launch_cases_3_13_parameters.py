@@ -172,7 +172,10 @@ def test_typing_of_substitutions(launch: Any) -> None:
 @pytest.mark.parametrize(
     ('value', 'error'),
     [
-        ("TextSubstitution(text='{a: 1}')", 'Allowed value types are bytes, bool, int, float, str'),
+        (
+            "TextSubstitution(text='{a: 1}')",
+            'Allowed value types are bytes, bool, int, float, str',
+        ),
         (
             "TextSubstitution(text='a: b: c')",
             'Unable to parse the value of parameter a as yaml. If the parameter is meant to be a '
@@ -215,8 +218,14 @@ assert Same is Value
         " 'li': Value(['[', x, ']'], value_type=List[int])}]",
         before,
     ) == {
-        **{'s': '1', 'i': 1, 'y': 1, 'f': 1.0, 'b': True},
-        **{'l': ['a', 'b'], 'u': 'a: b', 'li': [1]},
+        's': '1',
+        'i': 1,
+        'y': 1,
+        'f': 1.0,
+        'b': True,
+        'l': ['a', 'b'],
+        'u': 'a: b',
+        'li': [1],
     }
 
 
