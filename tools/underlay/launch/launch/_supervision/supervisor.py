@@ -79,8 +79,8 @@ class Supervisor:
                 self._logger.debug("signal '%s' not sent: it has ended already", number.name)
                 return
             raise RuntimeError(
-                f"the signal '{number.name}' cannot be sent to process[{self._label}], which has "
-                'not started'
+                f"the signal '{number.name}' cannot be sent to process[{self._label}], which is "
+                'not running'
             )
         self._logger.info("sending signal '%s' to process[%s]", number.name, self._label)
         self._process.send_signal(number)

@@ -62,7 +62,7 @@ def when(it, goal, *entities, **kwargs):
 
 def _asked(out: Any) -> list[dict[str, Any]]:
     """Return what the container was asked for."""
-    return [json.loads(line[line.index('{') :]) for line in out.lines if '] {"' in line]
+    return [json.loads('{' + line.partition('{')[2]) for line in out.lines if '] {"' in line]
 
 
 def test_request(launch: Any) -> None:
