@@ -16,7 +16,8 @@ TEXTS = {'.py', '.xml', '.cfg', '.md', '.yaml', '.xacro', '.urdf', '.rviz', '.tx
 # Packages of ROS 2 Jazzy that launch files and nodes of src/ may import.
 JAZZY = set(
     'ament_flake8 ament_index_python ament_pep257 builtin_interfaces domain_coordinator '
-    'geometry_msgs launch launch_ros nav_msgs rcl_interfaces rclpy sensor_msgs std_msgs std_srvs '
+    'geometry_msgs launch launch_pytest launch_ros launch_testing '
+    'launch_testing_ros nav_msgs rcl_interfaces rclpy sensor_msgs std_msgs std_srvs '
     'tf2_msgs xacro'.split()
 )
 LIBRARIES = {'numpy', 'pytest', 'setuptools', 'yaml'}

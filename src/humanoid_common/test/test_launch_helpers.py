@@ -4,13 +4,18 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 from humanoid_common.testing.launching import (
     argument_defaults,
+    assert_clean_end,
+    description_under_test,
     load_launch_file,
     running_launch_file,
     undescribed_arguments,
 )
+from launch_testing import ProcInfoHandler
 import pytest
 
 FILE = """
@@ -47,3 +52,21 @@ def test_run(path: Path) -> None:
     with running_launch_file(path, 'word:=bye') as program:
         report = program.wait_for_exit()
     assert report.status == 0 and 'said bye' in report.output
+
+
+def test_description_under_test(path: Path) -> None:
+    """A launch test includes the file, and may begin then."""
+    entities = description_under_test(path, word='bye').entities
+    assert [type(each).__name__ for each in entities] == [
+        'IncludeLaunchDescription',
+        'ReadyToTest',
+    ]
+
+
+def test_traceback_is_no_clean_end() -> None:
+    """A traceback counts, although the status may be 0."""
+    output: Any = [SimpleNamespace(process_name='node-1', text=b'hello')]
+    assert_clean_end(ProcInfoHandler(), output)
+    output.append(SimpleNamespace(process_name='node-2', text=b'Traceback (most recent call'))
+    with pytest.raises(AssertionError, match='node-2'):
+        assert_clean_end(ProcInfoHandler(), output)

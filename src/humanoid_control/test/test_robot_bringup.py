@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-import signal
 
 from humanoid_common.testing.launching import (
     argument_defaults,
@@ -22,25 +21,6 @@ def test_arguments() -> None:
     description = load_launch_file(LAUNCH_FILE)
     assert argument_defaults(description) == {'use_controller': 'true', 'use_sim_time': 'false'}
     assert undescribed_arguments(description) == []
-
-
-def test_run() -> None:
-    """The processor reports what the controller sends, until Ctrl-C ends both."""
-    with ros_sandbox(), running_launch_file(LAUNCH_FILE) as program:
-        program.wait_for_output('[sensor_processor]: left_shoulder: ')
-        report = program.stop(signal.SIGINT)
-    assert '[humanoid_joint_controller]: Humanoid Joint Controller started (50 Hz)' in (
-        report.output
-    )
-    assert report.status == 0 and 'Traceback' not in report.output
-
-
-def test_without_controller() -> None:
-    """The processor runs also without the controller."""
-    with ros_sandbox(), running_launch_file(LAUNCH_FILE, 'use_controller:=false') as program:
-        program.wait_for_output('Sensor Processor started')
-        report = program.stop(signal.SIGINT)
-    assert 'joint_controller' not in report.output
 
 
 def test_misspelt_choice() -> None:

@@ -4,6 +4,6 @@ What the tests of several packages share.
 
 - `humanoid_common.testing.waiting`: wait for a condition instead of sleeping
 - `humanoid_common.testing.processes`: run a program, read its output, signal it
-- `humanoid_common.testing.launching`: run a launch file, and look into one without running it
+- `humanoid_common.testing.launching`: run launch files, and look into them without running them
 - `humanoid_common.testing.ros`: nodes in this process, in a domain of their own
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run a launch file in a process of its own, and look into one without running it."""
+"""Run launch files for tests, and look into them without running them."""
 
 from __future__ import annotations
 
@@ -9,8 +9,11 @@ from pathlib import Path
 
 from humanoid_common.testing.processes import module_command, running_program, RunningProgram
 from launch import LaunchContext, LaunchDescription, LaunchDescriptionEntity
-from launch.actions import DeclareLaunchArgument
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
 from launch.launch_description_sources import AnyLaunchDescriptionSource
+from launch_testing import IoHandler, ProcInfoHandler
+from launch_testing.actions import ReadyToTest
+from launch_testing.asserts import assertExitCodes
 
 
 @contextmanager
@@ -23,6 +26,20 @@ def running_launch_file(
     command = module_command('humanoid_common.testing.launch_file', str(path), *arguments)
     with running_program(command, environment) as program:
         yield program
+
+
+def description_under_test(path: Path, **arguments: str) -> LaunchDescription:
+    """Describe the run of a launch file for a launch test, which begins at once."""
+    source = AnyLaunchDescriptionSource(str(path))
+    include = IncludeLaunchDescription(source, launch_arguments=arguments.items())
+    return LaunchDescription([include, ReadyToTest()])
+
+
+def assert_clean_end(proc_info: ProcInfoHandler, proc_output: IoHandler) -> None:
+    """Assert that every process of a launch test ended with status 0 and without a traceback."""
+    assertExitCodes(proc_info)
+    names = {event.process_name for event in proc_output if b'Traceback' in event.text}
+    assert not names, f'there is a traceback in the output of {", ".join(sorted(names))}'
 
 
 def load_launch_file(path: Path) -> LaunchDescription:

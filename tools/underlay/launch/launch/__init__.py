@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from launch.launch_description import LaunchDescription
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.launch_description_source import LaunchDescriptionSource
+    from launch.launch_introspector import LaunchIntrospector
     from launch.launch_service import LaunchService
     from launch.some_actions_type import SomeActionsType, SomeActionsType_types_tuple
     from launch.some_entities_type import SomeEntitiesType, SomeEntitiesType_types_tuple
@@ -48,6 +49,7 @@ __all__ = [
     'LaunchDescription',
     'LaunchDescriptionEntity',
     'LaunchDescriptionSource',
+    'LaunchIntrospector',
     'LaunchService',
     'SomeActionsType',
     'SomeActionsType_types_tuple',

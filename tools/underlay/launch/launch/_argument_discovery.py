@@ -29,13 +29,17 @@ def _search(
     includes: list[IncludeLaunchDescription],
     found: Found,
 ) -> None:
-    """Search depth-first; behind a reset of the configurations nothing can be told."""
+    """
+    Search depth-first; behind a reset of the configurations nothing can be told.
+
+    What is no entity is an error when it is visited, not here.
+    """
     for entity in entities:
         if isinstance(entity, ResetLaunchConfigurations):
             return
         if isinstance(entity, DeclareLaunchArgument):
             _note(entity, conditional, includes, found)
-        else:
+        elif isinstance(entity, LaunchDescriptionEntity):
             _descend(entity, includes, found)
 
 
@@ -58,7 +62,20 @@ def _descend(
 ) -> None:
     """Search what an entity brings in; only its direct children count as conditional."""
     if isinstance(entity, IncludeLaunchDescription):
+        if _is_inside_itself(entity, includes):
+            return
         includes = [*includes, entity]
     _search(entity.describe_sub_entities(), False, includes, found)
     for _, children in entity.describe_conditional_sub_entities():
         _search(children, True, includes, found)
+
+
+def _is_inside_itself(
+    entity: IncludeLaunchDescription,
+    includes: list[IncludeLaunchDescription],
+) -> bool:
+    """Return whether a file is included that is being searched already."""
+    location = entity.launch_description_source._location_in_advance()
+    return location is not None and any(
+        each.launch_description_source._location_in_advance() == location for each in includes
+    )

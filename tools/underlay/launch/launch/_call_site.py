@@ -1,31 +1,33 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find the line of the launch file that created an action."""
+"""Find the line of the launch file that created an action, or that raised an error."""
 
 from __future__ import annotations
 
+import os
 import sys
 from typing import NamedTuple, Optional
 
 _OWN_PACKAGES = frozenset(('launch', 'launch_ros', 'launch_xml', 'launch_yaml'))
 _COMMANDS = frozenset(('ros2cli', 'ros2launch'))
+_INSTALLED = ('site-packages', 'dist-packages')
 
 
 class CallSite(NamedTuple):
-    """A line of a file."""
+    """A line of a file; the line is 0 if it is not known."""
 
     file_name: str
     line: int
 
     def __str__(self) -> str:
         """Return the line as people write it."""
-        return f"'{self.file_name}', line {self.line}"
+        return f"'{self.file_name}'" + (f', line {self.line}' if self.line else '')
 
 
 def calling_line() -> Optional[CallSite]:
     """Return the innermost line that is not of launch itself, None if a command called."""
     frame = sys._getframe(1)
     while frame is not None:
-        package = str(frame.f_globals.get('__name__', '')).partition('.')[0]
+        package = _package(frame.f_globals)
         if package in _COMMANDS:
             return None
         if package not in _OWN_PACKAGES:
@@ -34,9 +36,25 @@ def calling_line() -> Optional[CallSite]:
     return None
 
 
-def note_place(error: Exception, site: Optional[CallSite], action_name: str = '') -> None:
-    """Note on an exception the line that it comes from, unless a more exact one is known."""
-    if site is None or hasattr(error, 'launch_call_site'):
-        return
-    error.launch_call_site = site  # type: ignore[attr-defined]
-    error.launch_action_name = action_name  # type: ignore[attr-defined]
+def raising_line(error: BaseException) -> Optional[CallSite]:
+    """Return the last line of the user's own files that led to an error, None if there is none."""
+    found = None
+    traceback = error.__traceback__
+    while traceback is not None:
+        frame = traceback.tb_frame
+        is_own = _package(frame.f_globals) in _OWN_PACKAGES | _COMMANDS
+        if not is_own and _is_of_a_user(frame.f_code.co_filename):
+            found = CallSite(frame.f_code.co_filename, traceback.tb_lineno)
+        traceback = traceback.tb_next
+    return found
+
+
+def _package(variables: dict[str, object]) -> str:
+    return str(variables.get('__name__', '')).partition('.')[0]
+
+
+def _is_of_a_user(file_name: str) -> bool:
+    """Return whether a file is neither of Python itself nor of an installed library."""
+    if file_name.startswith('<') or any(part in file_name for part in _INSTALLED):
+        return False
+    return not file_name.startswith(os.path.dirname(os.__file__) + os.sep)

@@ -10,6 +10,7 @@ from typing import Any, Optional, TYPE_CHECKING
 
 from launch._failure_report import report_failure
 from launch.event_handler import BaseEventHandler
+from launch.events.include_launch_description import IncludeLaunchDescription
 from launch.events.shutdown import Shutdown
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.logging import get_logger
@@ -68,6 +69,10 @@ class EventProcessor:
         """Report an error and shut the launch down, with 1 as its return code."""
         self.return_code = 1
         report_failure(self._logger, error)
+        if self._context._before_start is not None:
+            for text in self._context._before_start.explain_failure(self._context):
+                self._logger.error('%s', text)
+            self._context._before_start = None
         if not self._context.is_shutdown:
             self._context._set_is_shutdown(True)
             self._context.emit_event_sync(Shutdown(reason=str(error)))
@@ -97,12 +102,21 @@ class EventProcessor:
         """Run a handler and visit what it returns, with local variables of their own."""
         futures: list[tuple[LaunchDescriptionEntity, asyncio.Future[Any]]] = []
         self._context._push_locals()
+        self._context._open_files = getattr(handler, '_open_files', ())
         try:
             for entity in normalize_to_list_of_entities(handler.handle(event, self._context)):
                 visit_into(entity, self._context, futures)
+            if isinstance(event, IncludeLaunchDescription):
+                self._check_before_start()
         finally:
             self._context._pop_locals()
             self._track([future for _, future in futures])
+
+    def _check_before_start(self) -> None:
+        """Run the checks once, when the first description has been visited."""
+        checks, self._context._before_start = self._context._before_start, None
+        if checks is not None:
+            checks.run(self._context)
 
     # Futures.
 

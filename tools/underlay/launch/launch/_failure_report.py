@@ -4,25 +4,18 @@
 from __future__ import annotations
 
 import logging
-from typing import Optional
 
 
 def report_failure(logger: logging.Logger, error: BaseException) -> None:
     """Log an error and the line of the launch file that it comes from."""
+    from launch._call_site import raising_line
+    from launch._failure_place import FailurePlace, place_of
+
     logger.error('Caught exception in launch (see debug for traceback): %s', error)
-    place = _place(error)
-    if place:
+    place = place_of(error)
+    line = raising_line(error) if place is None else None
+    if place is None and line is not None:
+        place = FailurePlace(line)
+    if place is not None:
         logger.error('%s', place)
     logger.debug('the traceback of it', exc_info=error)
-
-
-def _place(error: Optional[BaseException]) -> str:
-    """Return where the innermost cause with a known place comes from."""
-    found = ''
-    while error is not None:
-        site = getattr(error, 'launch_call_site', None)
-        if site is not None:
-            action = getattr(error, 'launch_action_name', '')
-            found = f'It comes from {site}' + (f' ({action})' if action else '')
-        error = error.__cause__
-    return found

@@ -21,8 +21,17 @@ class Action(LaunchDescriptionEntity):
 
     call_site: Optional[CallSite] = None
 
-    def __init__(self, *, condition: Optional[Condition] = None) -> None:
+    def __init__(self, *, condition: Optional[Condition] = None, **unknown: Any) -> None:
         """Create an action that is executed if `condition` is None or fulfilled."""
+        if unknown:
+            from launch._checked import unknown_keyword
+
+            raise unknown_keyword(type(self), next(iter(unknown)))
+        if condition is not None and not hasattr(condition, 'evaluate'):
+            raise TypeError(
+                "the argument 'condition' must be a condition such as IfCondition(...), but it is "
+                f"{condition!r} of type '{type(condition).__name__}'"
+            )
         self.__condition = condition
         self.call_site = calling_line()
 
@@ -73,12 +82,27 @@ class Action(LaunchDescriptionEntity):
 
     def visit(self, context: LaunchContext) -> Optional[Iterable[LaunchDescriptionEntity]]:
         """Execute the action if its condition allows it."""
-        if self.__condition is not None and not self.__condition.evaluate(context):
+        if self.__condition is not None and not self._is_wanted(self.__condition, context):
             return None
         try:
             return self.execute(context)
         finally:
             self._announce_completion(context)
+
+    def _is_wanted(self, condition: Condition, context: LaunchContext) -> bool:
+        """Return the value of the condition, and tell who watches."""
+        value = bool(condition.evaluate(context))
+        if context._observer is not None:
+            context._observer.decided(self, value)
+        return value
+
+    def _outline(self) -> dict[str, Any]:
+        """Return what can be told about the action before it is executed."""
+        return {}
+
+    def _outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """Return what the action will leave waiting for events, with the events."""
+        return []
 
     def _announce_completion(self, context: LaunchContext) -> None:
         """Emit an event at the end of the execution if anyone waits for it by now."""

@@ -10,12 +10,15 @@ from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_entities_type import SomeEntitiesType
 
 if TYPE_CHECKING:
+    from launch._include_stack import OpenFile
     from launch.event import Event
     from launch.launch_context import LaunchContext
 
 
 class BaseEventHandler:
     """Something that may react to an event."""
+
+    _open_files: tuple[OpenFile, ...] = ()
 
     def __init__(self, *, matcher: Callable[[Any], bool], handle_once: bool = False) -> None:
         """Create a handler of the events that `matcher` accepts, or of the first only."""
@@ -36,6 +39,10 @@ class BaseEventHandler:
     def matcher_description(self) -> str:
         """Return which events the handler accepts, for people."""
         return getattr(self.__matcher, '__name__', repr(self.__matcher))
+
+    def _awaited(self) -> str:
+        """Return what the handler waits for, in words."""
+        return f'an event ({type(self).__name__})'
 
     def matches(self, event: Event) -> bool:
         """Return whether the handler reacts to an event."""

@@ -8,14 +8,18 @@ from collections.abc import Callable, Iterable, Mapping
 import os
 from typing import Any, Optional, TYPE_CHECKING
 
+from launch._configurations import LaunchConfigurations
 from launch._context_locals import ContextLocals, LocalsView
 from launch._scopes import EnvironmentScopes
 
 if TYPE_CHECKING:
     import asyncio
 
+    from launch._before_start import BeforeStart
+    from launch._include_stack import OpenFile
     from launch._supervision.process_registry import ProcessRegistry
     from launch._supervision.program import Spawn
+    from launch._visit_observer import VisitObserver
     from launch.event import Event
     from launch.event_handler import BaseEventHandler
     from launch.substitution import Substitution
@@ -37,7 +41,7 @@ class LaunchContext:
         self.__loop: Optional[asyncio.AbstractEventLoop] = None
         self.__wake_up: Optional[Callable[[], None]] = None
         self.__locals = ContextLocals()
-        self.__configurations: dict[str, Any] = {}
+        self.__configurations = LaunchConfigurations()
         self.__configurations_stack: list[dict[str, Any]] = []
         self.__environment = EnvironmentScopes()
         self._event_handlers: deque[BaseEventHandler] = deque()
@@ -45,6 +49,10 @@ class LaunchContext:
         self._completion_futures: list[asyncio.Future[Any]] = []
         self._processes: Optional[ProcessRegistry] = None
         self._spawn: Optional[Spawn] = None
+        self._open_files: tuple[OpenFile, ...] = ()
+        self._observer: Optional[VisitObserver] = None
+        self._before_start: Optional[BeforeStart] = None
+        self._first_failure: Optional[int] = None
 
     # What the launch was started with, and its state.
 
@@ -87,12 +95,12 @@ class LaunchContext:
         return sub.perform(self)
 
     @property
-    def launch_configurations(self) -> dict[str, Any]:
+    def launch_configurations(self) -> LaunchConfigurations:
         """Return the launch configurations, which may be changed."""
         return self.__configurations
 
     def _push_launch_configurations(self) -> None:
-        self.__configurations_stack.append(self.__configurations.copy())
+        self.__configurations_stack.append(self.__configurations.snapshot())
 
     def _pop_launch_configurations(self) -> None:
         if not self.__configurations_stack:
@@ -150,6 +158,7 @@ class LaunchContext:
         append: bool = False,
     ) -> None:
         """Register a handler before all others, or behind them with `append`."""
+        event_handler._open_files = self._open_files
         if append:
             self._event_handlers.append(event_handler)
         else:

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 class LaunchDescriptionEntity:
     """A part of a launch description; visiting it makes it happen."""
 
+    _runs_code_of_the_user = False
+
     def visit(
         self,
         context: LaunchContext,
@@ -37,6 +39,9 @@ class LaunchDescriptionEntity:
     ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """Return the entities that may be visited, each list with the reason for it."""
         return []
+
+    def _check_in_advance(self, context: LaunchContext) -> None:
+        """Raise an error if it can be told already that visiting the entity later will fail."""
 
     def get_asyncio_future(self) -> Optional[asyncio.Future[Any]]:
         """Return a future that is done when the entity is; None if it is done at once."""

@@ -8,6 +8,7 @@ from typing import Optional, TYPE_CHECKING
 
 from launch.launch_description import LaunchDescription
 from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
 from launch.utilities.normalize_to_list_of_substitutions_impl import (
     normalize_to_list_of_substitutions,
 )
@@ -47,13 +48,31 @@ class LaunchDescriptionSource:
 
     def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
         """Return the description; it is loaded once."""
-        if self.__expanded_location is None:
-            self.__expanded_location = perform_substitutions(context, self.__location)
+        location = self._expand_location(context)
         if self.__launch_description is None:
             self.__launch_description = self._from_preview(
-                self.__expanded_location
-            ) or self._get_launch_description(self.__expanded_location)
+                location
+            ) or self._get_launch_description(location)
         return self.__launch_description
+
+    def _expand_location(self, context: LaunchContext) -> str:
+        """Return the location, which stays what it is the first time."""
+        if self.__expanded_location is None:
+            self.__expanded_location = perform_substitutions(context, self.__location)
+        return self.__expanded_location
+
+    @property
+    def _location_parts(self) -> list[Substitution]:
+        return self.__location
+
+    def _location_in_advance(self) -> Optional[str]:
+        """Return the location if it can be told before the launch runs, else None."""
+        from launch.launch_context import LaunchContext
+
+        try:
+            return perform_substitutions(LaunchContext(), self.__location)
+        except Exception:
+            return None
 
     def try_get_launch_description_without_context(self) -> Optional[LaunchDescription]:
         """Return the description if it can be had before the launch runs, else None."""

@@ -9,6 +9,7 @@ import signal
 import threading
 from typing import Any, Optional, TYPE_CHECKING
 
+from launch._before_start import BeforeStart
 from launch.event_handler import EventHandler
 from launch.events.include_launch_description import IncludeLaunchDescription
 from launch.events.shutdown import Shutdown
@@ -38,6 +39,7 @@ class LaunchService:
         Without `prefork`, Python nodes are executed and never forked from a template.
         """
         self.__context = LaunchContext(argv=argv, noninteractive=noninteractive)
+        self.__context._before_start = BeforeStart()
         self.__context.register_event_handler(_IncludeHandler())
         self.__debug = debug
         self.__prefork = prefork
@@ -98,7 +100,7 @@ class LaunchService:
         try:
             return loop.run_until_complete(self.run_async(shutdown_when_idle=shutdown_when_idle))
         finally:
-            _cancel_all_tasks(loop)
+            cancel_all_tasks(loop)
             asyncio.set_event_loop(None)
             loop.close()
 
@@ -214,7 +216,7 @@ def _require_main_thread() -> None:
         )
 
 
-def _cancel_all_tasks(loop: asyncio.AbstractEventLoop) -> None:
+def cancel_all_tasks(loop: asyncio.AbstractEventLoop) -> None:
     """Let what is still in the loop come to an end."""
     import asyncio
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 class Substitution:
     """A text that is known only when the launch runs."""
 
+    _is_constant = False  # whether it depends only on what is installed, and changes nothing
     # What `$(name ...)` takes in a launch file, by the names that the constructor has for it.
     frontend_required: ClassVar[tuple[str, ...]] = ()
     frontend_optional: ClassVar[tuple[str, ...]] = ()

@@ -154,10 +154,11 @@ def test_error_names_the_line(run: Run, write: Write) -> None:
     """An error in a launch file is reported with its line."""
     path = write('bad.launch.py', 'import os\n\nraise RuntimeError("because")\n')
     result = run(IncludeLaunchDescription(PythonLaunchDescriptionSource(path)))
-    assert result.lines == [
+    assert result.lines[:-1] == [
         '[ERROR] [launch]: Caught exception in launch (see debug for traceback): because',
         f"[ERROR] [launch]: It comes from '{path}', line 3",
     ]
+    assert result.lines[-1].startswith(f"  included from '{__file__}', line ")
 
 
 def test_error_names_the_line_of_the_action(run: Run, write: Write) -> None:
@@ -172,7 +173,7 @@ def test_error_names_the_line_of_the_action(run: Run, write: Write) -> None:
         ),
     )
     result = run(IncludeLaunchDescription(path))
-    assert result.lines[-1] == f"[ERROR] [launch]: It comes from '{path}', line 6 (LogInfo)"
+    assert result.lines[-2] == f"[ERROR] [launch]: It comes from '{path}', line 6 (LogInfo)"
 
 
 def test_missing_file(run: Run, write: Write) -> None:

@@ -172,8 +172,9 @@ def test_executed_twice(run: Run) -> None:
         ({'cmd': ['true'], 'cwd': '/no'}, "the folder '/no', in which 'true' was to be started"),
     ],
 )
-def test_spawn_failures(run: Run, kwargs: Any, text: str) -> None:
-    """A process that cannot be started is reported; the launch goes on."""
+def test_spawn_failures(run: Run, monkeypatch: pytest.MonkeyPatch, kwargs: Any, text: str) -> None:
+    """Without the check in advance such a process is only reported; the launch goes on."""
+    monkeypatch.setenv('LAUNCH_PREFLIGHT', '0')
     seen: list[Any] = []
     result = run(
         ExecuteProcess(**kwargs),
@@ -423,8 +424,9 @@ def test_signal_event(run: Run) -> None:
     assert 'exit code -15' in result.text
 
 
-def test_signal_before_the_start(run: Run) -> None:
+def test_signal_before_the_start(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """A process that is not running cannot get a signal."""
+    monkeypatch.setenv('LAUNCH_PREFLIGHT', '0')
     action = ExecuteProcess(cmd=['no_such_program'])
     result = run(
         action,

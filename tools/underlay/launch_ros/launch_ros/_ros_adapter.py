@@ -19,6 +19,8 @@ from rclpy.parameter import Parameter
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
+_CANCEL_AGAIN_S = 0.2
+
 
 class ROSAdapter:
     """A ROS node in a ROS context of its own, whose callbacks run in a thread of their own."""
@@ -128,10 +130,11 @@ class ROSAdapter:
             context.add_completion_future(self._loop.create_task(self._end()))
 
     async def _end(self) -> None:
-        tasks = list(self._tasks)
-        for task in tasks:
-            task.cancel()
-        await asyncio.gather(*tasks, return_exceptions=True)
+        while self._tasks:  # again, as a task that gets its result just then is not canceled
+            for task in self._tasks:
+                task.cancel()
+            await asyncio.wait(set(self._tasks), timeout=_CANCEL_AGAIN_S)
+            await asyncio.sleep(0)
         if self.is_running:
             self._ended = asyncio.get_running_loop().create_future()
             self._stop()

@@ -1,17 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Call ROS services without blocking the event loop of the launch."""
+"""Call services of a node without blocking the event loop of the launch."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 import logging
 from typing import Any, Optional
 
+from launch_ros._pending_answer import PendingAnswer
+from rcl_interfaces.srv import GetParameterTypes
+
 _POLL_S = 0.05
+_CHECK_S = 0.5
 _PATIENCE_S = 10.0
 _LOST_AFTER_S = 5.0
+_NO_PROBE_AFTER_S = 1.0
 
 
 class ServiceGoneError(RuntimeError):
@@ -19,86 +24,118 @@ class ServiceGoneError(RuntimeError):
 
 
 class ServiceCaller:
-    """Calls a service when it is there; a process that offers it may be known."""
+    """
+    Calls a service of a node when it is there.
+
+    A node that has just been discovered may not know yet where to send its answers, and drops
+    them. So a harmless question comes first, again and again until it is answered. As the client
+    for it is made after that for the service, and after what was subscribed to before, its answer
+    shows that the node knows those as well.
+    """
 
     def __init__(
         self,
-        client: Any,
+        ros_node: Any,
+        service_type: Any,
+        node_name: str,
+        service: str,
         logger: logging.Logger,
-        *,
         server: Optional[asyncio.Future[Any]] = None,
-        is_ready: Optional[Callable[[], bool]] = None,
     ) -> None:
         """
         Create the caller.
 
-        :param client: the rclpy client
-        :param server: what is done when the process that offers the service has ended for good
-        :param is_ready: what is true when a call makes sense; when there is a server by default
+        :param ros_node: the launch's own node
+        :param node_name: the full name of the node that has the service
+        :param service: the name of the service below that of the node
+        :param server: what is done when the process of that node has ended for good
         """
-        self._client = client
-        self._name = client.srv_name
+        self._ros_node = ros_node
+        self._name = f'{node_name}/{service}'
+        self._client = ros_node.create_client(service_type, self._name)
+        self._probe = ros_node.create_client(GetParameterTypes, f'{node_name}/get_parameter_types')
         self._logger = logger
         self._server = server
-        self._is_ready: Callable[[], bool] = is_ready or client.service_is_ready
+
+    def close(self) -> None:
+        """Give the clients back."""
+        self._ros_node.destroy_client(self._probe)
+        self._ros_node.destroy_client(self._client)
 
     async def call(self, request: Any) -> Any:
         """Wait for the service and return its answer; report if the launch ends meanwhile."""
         with self._abandoned('service'):
             await self._until_ready()
+            await self._until_heard()
         with self._abandoned('service response'):
             return await self._answer(request)
+
+    def report_abandoned(self, what: str = 'service') -> None:
+        """Log that nobody waits for the service any more."""
+        self._logger.warning("Abandoning wait for the '%s' %s, due to shutdown.", self._name, what)
 
     @contextmanager
     def _abandoned(self, what: str) -> Iterator[None]:
         try:
             yield
         except asyncio.CancelledError:
-            self._logger.warning(
-                "Abandoning wait for the '%s' %s, due to shutdown.", self._name, what
-            )
+            self.report_abandoned(what)
             raise
 
     async def _until_ready(self) -> None:
-        loop = asyncio.get_running_loop()
-        late = loop.time() + _PATIENCE_S
-        while not self._is_ready():
+        patience = _Patience(self._logger)
+        while not self._client.service_is_ready():
             self._require_server()
             await asyncio.sleep(_POLL_S)
-            if loop.time() > late:
-                self._logger.warning(
-                    "still waiting for the service '%s', which no running node offers", self._name
-                )
-                late = float('inf')
+            patience.check("the service '%s', which no running node offers", self._name)
+
+    async def _until_heard(self) -> None:
+        """Ask the harmless question until it is answered; nodes without it are not asked."""
+        patience = _Patience(self._logger)
+        no_probe = _now() + _NO_PROBE_AFTER_S
+        while True:
+            self._require_server()
+            if self._probe.service_is_ready():
+                with PendingAnswer(self._probe, GetParameterTypes.Request()) as pending:
+                    if await pending.arrives_within(_CHECK_S):
+                        return
+                patience.check("the node that offers '%s', which is busy", self._name)
+            elif _now() > no_probe:
+                return
+            else:
+                await asyncio.sleep(_POLL_S)
 
     async def _answer(self, request: Any) -> Any:
         """Send the request; whoever was there and is not any more will not answer it."""
-        loop = asyncio.get_running_loop()
-        answered = asyncio.Event()
-        pending = self._client.call_async(request)
-        pending.add_done_callback(lambda _: loop.call_soon_threadsafe(answered.set))
-        lost = loop.time() + _LOST_AFTER_S
-        try:
-            while not await _is_set_within(answered, 10 * _POLL_S):
+        lost = _now() + _LOST_AFTER_S
+        with PendingAnswer(self._client, request) as pending:
+            while not await pending.arrives_within(_CHECK_S):
                 self._require_server()
                 if self._client.service_is_ready():
-                    lost = loop.time() + _LOST_AFTER_S
-                elif loop.time() > lost:
+                    lost = _now() + _LOST_AFTER_S
+                elif _now() > lost:
                     raise ServiceGoneError(
                         f"the node that offers '{self._name}' has gone before it answered"
                     )
-        finally:
-            self._client.remove_pending_request(pending)
-        return pending.result()
+            return pending.result()
 
     def _require_server(self) -> None:
         if self._server is not None and self._server.done():
             raise ServiceGoneError(f"the process that offers '{self._name}' has ended")
 
 
-async def _is_set_within(event: asyncio.Event, seconds: float) -> bool:
-    try:
-        await asyncio.wait_for(event.wait(), seconds)
-    except asyncio.TimeoutError:
-        return False
-    return True
+class _Patience:
+    """Tells once what is still waited for, if that takes long."""
+
+    def __init__(self, logger: logging.Logger) -> None:
+        self._logger = logger
+        self._late = _now() + _PATIENCE_S
+
+    def check(self, what: str, name: str) -> None:
+        if _now() > self._late:
+            self._logger.warning(f'still waiting for {what}', name)
+            self._late = float('inf')
+
+
+def _now() -> float:
+    return asyncio.get_running_loop().time()

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from launch import LaunchContext
+from launch._failure_place import place_of
 from launch.actions import SetLaunchConfiguration
 from launch.substitutions import LaunchConfiguration, TextSubstitution
 from launch_ros.actions import PushRosNamespace
@@ -194,7 +195,7 @@ def test_wrong_substitution_in_a_file(
     context.launch_configurations['robot'] = 'r1'
     with pytest.raises(RuntimeError, match=error) as caught:
         ParameterFile(path, allow_substs=True).evaluate(context)
-    assert caught.value.launch_call_site == (str(path), 3)
+    assert place_of(caught.value).call_site == (str(path), 3)  # type: ignore[union-attr]
 
 
 def test_substituted_file_that_is_no_yaml(context: LaunchContext, tmp_path: Path) -> None:

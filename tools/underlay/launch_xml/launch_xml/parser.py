@@ -6,7 +6,8 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from launch._call_site import CallSite, note_place
+from launch._call_site import CallSite
+from launch._failure_place import note_line
 from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
 from launch.frontend.parser import Parser as BaseParser
 
@@ -29,7 +30,7 @@ class Parser(BaseParser):
             return Entity(read_tree(content), file_name=name), cls()
         except NotXMLError as error:
             failure = InvalidFrontendLaunchFileError(f'the file is not XML: {error}')
-            note_place(failure, CallSite(name, error.line))
+            note_line(failure, CallSite(name, error.line))
             raise failure from error
 
     @classmethod

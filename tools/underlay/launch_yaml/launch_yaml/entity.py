@@ -70,11 +70,10 @@ class Entity(BaseEntity):
 
     def _value(self, name: str, data_type: Any, can_be_str: bool) -> Any:
         self.__read.add(name)
-        value = self._attributes().get(name)
-        if value is None:
+        if name not in self._attributes():
             return None
         try:
-            return checked_value(value, data_type, can_be_str)
+            return checked_value(self._attributes()[name], data_type, can_be_str)
         except (TypeError, ValueError) as error:
             raise type(error)(wrong_value(self, name, error)) from error
 

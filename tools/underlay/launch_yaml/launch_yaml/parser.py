@@ -6,7 +6,8 @@ from __future__ import annotations
 import os
 from typing import Any, NoReturn, TYPE_CHECKING
 
-from launch._call_site import CallSite, note_place
+from launch._call_site import CallSite
+from launch._failure_place import note_line
 from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
 from launch.frontend.parser import Parser as BaseParser
 
@@ -44,7 +45,7 @@ class Parser(BaseParser):
 
 def _fail(problem: str, name: str, line: int) -> NoReturn:
     failure = InvalidFrontendLaunchFileError(problem)
-    note_place(failure, CallSite(name, line))
+    note_line(failure, CallSite(name, line))
     raise failure
 
 

@@ -2,6 +2,7 @@
 """Tests of `ros2 launch` with real launch files."""
 
 from collections.abc import Callable
+import json
 import os
 from pathlib import Path
 import signal
@@ -110,12 +111,12 @@ def test_prefix(ros2: Ros2, arm: dict[str, str]) -> None:
         (['arm'], "file 'None' was not found in the share directory of package 'arm'"),
         (['/some/x.launch.py'], "the launch file '/some/x.launch.py' does not exist"),
         (['arm', 'say.launch.py', 'word:='], "malformed launch argument 'word:='"),
-        (['arm', 'say.launch.py', 'wrd:=1'], "the launch file does not declare an argument 'wrd'"),
         (
             ['arm', 'say.launch.py', '--launch-prefix-filter', 'x'],
             '--launch-prefix must be specified if --launch-prefix-filter is provided',
         ),
         (['-s', 'arm', 'broken.launch.py'], "the launch file '"),
+        (['--json', 'arm', 'say.launch.py'], '--json says how --dry-run shows it: give both'),
     ],
 )
 def test_errors(words: list[str], error: str, ros2: Ros2, arm: dict[str, str]) -> None:
@@ -130,6 +131,90 @@ def test_missing_file_lists_those_that_exist(ros2: Ros2, arm: dict[str, str]) ->
     error = ros2('launch', 'arm', 'sai.launch.py', extra=arm).stderr
     assert 'say.launch.py, sleep.launch.py' in error
     assert "Did you mean 'say.launch.py'?" in error
+
+
+def test_misspelt_argument(ros2: Ros2, arm: dict[str, str]) -> None:
+    """A name that comes close to a declared one is an error; nothing is started."""
+    result = ros2('launch', 'arm', 'say.launch.py', 'wrd:=1', extra=arm)
+    assert result.returncode == 1 and 'process started' not in result.stdout
+    assert result.stdout.splitlines()[2:] == [
+        '[ERROR] [launch]: Caught exception in launch (see debug for traceback): '
+        "the launch file does not declare an argument 'wrd'. Did you mean 'word'? Pass "
+        "--allow-unknown-args if 'wrd' is meant, or --show-args to see the arguments"
+    ]
+
+
+def test_unknown_argument(ros2: Ros2, arm: dict[str, str]) -> None:
+    """A name that nothing has looked up is a warning, a magic one is not."""
+    words = ['arm', 'say.launch.py', 'zone:=1', 'sigterm_timeout:=1']
+    result = ros2('launch', *words, extra=arm)
+    warnings = [line for line in result.stdout.splitlines() if line.startswith('[WARNING]')]
+    assert result.returncode == 0 and '[echo-1] said hello' in result.stdout
+    assert warnings == [
+        "[WARNING] [launch]: no launch file declares the argument 'zone', and nothing has looked "
+        'it up; --show-args shows the arguments, --allow-unknown-args silences this'
+    ]
+
+
+def test_dry_run(ros2: Ros2, arm: dict[str, str]) -> None:
+    """With --dry-run the tree is shown; nothing is started, and no log is written."""
+    result = ros2('launch', '--dry-run', 'arm', 'say.launch.py', 'word:=a b', extra=arm)
+    assert (result.returncode, result.stderr) == (0, '')
+    assert "  argv: echo said 'a b'" in result.stdout and 'process started' not in result.stdout
+    assert not Path(arm['ROS_LOG_DIR']).exists()
+
+
+def test_dry_run_as_json(ros2: Ros2, arm: dict[str, str]) -> None:
+    """With --json the standard output is data, whatever else is said."""
+    words = ['--dry-run', '--json', 'arm', 'say.launch.py', 'zone:=1']
+    result = ros2('launch', *words, extra=arm)
+    data = json.loads(result.stdout)
+    assert data['status'] == 0 and 'the argument' in result.stderr
+    assert data['actions'][0]['actions'][-1]['argv'] == ['echo', 'said', 'hello']
+
+
+def test_dry_run_of_what_fails(ros2: Ros2, arm: dict[str, str]) -> None:
+    """A dry run ends with the errors and the status of a real one."""
+    result = ros2('launch', '--dry-run', 'arm', 'broken.launch.py', extra=arm)
+    assert result.returncode == 1
+    assert result.stdout.startswith('[ERROR] [launch]: Caught exception in launch ')
+    assert "No module named 'nope_nope'" in result.stdout
+
+
+def test_print_description(ros2: Ros2, arm: dict[str, str]) -> None:
+    """With -p the description is shown as a tree, without running it."""
+    result = ros2('launch', '-p', 'arm', 'say.launch.py', extra=arm)
+    assert result.returncode == 0
+    assert result.stdout.splitlines()[1] == '    DeclareLaunchArgument(name=word)'
+    assert ros2('launch', '-p', '-s', 'arm', 'say.launch.py', extra=arm).returncode == 2
+
+
+def test_no_preflight(ros2: Ros2, arm: dict[str, str], tmp_path: Path) -> None:
+    """With --no-preflight the programs that are there are started."""
+    path = tmp_path / 'half.launch.py'
+    path.write_text(
+        LAUNCH_FILE.replace(
+            '        ExecuteProcess(',
+            "        ExecuteProcess(cmd=['no_such_one']),\n        ExecuteProcess(",
+        )
+    )
+    assert 'process started' not in ros2('launch', str(path), extra=arm).stdout
+    result = ros2('launch', '--no-preflight', str(path), extra=arm)
+    assert 'said hello' in result.stdout and result.returncode == 0
+    assert "the program 'no_such_one' was not found on the PATH" in result.stdout
+
+
+def test_strict_exit(ros2: Ros2, arm: dict[str, str], tmp_path: Path) -> None:
+    """With --strict-exit the first process that failed gives the status."""
+    path = tmp_path / 'fail.launch.py'
+    path.write_text(
+        LAUNCH_FILE.replace("['echo', 'said', LaunchConfiguration('word')]", "['sh', '-c', WHAT]")
+        + "\n\nWHAT = 'exit 3'\n"
+    )
+    assert ros2('launch', str(path), extra=arm).returncode == 0
+    assert ros2('launch', '--strict-exit', str(path), extra=arm).returncode == 3
+    path.write_text(path.read_text().replace('exit 3', 'kill -9 $$'))
+    assert ros2('launch', '--strict-exit', str(path), extra=arm).returncode == 137
 
 
 def test_undeclared_arguments_can_be_allowed(ros2: Ros2, arm: dict[str, str]) -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Optional, TYPE_CHECKING
 
+from launch._checked import text_like
 from launch.substitution import Substitution
 from launch.utilities.normalize_to_list_of_substitutions_impl import (
     normalize_to_list_of_substitutions,
@@ -59,13 +60,11 @@ class ProcessOptions:
         return perform_substitutions(context, self.output)
 
 
-def timeout_substitutions(value: Any) -> list[Substitution]:
+def timeout_substitutions(keyword: str, value: Any) -> list[Substitution]:
     """Return a timeout, which may be a plain number, as substitutions."""
-    return normalize_to_list_of_substitutions(
-        str(value) if isinstance(value, (int, float)) else value
-    )
+    return text_like(keyword, str(value) if isinstance(value, (int, float)) else value)
 
 
 def output_substitutions(value: Any) -> Any:
     """Return an `output`, which may be a dictionary, as substitutions if it is a text."""
-    return value if isinstance(value, dict) else normalize_to_list_of_substitutions(value)
+    return value if isinstance(value, dict) else text_like('output', value)

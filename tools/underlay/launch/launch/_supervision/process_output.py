@@ -3,13 +3,17 @@
 
 from __future__ import annotations
 
+from collections import deque
 from typing import Any
 
 from launch._supervision.line_format import LineFormat
 from launch._supervision.line_splitter import LineSplitter
 from launch.logging import get_output_loggers
+from launch.logging._output import is_on_screen
+from launch.logging._screen import screen
 
 _STREAMS = (1, 2)
+_LAST_LINES = 20
 
 
 class ProcessOutput:
@@ -29,6 +33,8 @@ class ProcessOutput:
         self._line_format = line_format
         self._keep = keep
         self._kept: dict[int, list[bytes]] = {stream: [] for stream in _STREAMS}
+        self._unseen: deque[str] = deque(maxlen=_LAST_LINES)
+        self._is_seen = {stream: is_on_screen(self._loggers[stream]) for stream in _STREAMS}
 
     def feed(self, stream: int, data: bytes) -> None:
         """Take bytes from a stream, 1 or 2."""
@@ -41,10 +47,20 @@ class ProcessOutput:
         for stream, splitter in self._splitters.items():
             self._log(stream, splitter.flush())
 
+    def show_last_lines(self) -> None:
+        """Show the last lines that have not been on the screen; they are in the log already."""
+        for line in self._unseen:
+            screen.write_line(f'    {line}')
+        self._unseen.clear()
+
     def kept(self, stream: int) -> str:
         """Return all the text of a stream."""
         return b''.join(self._kept[stream]).decode('utf-8', 'replace')
 
     def _log(self, stream: int, lines: list[str]) -> None:
-        if lines:
-            self._loggers[stream].info('%s', self._line_format.apply(lines))
+        if not lines:
+            return
+        text = self._line_format.apply(lines)
+        self._loggers[stream].info('%s', text)
+        if not self._is_seen[stream]:
+            self._unseen.extend(text.split('\n')[-_LAST_LINES:])

@@ -137,6 +137,7 @@ class Supervisor:
         except (OSError, ValueError) as error:
             self._logger.error('%s', explain_spawn_failure(details, error))
             self._logger.debug('the traceback of it', exc_info=True)
+            self._note_failure(127)
             return None
         if self._context._processes is not None:
             self._context._processes.add(process)
@@ -174,15 +175,27 @@ class Supervisor:
         if self.return_code == 0:
             self._logger.info('process has finished cleanly [pid %s]', process.pid)
         else:
-            self._logger.error(
-                "process has died [pid %s, exit code %s, cmd '%s'].",
-                process.pid,
-                self.return_code,
-                self._command_line(),
-            )
+            self._report_failure(process)
         self._context.emit_event_sync(
             ProcessExited(returncode=self.return_code or 0, **self._event_details())
         )
+
+    def _report_failure(self, process: RunningProcess) -> None:
+        self._logger.error(
+            "process has died [pid %s, exit code %s, cmd '%s'].",
+            process.pid,
+            self.return_code,
+            self._command_line(),
+        )
+        if self._escalation is None:
+            self._note_failure(self.return_code or 0)
+            self.output.show_last_lines()
+
+    def _note_failure(self, return_code: int) -> None:
+        """Keep the status of the first process that failed, as a shell gives it."""
+        if self._context._first_failure is None:
+            status = 128 - return_code if return_code < 0 else return_code
+            self._context._first_failure = status
 
     def _forget(self, process: RunningProcess) -> None:
         """Let go of a process that has ended; one that has not is left to the registry."""

@@ -6,31 +6,38 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
+from launch._before_start import note_file
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
+    from launch._include_stack import OpenFile
     from launch.launch_context import LaunchContext
 
 _PATH = 'current_launch_file_path'
 _FOLDER = 'current_launch_file_directory'
 
 
-def enter_launch_file(context: LaunchContext, path: str) -> dict[str, str]:
-    """Make a file the one that is being read; return what leaving it has to restore."""
+def enter_launch_file(context: LaunchContext, file: OpenFile) -> LeaveLaunchFile:
+    """Make a file the one that is being read; return the entity that ends it."""
     known = context.get_locals_as_dict()
     before = {name: known[name] for name in (_PATH, _FOLDER) if name in known}
-    context.extend_locals({_PATH: path, _FOLDER: os.path.dirname(path)})
-    return before
+    leave = LeaveLaunchFile(before, context._open_files)
+    context.extend_locals({_PATH: file.path, _FOLDER: os.path.dirname(file.path)})
+    context._open_files = (*context._open_files, file)
+    note_file(context, file.path)
+    return leave
 
 
 class LeaveLaunchFile(LaunchDescriptionEntity):
     """Makes the including file the one that is being read again."""
 
-    def __init__(self, before: dict[str, str]) -> None:
+    def __init__(self, before: dict[str, str], open_files: tuple[OpenFile, ...]) -> None:
         """Create the entity from what was known before."""
         self._before = before
+        self._open_files = open_files
 
     def visit(self, context: LaunchContext) -> None:
         """Restore it."""
+        context._open_files = self._open_files
         if self._before:
             context.extend_locals(self._before)

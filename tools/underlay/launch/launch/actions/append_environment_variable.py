@@ -76,4 +76,6 @@ class AppendEnvironmentVariable(Action):
             before = perform_typed_substitution(context, self.__prepend, bool)
             values.insert(len(values) if before else 0, context.environment[name])
         separator = perform_substitutions(context, self.__separator)
-        context.environment[name] = separator.join(values)
+        context.environment[name] = value = separator.join(values)
+        if context._observer is not None:
+            context._observer.note(name=name, value=value)

@@ -7,12 +7,10 @@ from collections.abc import Container, Iterable
 import os
 from typing import Any, NoReturn, Optional, TYPE_CHECKING
 
+from launch._checked import list_like, of_type, optional_text_like
 from launch.action import Action
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
@@ -36,12 +34,15 @@ class DeclareLaunchArgument(Action):
         """Create the action; an argument without a default must be given."""
         super().__init__(**kwargs)
         self._conditionally_included = False
+        of_type('name', name, (str,), 'a text')
+        if description is not None:
+            of_type('description', description, (str,), 'a text')
+        if choices is not None and not hasattr(choices, '__contains__'):
+            choices = list_like('choices', choices, 'texts')
         self.__name = name
         self.__choices: Any = choices
         self.__description = _describe(description, choices)
-        self.__default_value = (
-            None if default_value is None else normalize_to_list_of_substitutions(default_value)
-        )
+        self.__default_value = optional_text_like('default_value', default_value)
         self._check_choices(default_value)
 
     @classmethod
@@ -98,9 +99,14 @@ class DeclareLaunchArgument(Action):
         choices: Optional[Container[str]] = self.__choices
         return choices
 
+    def _outline(self) -> dict[str, Any]:
+        return {'name': self.__name}
+
     def execute(self, context: LaunchContext) -> None:
         """Set the launch configuration to the default unless it is set; check its value."""
-        if self.__name not in context.launch_configurations:
+        context.launch_configurations.declared.add(self.__name)
+        is_given = self.__name in context.launch_configurations
+        if not is_given:
             if self.__default_value is None:
                 _fail(
                     f'Required launch argument "{self.__name}" (description: '
@@ -110,6 +116,8 @@ class DeclareLaunchArgument(Action):
                 context, self.__default_value
             )
         value = context.launch_configurations[self.__name]
+        if context._observer is not None:
+            context._observer.note(name=self.__name, value=value, is_default=not is_given)
         if self.__choices is not None and value not in self.__choices:
             _fail(
                 f'Argument "{self.__name}" provided value "{value}" is not valid. '

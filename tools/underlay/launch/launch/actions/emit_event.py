@@ -33,3 +33,5 @@ class EmitEvent(Action):
     def execute(self, context: LaunchContext) -> None:
         """Emit it."""
         context.emit_event_sync(self.__event)
+        if context._observer is not None:
+            context._observer.note(event=type(self.__event).__name__)

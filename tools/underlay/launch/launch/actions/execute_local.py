@@ -7,17 +7,19 @@ from collections.abc import Callable, Iterable
 import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
+from launch._checked import list_like, of_type, typed
 from launch.action import Action
 from launch.descriptions.executable import Executable
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
+from launch.substitution import Substitution
 from launch.substitutions.launch_configuration import LaunchConfiguration
-from launch.utilities.type_utils import normalize_typed_substitution
 
 if TYPE_CHECKING:
     import asyncio
 
     from launch._supervision.supervisor import Supervisor
+    from launch._visit_observer import VisitObserver
     from launch.launch_context import LaunchContext
 
 OnExit = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity], Callable[..., Any]]
@@ -78,6 +80,7 @@ class ExecuteLocal(Action):
             timeout_substitutions,
         )
 
+        _check_plain_options(shell, emulate_tty, respawn_delay, respawn_max_retries)
         self.__process_description = process_description
         self.__options = ProcessOptions(
             shell=shell,
@@ -86,13 +89,13 @@ class ExecuteLocal(Action):
             log_cmd=log_cmd,
             output=output_substitutions(os.environ.get(_OVERRIDE_OUTPUT) or output),
             output_format=output_format,
-            sigterm_timeout=timeout_substitutions(sigterm_timeout),
-            sigkill_timeout=timeout_substitutions(sigkill_timeout),
-            respawn=normalize_typed_substitution(respawn, bool),
+            sigterm_timeout=timeout_substitutions('sigterm_timeout', sigterm_timeout),
+            sigkill_timeout=timeout_substitutions('sigkill_timeout', sigkill_timeout),
+            respawn=typed('respawn', respawn, bool, 'a bool or a substitution'),
             respawn_delay=respawn_delay,
             respawn_max_retries=respawn_max_retries,
         )
-        self.__on_exit = on_exit
+        self.__on_exit = on_exit if on_exit is None or callable(on_exit) else _reaction(on_exit)
         self.__executed = False
         self.__supervisor: Optional[Supervisor] = None
 
@@ -183,8 +186,6 @@ class ExecuteLocal(Action):
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the entities that are visited when the process has ended."""
-        if isinstance(self.__on_exit, LaunchDescriptionEntity):
-            return [self.__on_exit]
         if self.__on_exit is None or callable(self.__on_exit):
             return []
         return list(self.__on_exit)
@@ -198,9 +199,48 @@ class ExecuteLocal(Action):
             )
         self.prepare(context)
         self.__executed = True
+        self._check_program(context)
+        if context._observer is not None:
+            self._tell(context._observer)
         if not context.is_shutdown:
             self._begin_supervision(context)
         return None
+
+    def _check_program(self, context: LaunchContext) -> None:
+        """Raise an error if nothing has been started yet and the program is not there."""
+        checks = context._before_start
+        if checks is not None and checks.resolves_programs and not self.shell:
+            from launch._programs import require_program
+
+            require_program(self.description_of_process())
+
+    def _tell(self, observer: VisitObserver) -> None:
+        """Tell who watches what would be started."""
+        details = self.description_of_process()
+        observer.note(
+            label=details['name'],
+            argv=details['cmd'],
+            shell=self.shell or None,
+            cwd=details['cwd'],
+            environment=observer.environment_changes(details['env']),
+        )
+        for event, entities in self._outline_of_waiting():
+            observer.note_waiting(event, entities)
+
+    def _outline(self) -> dict[str, Any]:
+        words = (' + '.join(part.describe() for part in word) for word in self.cmd)
+        return {'command': list(words)}
+
+    def _outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        entities = self.get_sub_entities()
+        return [('its end', entities)] if entities else []
+
+    def _check_in_advance(self, context: LaunchContext) -> None:
+        from launch._programs import require_later_program
+
+        description = self.__process_description
+        if not self.shell and description.cmd:
+            require_later_program(description.cmd[0], description.env, context)
 
     def _begin_supervision(self, context: LaunchContext) -> None:
         from launch._supervision.process_control import ProcessControl
@@ -223,3 +263,24 @@ class ExecuteLocal(Action):
     def get_asyncio_future(self) -> Optional[asyncio.Future[None]]:
         """Return a future that is done when the process has ended for good."""
         return None if self.__supervisor is None else self.__supervisor.task
+
+
+def _reaction(on_exit: Any) -> list[LaunchDescriptionEntity]:
+    """Return what is visited when the process has ended as a list."""
+    if isinstance(on_exit, LaunchDescriptionEntity):
+        return [on_exit]
+    entities = list_like('on_exit', on_exit, 'actions, an action or a callable')
+    for entity in entities:
+        of_type('on_exit', entity, (LaunchDescriptionEntity,), 'a list of actions')
+    return entities
+
+
+def _check_plain_options(
+    shell: Any, emulate_tty: Any, respawn_delay: Any, respawn_max_retries: Any
+) -> None:
+    """Raise an error that names the keyword if an option cannot be used."""
+    of_type('shell', shell, (bool,), 'True or False')
+    of_type('emulate_tty', emulate_tty, (bool, str, Substitution), 'True or False')
+    if respawn_delay is not None:
+        of_type('respawn_delay', respawn_delay, (int, float), 'a number of seconds')
+    of_type('respawn_max_retries', respawn_max_retries, (int,), 'a whole number')

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, Optional, TYPE_CHECKING, Union
 
+from launch._checked import list_like, mapping_like, typed
 from launch.action import Action
 from launch.actions.pop_environment import PopEnvironment
 from launch.actions.pop_launch_configurations import PopLaunchConfigurations
@@ -18,7 +19,6 @@ from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.utilities.type_utils import (
     is_substitution,
-    normalize_typed_substitution,
     perform_typed_substitution,
 )
 
@@ -44,10 +44,12 @@ class GroupAction(Action):
     ) -> None:
         """Create the group; without `forwarding` only `launch_configurations` get into it."""
         super().__init__(**left_over_kwargs)
-        self.__actions = list(actions)
-        self.__scoped = normalize_typed_substitution(scoped, bool)
-        self.__forwarding = normalize_typed_substitution(forwarding, bool)
-        self.__launch_configurations = dict(launch_configurations or {})
+        self.__actions = list_like('actions', actions, 'actions')
+        self.__scoped = typed('scoped', scoped, bool, 'a bool or a substitution')
+        self.__forwarding = typed('forwarding', forwarding, bool, 'a bool or a substitution')
+        self.__launch_configurations = mapping_like(
+            'launch_configurations', launch_configurations or {}
+        )
         self.__entities: Optional[list[LaunchDescriptionEntity]] = None
 
     @classmethod
@@ -89,8 +91,13 @@ class GroupAction(Action):
             start += [ResetEnvironment(), ResetLaunchConfigurations(self.__launch_configurations)]
         return [*start, *self.__actions, PopEnvironment(), PopLaunchConfigurations()]
 
+    def _outline(self) -> dict[str, Any]:
+        return {'scoped': self.__scoped, 'forwarding': self.__forwarding}
+
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Return the actions, which are visited next."""
+        if context._observer is not None:
+            context._observer.note(**self._outline())
         if not is_substitution(self.__scoped) and not is_substitution(self.__forwarding):
             return self.get_sub_entities()
         return self._around_actions(

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 import os
 from typing import Any, Optional, TYPE_CHECKING, Union
 
+from launch._checked import list_like, text_like
+from launch._include_stack import open_file
 from launch.action import Action
-from launch.actions._include_location import enter_launch_file, LeaveLaunchFile
+from launch.actions._include_location import enter_launch_file
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.launch_description import LaunchDescription
 from launch.launch_description_entity import LaunchDescriptionEntity
@@ -44,9 +46,10 @@ class IncludeLaunchDescription(Action):
                 AnyLaunchDescriptionSource,
             )
 
-            launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
+            path = text_like('launch_description_source', launch_description_source)
+            launch_description_source = AnyLaunchDescriptionSource(path)
         self.__source = launch_description_source
-        self.__launch_arguments = () if launch_arguments is None else tuple(launch_arguments)
+        self.__launch_arguments = () if launch_arguments is None else _pairs(launch_arguments)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
@@ -80,19 +83,32 @@ class IncludeLaunchDescription(Action):
         description = self.__source.try_get_launch_description_without_context()
         return [] if description is None else [description]
 
+    def _check_in_advance(self, context: LaunchContext) -> None:
+        from launch._missing_file import explain_missing_file
+        from launch._preflight import constant_text
+
+        path = constant_text(self.__source._location_parts, context)
+        if path is not None and os.path.dirname(path) and not os.path.isfile(path):
+            raise FileNotFoundError(explain_missing_file('launch file', path))
+
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Load the file and return its description, with the arguments before it."""
+        path = os.path.abspath(self.__source._expand_location(context))
+        file = open_file(context, path, self.call_site)
         description = self.__source.get_launch_description(context)
-        leave = enter_launch_file(context, os.path.abspath(self.__source.location))
+        leave = enter_launch_file(context, file)
         self._check_required(description, context)
-        arguments = [
-            SetLaunchConfiguration(name, value) for name, value in self.__launch_arguments
-        ]
-        return [*arguments, description, LeaveLaunchFile(leave)]
+        if context._observer is not None:
+            context._observer.note(path=path)
+        arguments = [_setting(name, value) for name, value in self.__launch_arguments]
+        return [*arguments, description, leave]
 
     def given_names(self, context: Optional[LaunchContext] = None) -> list[str]:
         """Return the names of the launch arguments that are given here."""
         return [_text(name, context) for name, _ in self.__launch_arguments]
+
+    def _outline(self) -> dict[str, Any]:
+        return {'path': self.__source.location}
 
     def _check_required(self, description: LaunchDescription, context: LaunchContext) -> None:
         """Raise an error if an argument is neither given nor has a default."""
@@ -103,10 +119,36 @@ class IncludeLaunchDescription(Action):
                 continue
             names = [*given, *(name for each in includes for name in each.given_names())]
             if argument.name not in names:
-                raise RuntimeError(
+                error = RuntimeError(
                     f"Included launch description missing required argument '{argument.name}' "
                     f"(description: '{argument.description}'), given: [{', '.join(names)}]"
                 )
+                from launch._failure_place import note_line
+
+                note_line(error, argument.call_site)
+                raise error
+
+
+def _pairs(launch_arguments: Any) -> tuple[tuple[Any, Any], ...]:
+    """Return the launch arguments as pairs; what is none is refused."""
+    if isinstance(launch_arguments, Mapping):
+        raise TypeError(
+            "the argument 'launch_arguments' must be a list of pairs, but it is a dictionary: "
+            'write .items() behind it'
+        )
+    pairs = tuple(list_like('launch_arguments', launch_arguments, 'pairs of a name and a value'))
+    for pair in pairs:
+        if isinstance(pair, str) or not isinstance(pair, Sequence) or len(pair) != 2:
+            raise TypeError(
+                "the argument 'launch_arguments' must be a list of pairs of a name and a value, "
+                f'but one item is {pair!r}'
+            )
+    return pairs
+
+
+def _setting(name: Any, value: Any) -> SetLaunchConfiguration:
+    """Return the action that sets a launch argument."""
+    return SetLaunchConfiguration(name, text_like(f'launch_arguments[{name!r}]', value))
 
 
 def _text(name: SomeSubstitutionsType, context: Optional[LaunchContext]) -> str:

@@ -39,8 +39,14 @@ class LogInfo(Action):
         """Return the parts of the text."""
         return self.__msg
 
+    def _outline(self) -> dict[str, Any]:
+        return {'text': ' + '.join(part.describe() for part in self.__msg)}
+
     def execute(self, context: LaunchContext) -> None:
         """Log the text."""
         from launch.logging import get_logger
 
-        get_logger('launch.user').info('%s', perform_substitutions(context, self.__msg))
+        text = perform_substitutions(context, self.__msg)
+        get_logger('launch.user').info('%s', text)
+        if context._observer is not None:
+            context._observer.note(text=text)

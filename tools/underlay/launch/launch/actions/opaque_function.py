@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 class OpaqueFunction(Action):
     """Calls a function with the context; the entities it returns are visited next."""
 
+    _runs_code_of_the_user = True
+
     def __init__(
         self,
         *,
@@ -34,13 +36,18 @@ class OpaqueFunction(Action):
         self.__args = tuple(args or ())
         self.__kwargs = dict(kwargs or {})
 
+    def _outline(self) -> dict[str, Any]:
+        return {'function': getattr(self.__function, '__name__', repr(self.__function))}
+
     def execute(self, context: LaunchContext) -> Optional[Iterable[LaunchDescriptionEntity]]:
         """Call the function."""
+        if context._observer is not None:
+            context._observer.note(**self._outline())
         result = self.__function(context, *self.__args, **self.__kwargs)
         if result is not None and not isinstance(result, Iterable):
-            name = getattr(self.__function, '__name__', repr(self.__function))
             raise TypeError(
-                f"'{type(result).__name__}' object is not iterable: the function '{name}' of an "
+                f"'{type(result).__name__}' object is not iterable: the function "
+                f"'{self._outline()['function']}' of an "
                 'OpaqueFunction must return a list of actions or None'
             )
         return result

@@ -30,6 +30,13 @@ class RegisterEventHandler(Action):
     def execute(self, context: LaunchContext) -> None:
         """Register it."""
         context.register_event_handler(self.__event_handler)
+        if context._observer is not None:
+            for event, entities in self._outline_of_waiting():
+                context._observer.note_waiting(event, entities)
+
+    def _outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        entities = self.__event_handler.describe()[1]
+        return [(self.__event_handler._awaited(), entities)] if entities else []
 
     def describe_conditional_sub_entities(
         self,

@@ -54,4 +54,6 @@ class SetEnvironmentVariable(Action):
     def execute(self, context: LaunchContext) -> None:
         """Set it."""
         name = perform_substitutions(context, self.__name)
-        context.environment[name] = perform_substitutions(context, self.__value)
+        context.environment[name] = value = perform_substitutions(context, self.__value)
+        if context._observer is not None:
+            context._observer.note(name=name, value=value)

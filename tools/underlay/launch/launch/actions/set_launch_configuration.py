@@ -54,4 +54,7 @@ class SetLaunchConfiguration(Action):
     def execute(self, context: LaunchContext) -> None:
         """Set it."""
         name = perform_substitutions(context, self.__name)
-        context.launch_configurations[name] = perform_substitutions(context, self.__value)
+        value = perform_substitutions(context, self.__value)
+        context.launch_configurations[name] = value
+        if context._observer is not None:
+            context._observer.note(name=name, value=value)

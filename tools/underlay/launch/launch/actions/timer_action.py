@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Optional, Protocol, TYPE_CHECKING, Union
 
+from launch._checked import list_like, typed
 from launch.action import Action
 from launch.actions._captured_scope import EnterScope, LeaveScope
 from launch.event_handler import EventHandler
@@ -44,7 +45,7 @@ class TimerAction(Action):
         """Create the action; the period is a float in seconds, or stands for one."""
         super().__init__(**kwargs)
         self.__period = _checked_period(period)
-        self.__actions = list(actions)
+        self.__actions = list_like('actions', actions, 'actions')
         self.__cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)
         self.__done: Optional[asyncio.Future[None]] = None
         self.__timer: Optional[Cancelable] = None
@@ -82,6 +83,12 @@ class TimerAction(Action):
         """Return the actions, which wait for the timer."""
         return [(f'after {self.__period} second(s)', self.__actions)]
 
+    def _outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        period = self.__period
+        if isinstance(period, list):
+            period = ' + '.join(part.describe() for part in period)
+        return [(f'{period} s to pass', self.__actions)]
+
     def execute(self, context: LaunchContext) -> None:
         """Start the timer."""
         if self.__canceled or context.is_shutdown:
@@ -93,6 +100,8 @@ class TimerAction(Action):
         if perform_typed_substitution(context, self.__cancel_on_shutdown, bool):
             context.register_event_handler(OnShutdown(on_shutdown=lambda *_: self.cancel()))
         period_s = perform_typed_substitution(context, self.__period, float)
+        if context._observer is not None:
+            context._observer.note_waiting(f'{period_s} s to pass', self.__actions)
         self.__timer = self._start(context, context.asyncio_loop, period_s)
 
     def _start(
@@ -106,7 +115,7 @@ class TimerAction(Action):
 
     def _reaction(self, context: LaunchContext) -> EventHandler:
         """Return the handler that visits the actions in the scope of now."""
-        configurations: dict[str, Any] = dict(context.launch_configurations)
+        configurations = context.launch_configurations.snapshot()
         entities = [
             EnterScope(configurations, context.get_locals_as_dict()),
             *self.__actions,
@@ -141,14 +150,14 @@ class TimerAction(Action):
 
 def _checked_period(period: Any) -> Any:
     """Return the period as a float or as substitutions; ints are refused, texts are doubtful."""
-    if isinstance(period, int):
+    if isinstance(period, int) and not isinstance(period, bool):
         raise TypeError(
             'the period of a TimerAction must be a float or a substitution, but it is the '
             f'{type(period).__name__} {period}: write {float(period)} instead'
         )
     if isinstance(period, str):
         _warn_of_text(period)
-    return normalize_typed_substitution(period, float)
+    return typed('period', period, float, 'a float or a substitution')
 
 
 def _warn_of_text(period: str) -> None:

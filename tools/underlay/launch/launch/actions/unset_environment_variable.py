@@ -41,4 +41,7 @@ class UnsetEnvironmentVariable(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Remove it."""
-        context.environment.pop(perform_substitutions(context, self.__name), None)
+        name = perform_substitutions(context, self.__name)
+        context.environment.pop(name, None)
+        if context._observer is not None:
+            context._observer.note(name=name)

@@ -34,6 +34,8 @@ def evaluate_condition_expression(
     """Return the truth value of an expression: true, 1, false or 0, in any case."""
     parts = list(expression)
     text = perform_substitutions(context, parts).strip().lower()
+    if context._observer is not None:
+        context._observer.expanded(text)
     if text in VALID_TRUE_EXPRESSIONS:
         return True
     if text in VALID_FALSE_EXPRESSIONS:

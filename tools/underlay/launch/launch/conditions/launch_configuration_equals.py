@@ -39,8 +39,15 @@ class LaunchConfigurationEquals(Condition):
             stacklevel=2,
         )
 
+    def describe(self) -> str:
+        """Return a short description for people."""
+        expected = ' + '.join(sub.describe() for sub in self._expected or ()) or None
+        return f"{type(self).__name__}('{self._name}', {expected})"
+
     def _equals(self, context: LaunchContext) -> bool:
         value = context.launch_configurations.get(self._name)
+        if context._observer is not None:
+            context._observer.expanded('not set' if value is None else str(value))
         if self._expected is None or value is None:
             return value is None and self._expected is None
         return str(value) == perform_substitutions(context, self._expected)

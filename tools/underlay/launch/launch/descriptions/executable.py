@@ -10,12 +10,10 @@ import re
 import shlex
 from typing import Any, Optional, TYPE_CHECKING
 
+from launch._checked import list_like, mapping_like, optional_text_like, text_like
 from launch._supervision.python_output import runs_python
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
@@ -43,13 +41,13 @@ class Executable:
         arguments: Optional[Iterable[SomeSubstitutionsType]] = None,
     ) -> None:
         """Create the description; each item of `cmd` becomes one argument."""
-        words = [*cmd, *(arguments or ())]
-        self.__cmd = [normalize_to_list_of_substitutions(word) for word in words]
-        self.__prefix = _normalize(prefix)
-        self.__name = _normalize(name)
-        self.__cwd = _normalize(cwd)
-        self.__env = None if env is None else _normalize_variables(env)
-        self.__additional_env = _normalize_variables(additional_env or {})
+        words = [*list_like('cmd', cmd, 'words'), *(arguments or ())]
+        self.__cmd = [text_like('cmd', word) for word in words]
+        self.__prefix = optional_text_like('prefix', prefix)
+        self.__name = optional_text_like('name', name)
+        self.__cwd = optional_text_like('cwd', cwd)
+        self.__env = None if env is None else _normalize_variables('env', env)
+        self.__additional_env = _normalize_variables('additional_env', additional_env or {})
         self.__final_cmd: Optional[list[str]] = None
         self.__final_name: Optional[str] = None
         self.__final_cwd: Optional[str] = None
@@ -148,14 +146,10 @@ class Executable:
         return {**environment, **_perform_variables(context, self.__additional_env)}
 
 
-def _normalize(value: Optional[SomeSubstitutionsType]) -> Optional[list[Substitution]]:
-    return None if value is None else normalize_to_list_of_substitutions(value)
-
-
-def _normalize_variables(variables: Mapping[Any, Any]) -> Variables:
+def _normalize_variables(keyword: str, variables: Mapping[Any, Any]) -> Variables:
     return [
-        (normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value))
-        for name, value in variables.items()
+        (text_like(keyword, name), text_like(f'{keyword}[{name!r}]', value))
+        for name, value in mapping_like(keyword, variables).items()
     ]
 
 

@@ -55,6 +55,15 @@ class OnActionEventBase(BaseEventHandler):
         """Return a short description for people, and the entities behind it."""
         return super().describe()[0], list(self.__entities)
 
+    def _awaited(self) -> str:
+        target = self.__target
+        if target is None:
+            whose = 'any action'
+        else:
+            name = getattr(target, 'name', None)
+            whose = f"'{name}'" if isinstance(name, str) else type(target).__name__
+        return f'{self.__target_event_cls.__name__} of {whose}'
+
     def _is_meant(self, event: Event) -> bool:
         """Return whether the event belongs to the target."""
         if not isinstance(event, self.__target_event_cls):

@@ -28,6 +28,9 @@ class OnShutdown(BaseEventHandler):
         """Return which events the handler accepts, for people."""
         return 'event is Shutdown'
 
+    def _awaited(self) -> str:
+        return 'the shutdown'
+
     def describe(self) -> tuple[str, list[Any]]:
         """Return a short description for people, and the entities behind it."""
         return super().describe()[0], list(self.__entities)

@@ -15,11 +15,11 @@ Text = tuple[Substitution, ...]
 
 
 def children_named(entity: Entity, *type_names: str) -> list[Entity]:
-    """Return the children with any of some tags; there may be none."""
+    """Return the children with any of some tags in order; there may be none."""
     found: list[Entity] = []
     for name in type_names:
         found += entity.get_attr(name, data_type=List[Entity], optional=True) or []  # noqa: UP006
-    return found
+    return sorted(found, key=lambda child: child.order)
 
 
 def parse_pairs(

@@ -6,6 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, TYPE_CHECKING
 
+from launch._did_you_mean import did_you_mean
+
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
 
@@ -34,14 +36,6 @@ _ATTRIBUTES = {
     ('arg', 'value'): 'write <let name="..." value="..."/>, or \'default\'',
     ('arg', 'doc'): "write 'description'",
 }
-
-
-def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return a question that names what comes closest, or ''."""
-    import difflib
-
-    close = difflib.get_close_matches(name, list(known), n=1)
-    return f"Did you mean '{close[0]}'?" if close else ''
 
 
 def missing_attribute(entity: Entity, name: str, data_type: Any, left: list[str]) -> str:

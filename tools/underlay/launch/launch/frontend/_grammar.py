@@ -10,6 +10,7 @@ from typing import Union
 from launch.frontend.invalid_substitution_error import InvalidSubstitutionError
 
 _NAME = re.compile(r'[A-Za-z][A-Za-z0-9_-]*')
+_HARMLESS = re.compile(r'[A-Za-z0-9_/.:,#=-]+')
 _OPENING = '$('
 _QUOTES = '\'"'
 
@@ -48,11 +49,15 @@ class _Reader:
                 parts += [plain, self._call()] if plain else [self._call()]
                 plain = ''
             else:
-                plain += self._character()
+                plain += self._plain_text()
         return [*parts, plain] if plain or not parts else parts
 
-    def _character(self) -> str:
-        """Read a character, or the one that a backslash protects."""
+    def _plain_text(self) -> str:
+        """Read a character, or the one that a backslash protects, or a run of harmless ones."""
+        harmless = _HARMLESS.match(self._text, self._at)
+        if harmless is not None:
+            self._at = harmless.end()
+            return harmless.group()
         escaped = self._text[self._at] == '\\' and self._at + 1 < len(self._text)
         self._at += 2 if escaped else 1
         return self._text[self._at - 1]

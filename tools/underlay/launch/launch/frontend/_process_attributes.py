@@ -18,9 +18,9 @@ _TEXTS = {
     'launch-prefix': 'prefix',
     'name': 'name',
     'output': 'output',
-    'sigkill_timeout': 'sigkill_timeout',
-    'sigterm_timeout': 'sigterm_timeout',
 }
+# Attributes that have a type, or substitutions that stand for it.
+_LATER_TYPED = {'respawn': bool, 'sigkill_timeout': float, 'sigterm_timeout': float}
 # Attributes that must have a type at once.
 _TYPED = {'emulate_tty': bool, 'respawn_delay': float, 'respawn_max_retries': int, 'shell': bool}
 
@@ -30,15 +30,14 @@ def parse_process(entity: Entity, parser: Parser, ignored: frozenset[str]) -> di
     kwargs = parse_texts(
         entity, parser, {name: kw for name, kw in _TEXTS.items() if name not in ignored}
     )
-    for name, data_type in _TYPED.items():
+    for name, data_type in {**_TYPED, **_LATER_TYPED}.items():
         if name not in ignored:
-            value = entity.get_attr(name, data_type=data_type, optional=True, can_be_str=False)
+            later = name in _LATER_TYPED
+            value = entity.get_attr(name, data_type=data_type, optional=True, can_be_str=later)
             if value is not None:
-                kwargs[name] = value
+                kwargs[name] = parser.parse_if_substitutions(value)
     if 'cmd' not in ignored:
         kwargs['cmd'] = parse_command(entity.get_attr('cmd'), parser)
-    if 'respawn' not in ignored:
-        kwargs.update(_parse_respawn(entity, parser))
     if 'on_exit' not in ignored:
         kwargs.update(_parse_on_exit(entity))
     if 'env' not in ignored:
@@ -60,11 +59,6 @@ def parse_texts(entity: Entity, parser: Parser, names: dict[str, str]) -> dict[s
 def parse_command(text: str, parser: Parser) -> list[Any]:
     """Return the words of a command line."""
     return list(command_words(parser.parse_substitution(text)))
-
-
-def _parse_respawn(entity: Entity, parser: Parser) -> dict[str, Any]:
-    respawn = entity.get_attr('respawn', data_type=bool, optional=True)
-    return {} if respawn is None else {'respawn': parser.parse_if_substitutions(respawn)}
 
 
 def _parse_on_exit(entity: Entity) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from itertools import count
 from typing import Any, Optional, TYPE_CHECKING
 
 from launch.frontend._complaints import missing_attribute, unexpected_names
@@ -11,13 +12,18 @@ from launch.frontend.type_utils import check_is_list_entity
 if TYPE_CHECKING:
     from launch._call_site import CallSite
 
+_numbers = count(1)
+
 
 class Entity:
     """
     An element with attributes and children, which notes what has been asked for.
 
-    A format derives from this class and says where attributes and children are.
+    A format derives from this class and says where attributes and children are. The elements
+    of a file are created in the order that they have in it.
     """
+
+    order = 0
 
     def __init__(
         self,
@@ -31,6 +37,7 @@ class Entity:
         self.__parent = parent
         self.__asked: list[str] = []
         self.call_site = call_site
+        self.order = next(_numbers)
 
     @property
     def type_name(self) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 import os
 from typing import Any, Optional, TextIO, TYPE_CHECKING, Union
 
-from launch._call_site import note_place
+from launch._failure_place import note_line
 from launch.frontend.expose import instantiate_action
 from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
 from launch.frontend.parse_substitution import (
@@ -39,10 +39,10 @@ class Parser:
             except InvalidFrontendLaunchFileError as error:
                 errors[parser] = error
                 _rewind(file)
-        for parser, failure in errors.items():
-            if parser.claims(name):
-                raise failure
-        raise InvalidFrontendLaunchFileError()
+        claimed = [failure for parser, failure in errors.items() if parser.claims(name)]
+        if len(claimed) == 1:
+            raise claimed[0]
+        raise InvalidFrontendLaunchFileError('\n'.join(map(str, claimed)))
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:
@@ -82,7 +82,7 @@ class Parser:
         try:
             action = instantiate_action(entity, self)
         except Exception as error:
-            note_place(error, entity.call_site, entity.type_name)
+            note_line(error, entity.call_site, entity.type_name)
             raise
         if entity.call_site is not None:
             action.call_site = entity.call_site

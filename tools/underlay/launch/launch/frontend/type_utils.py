@@ -48,11 +48,12 @@ def value_of_text(text: str, data_type: Any, can_be_str: bool) -> Any:
     if '$(' in text:
         if can_be_str:
             return text
-        raise TypeError(f"'{text}' must be a {type_name(data_type)}, without substitutions")
+        raise TypeError(f"'{text}' must be of type {type_name(data_type)}, without substitutions")
     try:
         return coerce_to_type(text, data_type)
     except ValueError as error:
-        raise TypeError(f"'{text}' is not a {type_name(data_type)}: {error}") from error
+        advice = '. Give it the type str if it is meant as a text' if data_type is None else ''
+        raise TypeError(f'{error}{advice}') from error
 
 
 def value_of_texts(texts: list[str], data_type: Any, can_be_str: bool) -> list[Any]:
@@ -66,18 +67,24 @@ def value_of_texts(texts: list[str], data_type: Any, can_be_str: bool) -> list[A
 
 def checked_value(value: Any, data_type: Any, can_be_str: bool) -> Any:
     """Return a value that has a type already, if it has the right one."""
-    if data_type is None:
-        return uniform_or_raise(value) if isinstance(value, list) else value
+    if data_type is None and isinstance(value, (bool, int, float, str)):
+        return value
+    if data_type is None and isinstance(value, list):
+        return uniform_or_raise(value)
     if isinstance(value, str):
         return value_of_text(value, data_type, can_be_str)
     if can_be_str and get_origin(data_type) is list and _has_substitutions(value):
         return value
-    if (data_type is float and isinstance(value, int)) or not has_type(value, data_type):
+    if (data_type is float and isinstance(value, int)) or not _has_type(value, data_type):
+        what = 'nothing' if value is None else f'{value!r} of type {type(value).__name__}'
         raise TypeError(
-            f'expected a {type_name(data_type)}, but got {value!r}, which is a '
-            f'{type(value).__name__}. {_advice(value, data_type)}'
+            f'expected {type_name(data_type)}, but got {what}. {_advice(value, data_type)}'
         )
     return value
+
+
+def _has_type(value: Any, data_type: Any) -> bool:
+    return data_type is not None and has_type(value, data_type)
 
 
 def _has_substitutions(value: Any) -> bool:
@@ -91,4 +98,6 @@ def _advice(value: Any, data_type: Any) -> str:
         return f'Write {float(value)} instead'
     if data_type is str and isinstance(value, (bool, int, float)):
         return f"Put it in quotes: '{str(value).lower() if isinstance(value, bool) else value}'"
+    if value is None:
+        return "Leave it out, or write '' for an empty text"
     return 'Write a value of that type'

@@ -8,7 +8,6 @@ import os
 from launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
-from launch.launch_description_sources._missing_file import missing_file
 from launch.launch_description_sources.python_launch_file_utilities import (
     get_launch_description_from_python_launch_file,
 )
@@ -22,7 +21,9 @@ def get_launch_description_from_any_launch_file(
     """Return the launch description of a file, whatever its format."""
     path = os.fspath(launch_file_path)
     if not os.path.isfile(path):
-        raise FileNotFoundError(missing_file(path))
+        from launch._missing_file import explain_missing_file
+
+        raise FileNotFoundError(explain_missing_file('launch file', path))
     extension = os.path.splitext(path)[1]
     try:
         return _load_first(path, extension)

@@ -7,7 +7,6 @@ import os
 
 from launch.frontend.parser import Parser
 from launch.launch_description import LaunchDescription
-from launch.launch_description_sources._missing_file import missing_file
 
 
 def get_launch_description_from_frontend_launch_file(
@@ -18,6 +17,8 @@ def get_launch_description_from_frontend_launch_file(
     """Return the launch description of a file in a format that `parser` reads."""
     path = os.fspath(frontend_launch_file_path)
     if not os.path.isfile(path):
-        raise FileNotFoundError(missing_file(path))
+        from launch._missing_file import explain_missing_file
+
+        raise FileNotFoundError(explain_missing_file('launch file', path))
     root, reader = parser.load(path)
     return reader.parse_description(root)

@@ -9,10 +9,10 @@ import os
 from traceback import walk_tb
 from types import ModuleType
 
-from launch._call_site import CallSite, note_place
+from launch._call_site import CallSite
+from launch._failure_place import note_line
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
-from launch.launch_description_sources._missing_file import missing_file
 
 _MODULE_NAME = 'python_launch_file'
 
@@ -47,7 +47,9 @@ def get_launch_description_from_python_launch_file(
     """Return what the function `generate_launch_description` of a launch file returns."""
     path = os.fspath(python_launch_file_path)
     if not os.path.isfile(path):
-        raise FileNotFoundError(missing_file(path))
+        from launch._missing_file import explain_missing_file
+
+        raise FileNotFoundError(explain_missing_file('launch file', path))
     try:
         return _generate(path)
     except Exception as error:
@@ -76,7 +78,10 @@ def _generate(path: str) -> LaunchDescription:
 
 def _point_at_line(path: str, error: Exception) -> None:
     """Note on an exception the last line of the launch file that led to it."""
+    if isinstance(error, SyntaxError) and error.filename == path:
+        note_line(error, CallSite(path, error.lineno or 0))
+        return
     lines = [
         line for frame, line in walk_tb(error.__traceback__) if frame.f_code.co_filename == path
     ]
-    note_place(error, CallSite(path, lines[-1]) if lines else None)
+    note_line(error, CallSite(path, lines[-1] if lines else 0))

@@ -7,7 +7,7 @@ import logging
 import os
 from typing import Optional
 
-from launch.logging._directory import make_run_directory
+from launch.logging._directory import make_run_directory, run_directory
 from launch.logging._formats import log_formatter, screen_formatter
 from launch.logging._handlers import LogFileHandler, ScreenHandler
 
@@ -24,6 +24,7 @@ class LaunchConfig:
     def reset(self) -> None:
         """Go back to the default settings, with a new folder for the log files."""
         self._log_dir: Optional[str] = None
+        self._keeps_files = True
         self._level = logging.INFO
         self._screen_formatter = screen_formatter(os.environ.get('OVERRIDE_LAUNCH_SCREEN_FORMAT'))
         self._log_formatter = log_formatter(os.environ.get('OVERRIDE_LAUNCH_LOG_FORMAT'))
@@ -45,7 +46,7 @@ class LaunchConfig:
     def log_dir(self) -> str:
         """Return the folder of the log files of this run, which is made when it is needed."""
         if self._log_dir is None:
-            self._log_dir = make_run_directory()
+            self._log_dir = make_run_directory() if self._keeps_files else run_directory()
         return self._log_dir
 
     @log_dir.setter
@@ -84,15 +85,26 @@ class LaunchConfig:
     def get_log_file_handler(self, file_name: str = _MAIN_LOG) -> LogFileHandler:
         """Return the handler that writes to a log file."""
         if file_name not in self._file_handlers:
-            handler = LogFileHandler(lambda: self.get_log_file_path(file_name))
+            path = self.get_log_file_path if self._keeps_files else _nowhere
+            handler = LogFileHandler(lambda: path(file_name))
             handler.setFormatter(self._log_formatter)
             self._file_handlers[file_name] = handler
         return self._file_handlers[file_name]
+
+    def keep_nothing(self) -> None:
+        """Write no files from now on, and show warnings and errors only."""
+        self._keeps_files = False
+        self._file_handlers.clear()
+        self.level = logging.WARNING
 
     def close(self) -> None:
         """Close the log files; they open again when something is written."""
         for handler in self._file_handlers.values():
             handler.close()
+
+
+def _nowhere(file_name: str) -> str:
+    return os.devnull
 
 
 _known_loggers: list[Optional[str]] = []

@@ -18,11 +18,15 @@ def base_directory() -> str:
     return os.path.abspath(os.path.join(os.path.expanduser(home), 'log'))
 
 
+def run_directory() -> str:
+    """Return the path of the folder for a run that begins now."""
+    now = _now_text(time.time())
+    return os.path.join(base_directory(), f'{now}-{os.uname().nodename}-{os.getpid()}')
+
+
 def make_run_directory() -> str:
     """Make the folder of this run, and let `latest` beside it lead there."""
-    now = _now_text(time.time())
-    base = base_directory()
-    path = os.path.join(base, f'{now}-{os.uname().nodename}-{os.getpid()}')
+    path = run_directory()
     try:
         os.makedirs(path, exist_ok=True)
     except OSError as error:
@@ -30,7 +34,7 @@ def make_run_directory() -> str:
             f"the folder '{path}' for the log files cannot be made: {error.strerror}; set "
             'ROS_LOG_DIR to a folder in which you may write'
         ) from error
-    _point_latest_at(base, path)
+    _point_latest_at(os.path.dirname(path), path)
     return path
 
 

@@ -12,6 +12,7 @@ _SCREEN_FORMATS = {
     'default': '[{levelname}] [{name}]: {message}',
     'default_with_timestamp': '{created:.7f} [{levelname}] [{name}]: {message}',
 }
+_COLOURS = (36, 32, 33, 35, 34, 96, 92, 93, 95, 94)
 _LOG_FORMATS = {
     'default': '{created:.7f} [{levelname}] [{name}]: {message}',
 }
@@ -30,6 +31,32 @@ def log_formatter(text: Optional[str]) -> logging.Formatter:
 def bare_formatter() -> logging.Formatter:
     """Return the formatter of a process's lines, which have their format already."""
     return _formatter('{message}')
+
+
+def label_formatter(label: str) -> logging.Formatter:
+    """Return the formatter of a process's lines on the screen: with a colour on a terminal."""
+    from launch.logging._screen import screen
+
+    return _Coloured(label) if screen.has_colours() else bare_formatter()
+
+
+class _Coloured(logging.Formatter):
+    """Gives the label at the beginning of each line the colour of its process."""
+
+    def __init__(self, label: str) -> None:
+        """Create the formatter; the number in the label chooses the colour."""
+        super().__init__('{message}', style='{', validate=False)
+        number = label.rpartition('-')[2]
+        colour = _COLOURS[int(number) % len(_COLOURS) if number.isdigit() else 0]
+        self._plain = f'[{label}]'
+        self._coloured = f'\x1b[{colour}m{self._plain}\x1b[0m'
+
+    def format(self, record: logging.LogRecord) -> str:  # noqa: A003, RUF100
+        """Return the lines of the message."""
+        text = record.getMessage()
+        if text.startswith(self._plain):
+            text = text.replace(self._plain, self._coloured, 1)
+        return text.replace(f'\n{self._plain}', f'\n{self._coloured}')
 
 
 def stamped_formatter() -> logging.Formatter:

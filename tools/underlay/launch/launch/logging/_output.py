@@ -8,7 +8,7 @@ import logging
 from typing import Union
 
 from launch.logging._config import launch_config
-from launch.logging._formats import bare_formatter, stamped_formatter
+from launch.logging._formats import bare_formatter, label_formatter, stamped_formatter
 from launch.logging._handlers import LogFileHandler, ScreenHandler
 
 OutputConfig = Union[str, Mapping[str, Union[str, Collection[str]]]]
@@ -73,7 +73,7 @@ def _logger(
     logger.handlers = []
     wanted = config[stream] | config['both']
     if 'screen' in wanted:
-        logger.addHandler(_with(ScreenHandler(), bare_formatter()))
+        logger.addHandler(_with(ScreenHandler(), label_formatter(process_name)))
     if 'log' in wanted:
         logger.addHandler(_file('launch.log', stamped_formatter()))
     if 'own_log' in config[stream]:
@@ -81,6 +81,11 @@ def _logger(
     if 'own_log' in config['both']:
         logger.addHandler(_file(f'{process_name}.log', bare_formatter()))
     return logger
+
+
+def is_on_screen(logger: logging.Logger) -> bool:
+    """Return whether what a logger gets is shown."""
+    return any(isinstance(handler, ScreenHandler) for handler in logger.handlers)
 
 
 def _file(file_name: str, formatter: logging.Formatter) -> logging.Handler:

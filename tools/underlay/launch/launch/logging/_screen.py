@@ -49,6 +49,14 @@ class Screen:
         else:
             self._backlog.when_clear(callback)
 
+    def has_colours(self) -> bool:
+        """Return whether the standard output is a terminal on which colours are wanted."""
+        unwanted = os.environ.get('NO_COLOR') or os.environ.get('RCUTILS_COLORIZED_OUTPUT') == '0'
+        try:
+            return not unwanted and sys.stdout is not None and sys.stdout.isatty()
+        except ValueError:  # it is closed
+            return False
+
     def write_line(self, text: str) -> None:
         """Write a line, or several; what cannot be encoded is escaped."""
         stream = sys.stdout

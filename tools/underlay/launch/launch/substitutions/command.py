@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 from typing import TYPE_CHECKING
 
@@ -56,6 +57,10 @@ class Command(Substitution):
         """Run the command, without a shell, and return what it wrote."""
         command = perform_substitutions(context, self.__command)
         mode = perform_substitutions(context, self.__on_stderr)
+        if context._before_start is not None:
+            from launch._stale_files import note_files_of_command
+
+            note_files_of_command(context, command)
         if mode not in _MODES:
             raise SubstitutionFailure(
                 f"invalid on_stderr '{mode}' of the command '{command}': expected one of "
@@ -90,7 +95,11 @@ def _judge(command: str, mode: str, result: subprocess.CompletedProcess[str]) ->
     """Raise or warn if the result is not what the mode asks for."""
     if result.returncode != 0:
         said = result.stdout if mode == 'capture' else result.stderr
-        raise SubstitutionFailure(f'executed command failed. Command: {command}' + _captured(said))
+        raise SubstitutionFailure(
+            f'executed command failed. Command: {command}'
+            + _captured(said).rstrip()
+            + _advice(command)
+        )
     if result.stderr and mode == 'fail':
         raise SubstitutionFailure(
             f'executed command showed stderr output. Command: {command}' + _captured(result.stderr)
@@ -105,3 +114,13 @@ def _judge(command: str, mode: str, result: subprocess.CompletedProcess[str]) ->
 
 def _captured(text: str) -> str:
     return f'\nCaptured stderr output: {text}' if text else ''
+
+
+def _advice(command: str) -> str:
+    """Return a line about the first path in a command that does not exist, or nothing."""
+    from launch._missing_file import explain_missing_file
+
+    for word in shlex.split(command)[1:]:
+        if word.startswith('/') and not os.path.exists(word):
+            return '\n' + explain_missing_file('file', word)
+    return ''

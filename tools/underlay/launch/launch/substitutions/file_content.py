@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from launch._before_start import note_file
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
 from launch.substitutions.substitution_failure import SubstitutionFailure
@@ -38,10 +39,14 @@ class FileContent(Substitution):
     def perform(self, context: LaunchContext) -> str:
         """Return the whole text."""
         path = perform_substitutions(context, self.__path)
+        note_file(context, path)
         try:
             with open(path, encoding='utf-8') as file:
                 return file.read()
         except FileNotFoundError as error:
-            raise SubstitutionFailure(f'File not found: {path}') from error
+            from launch._missing_file import explain_missing_file
+
+            advice = explain_missing_file('file', path)
+            raise SubstitutionFailure(f'File not found: {path}\n{advice}') from error
         except (OSError, UnicodeDecodeError) as error:
             raise SubstitutionFailure(f'File cannot be read: {path}: {error}') from error

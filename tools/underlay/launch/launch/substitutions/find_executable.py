@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 class FindExecutable(Substitution):
     """Stands for the path of a program that the shell would find."""
 
+    _is_constant = True
     frontend_required = ('name',)
 
     def __init__(self, *, name: SomeSubstitutionsType) -> None:

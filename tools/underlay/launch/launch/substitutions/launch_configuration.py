@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import os
 from typing import Any, Optional, TYPE_CHECKING
 
+from launch._did_you_mean import did_you_mean
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
 from launch.substitutions.substitution_failure import SubstitutionFailure
@@ -69,8 +70,5 @@ def _normalize_default(default: Any) -> list[Substitution]:
 
 def _missing(name: str, context: LaunchContext) -> str:
     """Say that there is no such configuration, and which one comes closest."""
-    import difflib
-
     text = f"launch configuration '{name}' does not exist"
-    close = difflib.get_close_matches(name, list(context.launch_configurations), n=1)
-    return text + (f". Did you mean '{close[0]}'?" if close else '')
+    return '. '.join(filter(None, [text, did_you_mean(name, context.launch_configurations)]))

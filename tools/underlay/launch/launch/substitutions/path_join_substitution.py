@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 class PathJoinSubstitution(PathOperator):
     """Stands for parts of a path joined by the separator of the system."""
 
+    _is_constant = True
+
     def __init__(self, substitutions: Iterable[SomeSubstitutionsType]) -> None:
         """Create the substitution; a part that is a list is put together to one part."""
         if isinstance(substitutions, (str, os.PathLike, Substitution)):

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 class PathSubstitution(PathOperator):
     """Stands for a path; `/` joins it with more, as it does for pathlib."""
 
+    _is_constant = True
+
     def __init__(self, path: SomeSubstitutionsType) -> None:
         """Create the substitution of a path."""
         self.__path = normalize_to_list_of_substitutions(path)

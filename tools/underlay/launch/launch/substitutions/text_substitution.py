@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 class TextSubstitution(Substitution):
     """Stands for a text that is known already."""
 
+    _is_constant = True
+
     def __init__(self, *, text: str) -> None:
         """Create the substitution of a text."""
         if not isinstance(text, str):

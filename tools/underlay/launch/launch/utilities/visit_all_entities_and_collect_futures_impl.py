@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from typing import Any, TYPE_CHECKING
 
-from launch._call_site import note_place
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
@@ -32,6 +31,9 @@ def visit_into(
     futures: EntityFuturePairs,
 ) -> None:
     """Visit likewise; what was collected before a failure stays in `futures`."""
+    observer = context._observer
+    if observer is not None:
+        observer.enter(entity)
     try:
         children = entity.visit(context)
         future = entity.get_asyncio_future()
@@ -41,8 +43,12 @@ def visit_into(
             for child in children:
                 visit_into(_checked(child, entity), context, futures)
     except Exception as error:
-        note_place(error, getattr(entity, 'call_site', None), type(entity).__name__)
+        from launch._failure_place import note_place
+
+        note_place(error, entity, context)
         raise
+    if observer is not None:
+        observer.leave(entity)
 
 
 def _checked(child: LaunchDescriptionEntity, parent: LaunchDescriptionEntity) -> Any:

@@ -32,13 +32,19 @@ class ContainerClient:
 
     async def load(self, requests: Iterable[LoadRequest]) -> None:
         """Load nodes; one that fails does not keep the others from being loaded."""
-        client = self._ros_node.create_client(LoadNode, f'{self._container}/_container/load_node')
-        caller = ServiceCaller(client, self._logger, server=self._process)
+        caller = ServiceCaller(
+            self._ros_node,
+            LoadNode,
+            self._container,
+            '_container/load_node',
+            self._logger,
+            self._process,
+        )
         try:
             for request in requests:
                 await self._load_one(caller, request)
         finally:
-            self._ros_node.destroy_client(client)
+            caller.close()
 
     async def _load_one(self, caller: ServiceCaller, request: LoadRequest) -> None:
         try:

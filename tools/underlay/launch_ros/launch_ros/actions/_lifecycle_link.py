@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Any, Optional, TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
 from launch.event_handler import BaseEventHandler
 from launch.logging import get_logger
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch_ros._ros_adapter import ROSAdapter
     from launch_ros.actions.lifecycle_node import LifecycleNode
-
-_MATCH_WITHIN_S = 1.0
 
 
 class LifecycleLink:
@@ -37,12 +35,13 @@ class LifecycleLink:
         self._adapter = adapter
         self._logger = get_logger('launch_ros.actions.lifecycle_node')
         self._one_at_a_time = asyncio.Lock()
-        self._available_at: Optional[float] = None
         node, name = adapter.ros_node, action.node_name
         self._subscription = node.create_subscription(
             TransitionEvent, f'{name}/transition_event', self._on_transition, 10
         )
-        self._client = node.create_client(srv.ChangeState, f'{name}/change_state')
+        self._caller = ServiceCaller(
+            node, srv.ChangeState, name, 'change_state', self._logger, action.get_asyncio_future()
+        )
         context.register_event_handler(_ChangeStateHandler(self))
 
     def _on_transition(self, msg: TransitionEvent) -> None:
@@ -58,40 +57,21 @@ class LifecycleLink:
             task = self._adapter.start_task(self._change_state(transition_id))
             self._context.add_completion_future(task)
         else:
-            self._logger.warning(
-                "Abandoning wait for the '%s' service, due to shutdown.", self._client.srv_name
-            )
+            self._caller.report_abandoned()
 
     async def _change_state(self, transition_id: int) -> None:
         request = srv.ChangeState.Request()
         request.transition.id = transition_id
-        caller = ServiceCaller(
-            self._client,
-            self._logger,
-            server=self._action.get_asyncio_future(),
-            is_ready=self._is_ready,
-        )
         problem = ''
         async with self._one_at_a_time:
             try:
-                answer = await caller.call(request)
+                answer = await self._caller.call(request)
             except ServiceGoneError as error:
                 problem = str(error)
             else:
                 if answer.success:
                     return
         self._report_failure(transition_id, problem)
-
-    def _is_ready(self) -> bool:
-        """Return whether a call makes sense: if it can be, the answer's event will arrive."""
-        if not self._client.service_is_ready():
-            self._available_at = None
-            return False
-        now = asyncio.get_running_loop().time()
-        if self._available_at is None:
-            self._available_at = now
-        is_heard = self._subscription.get_publisher_count() > 0
-        return is_heard or now - self._available_at > _MATCH_WITHIN_S
 
     def _report_failure(self, transition_id: int, problem: str) -> None:
         self._logger.error(

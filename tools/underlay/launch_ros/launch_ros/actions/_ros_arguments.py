@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import os
 from typing import Any, Union
 
+from launch._before_start import note_file
 from launch.launch_context import LaunchContext
 from launch_ros.actions._node_names import NodeNames
 from launch_ros.parameter_descriptions import Parameter
@@ -17,7 +18,7 @@ from launch_ros.utilities.parameter_files import is_parameter_file, write_parame
 from launch_ros.utilities.yaml_text import flow_text
 
 
-def global_arguments(context: LaunchContext) -> list[str]:
+def global_arguments(context: LaunchContext, names: NodeNames) -> list[str]:
     """Return the parameters and files that are set for all nodes, in order."""
     arguments = []
     for element in global_parameters(context):
@@ -25,6 +26,7 @@ def global_arguments(context: LaunchContext) -> list[str]:
             for name, value in element.items():
                 arguments += ['-p', f'{name}:={_global_text(value)}']
         else:
+            _note(context, element, names)
             arguments += ['--params-file', element]
     return arguments
 
@@ -50,16 +52,32 @@ def own_parameter_arguments(
     """Return the parameters of one node, in order; dictionaries are written to files."""
     arguments = []
     for element in evaluate_parameters(context, parameters):
-        arguments += _parameter_argument(element, names)
+        arguments += _parameter_argument(context, element, names)
     return arguments
 
 
-def _parameter_argument(element: EvaluatedParameters, names: NodeNames) -> list[str]:
+def _parameter_argument(
+    context: LaunchContext,
+    element: EvaluatedParameters,
+    names: NodeNames,
+) -> list[str]:
     if isinstance(element, Parameter):
         return ['-p', element.get_parameter_rule()]
     if isinstance(element, dict):
         return ['--params-file', write_parameter_file(names.parameter_key, element)]
-    return ['--params-file', element] if is_parameter_file(element) else []
+    if not is_parameter_file(element):
+        return []
+    _note(context, element, names)
+    return ['--params-file', element]
+
+
+def _note(context: LaunchContext, path: str, names: NodeNames) -> None:
+    """Let the file be compared with the nodes, as long as nothing has been started."""
+    if context._before_start is not None:
+        from launch_ros.actions._parameter_files_check import ParameterFilesCheck
+
+        note_file(context, path)
+        context._before_start.check_of_type(ParameterFilesCheck).add(path, names)
 
 
 def remap_pairs(context: LaunchContext, rules: Iterable[RemapRule]) -> list[tuple[str, str]]:

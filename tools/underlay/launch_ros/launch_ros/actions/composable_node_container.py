@@ -12,6 +12,8 @@ from launch.some_substitutions_type import SomeSubstitutionsType
 from launch_ros.actions.node import Node
 
 if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
     from launch_ros.descriptions.composable_node import ComposableNode
 
 
@@ -29,6 +31,27 @@ class ComposableNodeContainer(Node):
         """Create the action; the other arguments are those of Node."""
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.__descriptions = list(composable_node_descriptions or ())
+
+    @classmethod
+    def parse(
+        cls,
+        entity: Entity,
+        parser: Parser,
+        ignore: Optional[Iterable[str]] = None,
+    ) -> tuple[Any, dict[str, Any]]:
+        """Return the class and its arguments; the container must have a name and a namespace."""
+        from launch_ros.descriptions.composable_node import parse_composable_nodes
+
+        for name in ('name', 'namespace'):
+            entity.get_attr(name)
+        _, kwargs = super().parse(entity, parser, ignore)
+        kwargs['composable_node_descriptions'] = parse_composable_nodes(entity, parser)
+        return cls, kwargs
+
+    @property
+    def composable_node_descriptions(self) -> list[ComposableNode]:
+        """Return the descriptions of the nodes."""
+        return self.__descriptions
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Start the container; loading the nodes comes next."""

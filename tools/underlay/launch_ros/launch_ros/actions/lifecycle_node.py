@@ -3,12 +3,17 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional
+from collections.abc import Iterable
+from typing import Any, Optional, TYPE_CHECKING
 
 from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch_ros.actions.node import Node
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
 
 
 class LifecycleNode(Node):
@@ -23,6 +28,18 @@ class LifecycleNode(Node):
     ) -> None:
         """Create the action; the other arguments are those of Node."""
         super().__init__(name=name, namespace=namespace, **kwargs)
+
+    @classmethod
+    def parse(
+        cls,
+        entity: Entity,
+        parser: Parser,
+        ignore: Optional[Iterable[str]] = None,
+    ) -> tuple[Any, dict[str, Any]]:
+        """Return the class and its arguments; the node must have a name and a namespace."""
+        for name in ('name', 'namespace'):
+            entity.get_attr(name)
+        return super().parse(entity, parser, ignore)
 
     def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
         """Start the node, and follow its states from the first one on."""

@@ -20,6 +20,8 @@ from launch_ros.utilities.track_node_names import warn_of_same_names
 if TYPE_CHECKING:
     import asyncio
 
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
     from launch_ros.actions._load_request import LoadRequest
     from launch_ros.descriptions.composable_node import ComposableNode
 
@@ -52,6 +54,16 @@ class LoadComposableNodes(Action):
             )
             self.__container = normalize_to_list_of_substitutions(target_container)
         self.__task: Optional[asyncio.Task[None]] = None
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+        """Return the class, and what to construct it with, for an element of a launch file."""
+        from launch_ros.descriptions.composable_node import parse_composable_nodes
+
+        _, kwargs = super().parse(entity, parser)
+        kwargs['target_container'] = parser.parse_substitution(entity.get_attr('target'))
+        kwargs['composable_node_descriptions'] = parse_composable_nodes(entity, parser)
+        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         """Find out what is loaded and how; the container is asked while the launch goes on."""

@@ -6,14 +6,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Optional, TYPE_CHECKING
 
+from launch._checked import list_like, optional_text_like, text_like
 from launch.actions.execute_process import ExecuteProcess
 from launch.descriptions.executable import SomeVariables
 from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.utilities.normalize_to_list_of_substitutions_impl import (
-    normalize_to_list_of_substitutions,
-)
+from launch.substitution import Substitution
 from launch_ros.actions._node_extensions import extend_node, NodeActionExtension
 from launch_ros.actions._node_names import expand_node_names, NodeNames
 from launch_ros.actions._ros_arguments import (
@@ -29,6 +28,7 @@ from launch_ros.utilities.normalize_remap_rules_impl import normalize_remap_rule
 from launch_ros.utilities.track_node_names import warn_of_same_names
 
 if TYPE_CHECKING:
+    from launch._visit_observer import VisitObserver
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
 
@@ -80,17 +80,15 @@ class Node(ExecuteProcess):
         :param ros_arguments: more arguments for ROS, such as `--log-level debug`
         :param arguments: arguments for the node itself
         """
-        program = (
-            executable
-            if package is None
-            else ExecutableInPackage(package=package, executable=executable)
-        )
-        words = [program, *_checked_list('arguments', arguments)]
-        extra = _checked_list('ros_arguments', ros_arguments)
+        program = text_like('executable', executable)
+        if package is not None:
+            program = [ExecutableInPackage(program, text_like('package', package))]
+        words = [program, *_words('arguments', arguments)]
+        extra = _words('ros_arguments', ros_arguments)
         super().__init__(
             cmd=[*words, *(['--ros-args', *extra] if extra else [])],
             prefix=prefix,
-            name=exec_name,
+            name=optional_text_like('exec_name', exec_name),
             cwd=cwd,
             env=env,
             additional_env=additional_env,
@@ -98,13 +96,15 @@ class Node(ExecuteProcess):
         )
         self.__package = package
         self.__executable = executable
-        self.__name = None if name is None else normalize_to_list_of_substitutions(name)
-        self.__namespace = (
-            None if namespace is None else normalize_to_list_of_substitutions(namespace)
-        )
+        self.__name = optional_text_like('name', name)
+        self.__namespace = optional_text_like('namespace', namespace)
         self.__raw_names = f'name={name}, namespace={namespace}'
         self.__parameters = [] if parameters is None else normalize_parameters(parameters)
-        self.__remappings = [] if remappings is None else normalize_remap_rules(remappings)
+        self.__remappings = (
+            []
+            if remappings is None
+            else normalize_remap_rules(list_like('remappings', remappings, 'tuples'))
+        )
         self.__names: Optional[NodeNames] = None
         self.__expanded_remappings: Optional[list[tuple[str, str]]] = None
 
@@ -171,6 +171,10 @@ class Node(ExecuteProcess):
             raise RuntimeError('the name of a Node is not known before the action is executed')
         return self.__names
 
+    @property
+    def _name_parts(self) -> Optional[list[Substitution]]:
+        return self.__name
+
     def prepare(self, context: LaunchContext) -> None:
         """Find out the command line, with all that ROS is told behind the last --ros-args."""
         what = f'package={self.__package}, executable={self.__executable}, {self.__raw_names}'
@@ -185,12 +189,29 @@ class Node(ExecuteProcess):
             extra_arguments=[
                 '--ros-args',
                 *rule_arguments(known[each] for each in ('name', 'ns') if each in known),
-                *global_arguments(context),
+                *global_arguments(context, names),
                 *own_parameter_arguments(context, self.__parameters, names),
                 *rule_arguments(remap_rules(self.__expanded_remappings)),
                 *added,
             ],
         )
+
+    def _tell(self, observer: VisitObserver) -> None:
+        super()._tell(observer)
+        from launch_ros.utilities.effective_parameters import effective_parameters, parameter_files
+
+        names, words = self._known_names(), self.cmd
+        observer.note(
+            node_name=names.name,
+            node_namespace=names.namespace,
+            parameter_files=parameter_files(words),
+            parameters=effective_parameters(words, names.name, names.namespace),
+            remappings=dict(self.__expanded_remappings or ()),
+        )
+
+    def _outline(self) -> dict[str, Any]:
+        name = None if self.__name is None else ' + '.join(sub.describe() for sub in self.__name)
+        return {**super()._outline(), 'node_name': name}
 
     def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
         """Start the node as soon as all that is being visited is done."""
@@ -200,14 +221,16 @@ class Node(ExecuteProcess):
         return entities
 
 
-def _checked_list(
-    name: str,
+def _words(
+    keyword: str,
     values: Optional[Iterable[SomeSubstitutionsType]],
 ) -> list[SomeSubstitutionsType]:
     """Return the values as a list; a text, which would fall apart into letters, is refused."""
     if isinstance(values, str):
         raise TypeError(
-            f"the {name} of a Node must be a list, but got the text '{values}'; write "
-            f'{name}={values.split()!r}'
+            f"the argument '{keyword}' must be a list, but it is the text '{values}'; write "
+            f'{keyword}={values.split()!r}'
         )
-    return list(values or ())
+    if values is None:
+        return []
+    return [text_like(keyword, value) for value in list_like(keyword, values, 'words')]

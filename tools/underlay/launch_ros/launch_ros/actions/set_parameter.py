@@ -33,7 +33,6 @@ class SetParameter(Action):
 
         _, kwargs = super().parse(entity, parser)
         kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
-        entity.get_attr('value', data_type=None)
         kwargs['value'] = parse_value(entity, parser)
         return cls, kwargs
 
@@ -42,3 +41,5 @@ class SetParameter(Action):
         known = context.launch_configurations.get('global_params', [])
         added = evaluate_parameter_dict(context, self.__parameter)
         context.launch_configurations['global_params'] = [*known, *added.items()]
+        if context._observer is not None:
+            context._observer.note(parameters=added)

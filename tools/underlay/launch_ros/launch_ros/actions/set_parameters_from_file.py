@@ -34,10 +34,26 @@ class SetParametersFromFile(Action):
         kwargs['filename'] = parser.parse_substitution(entity.get_attr('filename'))
         return cls, kwargs
 
+    def _check_in_advance(self, context: LaunchContext) -> None:
+        from launch._preflight import constant_text
+
+        path = constant_text(self.__filename, context)
+        if path is not None:
+            _require(os.path.abspath(path))
+
     def execute(self, context: LaunchContext) -> None:
         """Set them."""
         path = os.path.abspath(perform_substitutions(context, self.__filename))
-        if not os.path.isfile(path):
-            raise FileNotFoundError(f"the parameter file '{path}' does not exist")
+        _require(path)
         known = context.launch_configurations.get('global_params', [])
         context.launch_configurations['global_params'] = [*known, path]
+        if context._observer is not None:
+            context._observer.note(path=path)
+
+
+def _require(path: str) -> None:
+    """Raise an error if a parameter file is not there."""
+    if not os.path.isfile(path):
+        from launch._missing_file import explain_missing_file
+
+        raise FileNotFoundError(explain_missing_file('parameter file', path))

@@ -19,6 +19,18 @@ from launch_ros.utilities.normalize_remap_rules_impl import normalize_remap_rule
 
 if TYPE_CHECKING:
     from launch.condition import Condition
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+
+_TAG = 'composable_node'
+
+# Attributes in launch files, by the names that the constructor has for them.
+_TEXT_ATTRIBUTES = {
+    'pkg': 'package',
+    'plugin': 'plugin',
+    'name': 'name',
+    'namespace': 'namespace',
+}
 
 
 class ComposableNode:
@@ -56,6 +68,29 @@ class ComposableNode:
         self.__remappings = normalize_remap_rules(remappings or [])
         self.__extra_arguments = normalize_parameters(extra_arguments or [])
         self.__condition = condition
+
+    @classmethod
+    def parse(cls, parser: Parser, entity: Entity) -> tuple[Any, dict[str, Any]]:
+        """Return the class, and what to construct it with, for an element of a launch file."""
+        from launch.action import Action
+        from launch.frontend._children import children_named
+        from launch.frontend._process_attributes import parse_texts
+        from launch_ros.utilities.parse_parameters import (
+            parse_nested_parameters,
+            parse_parameters,
+            parse_remappings,
+        )
+
+        for name in ('pkg', 'plugin', 'name'):
+            entity.get_attr(name)
+        _, kwargs = Action.parse(entity, parser)
+        kwargs.update(parse_texts(entity, parser, _TEXT_ATTRIBUTES))
+        kwargs.update(parse_parameters(entity, parser))
+        kwargs.update(parse_remappings(entity, parser))
+        extra = children_named(entity, 'extra_arg')
+        kwargs['extra_arguments'] = parse_nested_parameters(extra, parser)
+        entity.assert_entity_completely_parsed()
+        return cls, kwargs
 
     @property
     def package(self) -> list[Substitution]:
@@ -95,6 +130,14 @@ class ComposableNode:
     def condition(self) -> Optional[Condition]:
         """Return the condition, None if the node is always loaded."""
         return self.__condition
+
+
+def parse_composable_nodes(entity: Entity, parser: Parser) -> list[ComposableNode]:
+    """Return the descriptions for the children `composable_node`; there may be none."""
+    from launch.frontend._children import children_named
+
+    parsed = [ComposableNode.parse(parser, child) for child in children_named(entity, _TAG)]
+    return [node_class(**kwargs) for node_class, kwargs in parsed]
 
 
 def _optional(text: Optional[SomeSubstitutionsType]) -> Optional[list[Substitution]]:

@@ -31,6 +31,7 @@ class _ExplainedPackageNotFoundError(PackageNotFoundError):
 class FindPackage(PathOperator):
     """The base of the substitutions that stand for a folder of a package."""
 
+    _is_constant = True
     frontend_required: ClassVar[tuple[str, ...]] = ('package',)
 
     def __init__(self, package: SomeSubstitutionsType) -> None:

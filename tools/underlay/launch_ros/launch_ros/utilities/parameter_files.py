@@ -15,10 +15,15 @@ _written: list[str] = []
 
 
 def is_parameter_file(path: str) -> bool:
-    """Return whether there is a file; log a warning if there is none."""
+    """Return whether there is a file; if not, log it in the known words and what may help."""
     if os.path.isfile(path):
         return True
-    get_logger('launch_ros.actions.node').warning('Parameter file path is not a file: %s', path)
+    from launch._missing_file import explain_missing_file
+
+    logger = get_logger('launch_ros.actions.node')
+    logger.warning('Parameter file path is not a file: %s', path)
+    advice = explain_missing_file('file', path)
+    logger.warning('The node gets no parameters from it, because %s', advice)
     return False
 
 
@@ -38,6 +43,11 @@ def write_text(text: str) -> str:
     with open(descriptor, 'w', encoding='utf-8') as file:
         file.write(text)
     return path
+
+
+def is_written_here(path: str) -> bool:
+    """Return whether a file is one of those that were written here."""
+    return path in _written
 
 
 def _remove_all() -> None:

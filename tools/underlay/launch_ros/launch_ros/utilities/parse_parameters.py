@@ -34,10 +34,16 @@ def parse_nested_parameters(params: list[Entity], parser: Parser) -> list[Any]:
     return [_parse_element(param, parser) for param in params]
 
 
-def parse_value(entity: Entity, parser: Parser, type_identifier: Optional[str] = None) -> Any:
-    """Return what the attribute `value` stands for, None if there is none."""
+def parse_value(
+    entity: Entity,
+    parser: Parser,
+    type_identifier: Optional[str] = None,
+    *,
+    optional: bool = False,
+) -> Any:
+    """Return what the attribute `value` stands for, None if there is none and need not be."""
     data_type = None if type_identifier is None else get_data_type_from_identifier(type_identifier)
-    value = entity.get_attr('value', data_type=data_type, optional=True)
+    value = entity.get_attr('value', data_type=data_type, optional=optional)
     if value is None:
         return None
     parsed = _parse_texts(parser.parse_if_substitutions(value))
@@ -61,7 +67,7 @@ def _parse_named(param: Entity, parser: Parser) -> dict[Any, Any]:
     name = tuple(parser.parse_substitution(param.get_attr('name')))
     nested = children_named(param, 'param')
     identifier = param.get_attr('type', optional=True)
-    value = parse_value(param, parser, identifier)
+    value = parse_value(param, parser, identifier, optional=True)
     if (value is None) == (not nested):
         raise ValueError(
             f"the parameter '{param.get_attr('name')}' must have either a 'value' or nested "

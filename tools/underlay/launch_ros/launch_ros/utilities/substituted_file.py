@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from launch._call_site import CallSite, note_place
+from launch._call_site import CallSite
+from launch._failure_place import note_line
 from launch.launch_context import LaunchContext
 from launch_ros.utilities.parameter_files import write_text
 
@@ -23,14 +24,14 @@ def _substituted(context: LaunchContext, text: str, path: str) -> str:
     try:
         parts = list(parse_with_positions(text))
     except InvalidSubstitutionError as error:
-        note_place(error, CallSite(path, error.line))
+        note_line(error, CallSite(path, error.line))
         raise
     result = ''
     for part, position in parts:
         try:
             result += context.perform_substitution(part)
         except Exception as error:
-            note_place(error, CallSite(path, text.count('\n', 0, position) + 1))
+            note_line(error, CallSite(path, text.count('\n', 0, position) + 1))
             raise
     return result
 

@@ -33,3 +33,8 @@ def warn_of_same_names(context: LaunchContext, node_name: str, logger_name: str)
             count,
             node_name,
         )
+
+
+def get_node_names(context: LaunchContext) -> list[str]:
+    """Return the full names of the nodes that have been created."""
+    return list(context.get_locals_as_dict().get(_KEY) or {})

@@ -14,13 +14,14 @@ if TYPE_CHECKING:
         get_share_file_path_from_package,
         MultipleLaunchFilesError,
     )
-    from ros2launch.api.showing import print_arguments_of_launch_file
+    from ros2launch.api.showing import print_a_launch_file, print_arguments_of_launch_file
 
 __all__ = [
     'MultipleLaunchFilesError',
     'get_share_file_path_from_package',
     'launch_a_launch_file',
     'parse_launch_arguments',
+    'print_a_launch_file',
     'print_arguments_of_launch_file',
 ]
 
@@ -32,6 +33,7 @@ __getattr__, __dir__ = lazy_exports(
         'get_share_file_path_from_package': 'share_files',
         'launch_a_launch_file': 'running',
         'parse_launch_arguments': 'arguments',
+        'print_a_launch_file': 'showing',
         'print_arguments_of_launch_file': 'showing',
     },
 )

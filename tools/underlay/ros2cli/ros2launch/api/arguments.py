@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 SEPARATOR = ':='
-SIMILARITY = 0.8
 
 
 def parse_launch_arguments(texts: Sequence[str]) -> list[tuple[str, str]]:
@@ -20,19 +19,3 @@ def parse_launch_arguments(texts: Sequence[str]) -> list[tuple[str, str]]:
             )
         values[name] = value
     return list(values.items())
-
-
-def misspelt_argument_text(given: Iterable[str], declared: Iterable[str]) -> str:
-    """Return the error text about a name that is not declared but close to one that is."""
-    from difflib import get_close_matches
-
-    known = list(declared)
-    for name in given:
-        close = [] if name in known else get_close_matches(name, known, 1, SIMILARITY)
-        if close:
-            return (
-                f"the launch file does not declare an argument '{name}'. "
-                f"Did you mean '{close[0]}'? Pass --allow-unknown-args if "
-                f"'{name}' is meant, or --show-args to see the arguments"
-            )
-    return ''

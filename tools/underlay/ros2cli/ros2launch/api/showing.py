@@ -12,12 +12,22 @@ FOOTNOTE = '* argument(s) which are only used if specific conditions occur'
 
 def print_arguments_of_launch_file(*, launch_file_path: str) -> None:
     """Load a launch file and print its arguments, and those of the files that it includes."""
+    description = _load(launch_file_path)
+    print('\n'.join(argument_lines(description.get_launch_arguments())))
+
+
+def print_a_launch_file(*, launch_file_path: str) -> None:
+    """Load a launch file and print its description as a tree."""
+    from launch import LaunchIntrospector
+
+    print(LaunchIntrospector().format_launch_description(_load(launch_file_path)))
+
+
+def _load(path: str) -> Any:
     from launch import LaunchContext
     from launch.launch_description_sources import AnyLaunchDescriptionSource
 
-    source = AnyLaunchDescriptionSource(launch_file_path)
-    description = source.get_launch_description(LaunchContext())
-    print('\n'.join(argument_lines(description.get_launch_arguments())))
+    return AnyLaunchDescriptionSource(path).get_launch_description(LaunchContext())
 
 
 def argument_lines(arguments: list[Any]) -> Iterator[str]:

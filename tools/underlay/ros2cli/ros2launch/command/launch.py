@@ -33,33 +33,54 @@ class LaunchCommand(CommandExtension):
         from ros2launch.command.target import find_target
 
         prefix = prefix_arguments(args)
+        if args.json and not args.dry_run:
+            raise RuntimeError('--json says how --dry-run shows it: give both')
         path, arguments = find_target(
             args.package_name, args.launch_file_name, args.launch_arguments
         )
         if args.show_all_subprocesses_output:
             os.environ[SHOW_ALL_OUTPUT] = 'both'
-        if args.show_args:
-            return _show(path, args.debug)
+        if args.show_args or args.print:
+            return _show(path, args)
+        if args.dry_run:
+            return _rehearse(path, arguments + prefix, args)
         return launch_a_launch_file(
             launch_file_path=path,
             launch_file_arguments=arguments + prefix,
             noninteractive=args.noninteractive,
             debug=args.debug,
             check_names=not args.allow_unknown_args,
+            resolve_programs=not args.no_preflight,
+            strict_exit=args.strict_exit,
             prefork=not args.no_prefork,
         )
 
 
-def _show(path: str, debug: bool) -> int | str | None:
+def _rehearse(path: str, arguments: list[str], args: argparse.Namespace) -> int:
+    from ros2launch.api.rehearsing import rehearse_launch_file
+
+    return rehearse_launch_file(
+        launch_file_path=path,
+        launch_file_arguments=arguments,
+        as_json=args.json,
+        check_names=not args.allow_unknown_args,
+        resolve_programs=not args.no_preflight,
+    )
+
+
+def _show(path: str, args: argparse.Namespace) -> int | str | None:
     from launch import InvalidLaunchFileError
+    from launch._failure_place import place_of
     from launch.logging import launch_config
-    from ros2launch.api.showing import print_arguments_of_launch_file
+    from ros2launch.api.showing import print_a_launch_file, print_arguments_of_launch_file
 
     launch_config.log_dir  # noqa: B018  # a run of its own, even if nothing is logged
+    show = print_a_launch_file if args.print else print_arguments_of_launch_file
     try:
-        print_arguments_of_launch_file(launch_file_path=path)
+        show(launch_file_path=path)
     except InvalidLaunchFileError as error:
-        if debug:
+        if args.debug:
             raise
-        return f"the launch file '{path}' cannot be loaded (-d shows the traceback): {error}"
+        text = f"the launch file '{path}' cannot be loaded (-d shows the traceback): {error}"
+        return '\n'.join([text, *map(str, filter(None, [place_of(error)]))])
     return 0

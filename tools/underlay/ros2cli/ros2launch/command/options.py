@@ -23,7 +23,15 @@ def add_launch_options(parser: argparse.ArgumentParser) -> None:
         action='store_true',
         help='Put the launch system in debug mode, provides more verbose output',
     )
-    add(
+    add_either = parser.add_mutually_exclusive_group().add_argument
+    add_either(
+        '-p',
+        '--print',
+        '--print-description',
+        action='store_true',
+        help='Print the launch description to the console without launching it',
+    )
+    add_either(
         '-s',
         '--show-args',
         '--show-arguments',
@@ -39,7 +47,23 @@ def add_launch_options(parser: argparse.ArgumentParser) -> None:
     add(
         '--allow-unknown-args',
         action='store_true',
-        help='Accept names of arguments that look like misspelt ones',
+        help='Accept arguments that no launch file declares, without a word',
+    )
+    add(
+        '--dry-run',
+        action='store_true',
+        help='Show what would be started, with arguments, parameters and conditions',
+    )
+    add('--json', action='store_true', help='With --dry-run: show it as JSON')
+    add(
+        '--no-preflight',
+        action='store_true',
+        help='Start what there is, also if some programs are missing',
+    )
+    add(
+        '--strict-exit',
+        action='store_true',
+        help='Exit with the status of the first process that failed',
     )
     add(
         '--no-prefork',

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is looked at when all has been visited, before the first process starts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import os
+from typing import Any, TYPE_CHECKING, TypeVar
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
+_SHARE = '/share/'
+SWITCH = 'LAUNCH_PREFLIGHT'
+
+_Check = TypeVar('_Check')
+
+
+class BeforeStart:
+    """Holds the checks of a launch; what they raise keeps everything from being started."""
+
+    def __init__(self) -> None:
+        """Create it without checks; LAUNCH_PREFLIGHT=0 leaves missing programs to the start."""
+        self.resolves_programs = os.environ.get(SWITCH, '1') != '0'
+        self.checks: list[Callable[[LaunchContext], None]] = []
+        self.hints: list[Callable[[LaunchContext], str]] = []
+        self.files: dict[str, None] = {}
+
+    def check_of_type(self, kind: Callable[[], _Check]) -> _Check:
+        """Return the check of a class, which is added when it is asked for the first time."""
+        for check in self.checks:
+            if isinstance(check, kind):  # type: ignore[arg-type]
+                return check  # type: ignore[return-value]
+        added: Any = kind()
+        self.checks.append(added)
+        return added  # type: ignore[no-any-return]
+
+    def run(self, context: LaunchContext) -> None:
+        """Look at what waits for events, then do what has been asked for."""
+        waiting = any(handler.describe()[1] for handler in context._event_handlers)
+        if self.resolves_programs and waiting:
+            from launch._preflight import check_what_waits
+
+            check_what_waits(context)
+        for check in self.checks:
+            check(context)
+        installed = [path for path in self.files if _SHARE in path]
+        if installed:
+            from launch._stale_files import warn_of_stale_files
+
+            warn_of_stale_files(installed)
+
+    def explain_failure(self, context: LaunchContext) -> list[str]:
+        """Return what else there is to say when the visit has failed."""
+        return [text for text in (hint(context) for hint in self.hints) if text]
+
+
+def note_file(context: LaunchContext, path: str) -> None:
+    """Note that the launch reads a file."""
+    if context._before_start is not None:
+        context._before_start.files[path] = None

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Note on an exception which line of which launch file it comes from."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, Optional, TYPE_CHECKING
+
+from launch._call_site import CallSite, raising_line
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
+
+
+class FailurePlace(NamedTuple):
+    """Where an error comes from: a line, the class of the action, and the lines of includes."""
+
+    call_site: CallSite
+    action: str = ''
+    includes: tuple[CallSite, ...] = ()
+
+    def __str__(self) -> str:
+        """Return it as text for people, with a line for each include."""
+        action = f' ({self.action})' if self.action else ''
+        lines = [f'It comes from {self.call_site}{action}']
+        lines += [f'  included from {each}' for each in self.includes]
+        return '\n'.join(lines)
+
+
+def place_of(error: Optional[BaseException]) -> Optional[FailurePlace]:
+    """Return the place that was noted on an error or on what caused it."""
+    found = None
+    while error is not None:
+        found = getattr(error, 'launch_place', None) or found
+        error = error.__cause__
+    return found
+
+
+def note_line(error: BaseException, call_site: Optional[CallSite], action: str = '') -> None:
+    """Note the line of a file that raised an error, while the file is being loaded."""
+    if call_site is not None and place_of(error) is None:
+        _set(error, FailurePlace(call_site, action))
+
+
+def note_place(
+    error: BaseException,
+    entity: LaunchDescriptionEntity,
+    context: LaunchContext,
+) -> None:
+    """Note which action failed, unless it has been noted further inside."""
+    if getattr(error, 'launch_place_is_complete', False):
+        return
+    created = getattr(entity, 'call_site', None)
+    inner = place_of(error)
+    if inner is None:
+        line = raising_line(error) if _runs_code_of_the_user(entity) else None
+        place = _place_of_entity(line or created, type(entity).__name__, context)
+    else:
+        place = inner._replace(includes=_includes(inner.call_site, created, context))
+    if place is not None:
+        _set(error, place)
+        error.launch_place_is_complete = True  # type: ignore[attr-defined]
+
+
+def _runs_code_of_the_user(entity: LaunchDescriptionEntity) -> bool:
+    return getattr(entity, '_runs_code_of_the_user', False)
+
+
+def _place_of_entity(
+    call_site: Optional[CallSite],
+    action: str,
+    context: LaunchContext,
+) -> Optional[FailurePlace]:
+    """Return the place of an entity; one that has no line lies in the file that is read."""
+    if call_site is None and context._open_files:
+        call_site = CallSite(context._open_files[-1].path, 0)
+    if call_site is None:
+        return None
+    return FailurePlace(call_site, action, _includes(call_site, None, context))
+
+
+def _includes(
+    call_site: CallSite,
+    including: Optional[CallSite],
+    context: LaunchContext,
+) -> tuple[CallSite, ...]:
+    """Return the lines of the includes that led to a line, the innermost first."""
+    lines = [including, *(each.call_site for each in reversed(context._open_files))]
+    return tuple(dict.fromkeys(each for each in lines if each is not None and each != call_site))
+
+
+def _set(error: Any, place: FailurePlace) -> None:
+    error.launch_place = place

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say whether a program can be started, before it is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import os
+from typing import Any, Optional, TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
+
+class ProgramNotFoundError(FileNotFoundError):
+    """A program, or the folder in which it is to be started, is not there."""
+
+
+def require_program(details: Mapping[str, Any]) -> None:
+    """Raise an error that explains it if the program of a process is not there."""
+    program, folder = details['cmd'][0], details['cwd']
+    if folder is not None and not os.path.isdir(folder):
+        raise ProgramNotFoundError(
+            f"the folder '{folder}', in which '{program}' was to be started, does not exist"
+        )
+    if not is_there(program, folder, details['env']):
+        raise ProgramNotFoundError(explain_missing_program(program, folder, details['env']))
+
+
+def require_later_program(parts: Any, env: Any, context: LaunchContext) -> None:
+    """
+    Raise an error if it is clear that a process that waits for an event has no program.
+
+    What a path names may be made until then: there is only a warning.
+    """
+    from launch._preflight import constant_text
+
+    program = constant_text(parts, context)
+    if program is None or env is not None or is_there(program, None, None):
+        return
+    text = explain_missing_program(program)
+    if not os.path.dirname(program):
+        raise ProgramNotFoundError(text)
+    from launch.logging import get_logger
+
+    get_logger('launch').warning('%s (it waits for an event and may be made until then)', text)
+
+
+def is_there(program: str, folder: Optional[str], env: Optional[Mapping[str, str]]) -> bool:
+    """Return whether a program would be found; `env` may have a PATH of its own."""
+    if os.path.dirname(program):
+        path = os.path.join(folder or '', program)
+        return os.path.isfile(path) and os.access(path, os.X_OK)
+    import shutil
+
+    return shutil.which(program, path=_search_path(env)) is not None
+
+
+def explain_missing_program(
+    program: str,
+    folder: Optional[str] = None,
+    env: Optional[Mapping[str, str]] = None,
+) -> str:
+    """Return a sentence about a program that is not there, or may not be executed."""
+    from launch._did_you_mean import did_you_mean
+    from launch._missing_file import explain_missing_file
+
+    if os.path.dirname(program):
+        path = os.path.join(folder or '', program)
+        if os.path.isfile(path):
+            return f"'{program}' may not be executed; 'chmod +x' makes it executable"
+        return explain_missing_file('program', path)
+    names = (name for each in _search_path(env).split(os.pathsep) for name in _listed(each))
+    text = f"the program '{program}' was not found on the PATH"
+    hint = did_you_mean(program, names)
+    if ' ' in program:
+        hint = 'A command line in one text needs shell=True, or a list with an item for each word.'
+    return f'{text}. {hint}' if hint else text
+
+
+def _search_path(env: Optional[Mapping[str, str]]) -> str:
+    return (os.environ if env is None else env).get('PATH', os.defpath)
+
+
+def _listed(folder: str) -> list[str]:
+    try:
+        return os.listdir(folder or '.')
+    except OSError:
+        return []

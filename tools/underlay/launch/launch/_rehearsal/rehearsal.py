@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Visit what a launch service is to visit, without starting anything."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING
+
+from launch._event_processor import EventProcessor
+from launch._rehearsal.recorder import Recorder
+from launch.events.include_launch_description import IncludeLaunchDescription
+from launch.logging import launch_config
+
+if TYPE_CHECKING:
+    from launch._rehearsal.record import Record
+    from launch.launch_service import LaunchService
+
+
+def rehearse(service: LaunchService) -> tuple[Record, int]:
+    """
+    Return the tree of what a service visits at once, and the status that it would end with.
+
+    The tasks of processes are made, but the loop never runs them: they are cancelled. Nothing is
+    written to log files.
+    """
+    from launch.launch_service import cancel_all_tasks
+
+    context, recorder = service.context, Recorder()
+    launch_config.keep_nothing()
+    loop = asyncio.new_event_loop()
+    try:
+        processor = EventProcessor(context, loop)
+        context._attach(loop, None)
+        context._observer = recorder
+        while context._event_queue:
+            event = context._event_queue.popleft()
+            if isinstance(event, IncludeLaunchDescription):
+                processor._handle(event)
+                break
+    finally:
+        context._observer = None
+        context._attach(None, None)
+        cancel_all_tasks(loop)
+        loop.close()
+    return recorder.root, processor.return_code

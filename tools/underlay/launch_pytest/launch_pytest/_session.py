@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A launch that goes on while tests run."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from functools import partial
+import threading
+from typing import Any, Optional
+
+from launch import LaunchContext, LaunchDescription, LaunchService
+from launch.actions import RegisterEventHandler
+from launch_testing._observation import Observation
+from launch_testing._ready import ready_actions, ReadyHandler
+from launch_testing.actions.ready_to_test import ReadyToTest
+import pytest
+
+_READY_TIMEOUT_S = 15.0
+
+SESSIONS: pytest.StashKey[dict[str, LaunchSession]] = pytest.StashKey()
+
+
+class LaunchSession:
+    """Runs a launch, in the main thread, whenever a test is running or waited for."""
+
+    def __init__(
+        self,
+        description: LaunchDescription,
+        *,
+        auto_shutdown: bool,
+        ready_timeout_s: float = _READY_TIMEOUT_S,
+    ) -> None:
+        """Create the session of a launch that was not started."""
+        self.service = LaunchService(noninteractive=True)
+        self._description = description
+        self._auto_shutdown = auto_shutdown
+        self._ready_timeout_s = ready_timeout_s
+        self._observation = Observation()
+        self._loop = asyncio.new_event_loop()
+        self._task: Optional[asyncio.Task[int]] = None
+        self.suspended: dict[str, Any] = {}
+
+    @property
+    def context(self) -> LaunchContext:
+        """Return the context of the launch."""
+        return self.service.context
+
+    @property
+    def is_running(self) -> bool:
+        """Return whether the launch goes on."""
+        return self._task is not None and not self._task.done()
+
+    def report(self) -> str:
+        """Return how the processes are, and what they have written last."""
+        return self._observation.report().strip()
+
+    # Begin and end.
+
+    def start(self) -> None:
+        """Start the launch and wait until it is ready."""
+        ready = self._loop.create_future()
+        handler = ReadyHandler(self._description, partial(_set_done, ready))
+        last = [] if any(ready_actions([self._description])) else [ReadyToTest()]
+        self.service.include_launch_description(
+            LaunchDescription(
+                [
+                    *self._observation.actions(),
+                    RegisterEventHandler(handler),
+                    self._description,
+                    *last,
+                ]
+            )
+        )
+        self._task = self._loop.create_task(
+            self.service.run_async(shutdown_when_idle=not self._auto_shutdown)
+        )
+        self._loop.run_until_complete(
+            asyncio.wait(
+                {self._task, ready},
+                timeout=self._ready_timeout_s,
+                return_when=asyncio.FIRST_COMPLETED,
+            )
+        )
+        if not ready.done() and self.is_running:
+            pytest.fail(f'The launch was not ready after {self._ready_timeout_s:g} s', False)
+        self._require_success(were_tests_running=ready.done())
+
+    def shutdown(self) -> None:
+        """Shut the launch down, or wait for its end if it ends by itself."""
+        if self._auto_shutdown and self.is_running:
+            self.service.shutdown()
+        if self._task is not None:
+            self._loop.run_until_complete(asyncio.wait({self._task}))
+        self._require_success(were_tests_running=True)
+
+    def close(self) -> None:
+        """End the launch, whatever state it is in."""
+        try:
+            self._auto_shutdown = True
+            self.shutdown()
+        finally:
+            self._cancel_all()
+            self._loop.close()
+
+    def _cancel_all(self) -> None:
+        tasks = asyncio.all_tasks(self._loop)
+        for task in tasks:
+            task.cancel()
+        if tasks:
+            self._loop.run_until_complete(asyncio.wait(tasks))
+        self._loop.run_until_complete(self._loop.shutdown_asyncgens())
+
+    def _require_success(self, *, were_tests_running: bool) -> None:
+        """Fail if the launch has ended in a way in which it should not."""
+        task = self._task
+        if task is None or not task.done():
+            return
+        if self._observation.was_interrupted:
+            raise KeyboardInterrupt
+        status = task.result()
+        if status != 0 or not were_tests_running:
+            self._task = None
+            text = self._observation.explain_end(status, were_tests_running=were_tests_running)
+            pytest.fail(f'{text}\n{self.report()}', pytrace=False)
+
+    # Tests.
+
+    def call(self, function: Callable[[], Any]) -> Any:
+        """Call a function while the launch goes on, in another thread; return its result."""
+        if not self.is_running:
+            return function()
+        return self.wait_for(lambda: _in_thread(function, self._loop))
+
+    def wait_for(self, function: Callable[[], Awaitable[Any]]) -> Any:
+        """Run a coroutine while the launch goes on; return its result."""
+        return self._loop.run_until_complete(self._beside_launch(function))
+
+    async def _beside_launch(self, function: Callable[[], Awaitable[Any]]) -> Any:
+        test = asyncio.ensure_future(function())
+        if self._task is not None and not self._task.done():
+            await asyncio.wait({test, self._task}, return_when=asyncio.FIRST_COMPLETED)
+        if not test.done():
+            self._require_success(were_tests_running=True)
+        return await test
+
+
+def _set_done(future: asyncio.Future[None]) -> None:
+    if not future.done():
+        future.set_result(None)
+
+
+def _in_thread(
+    function: Callable[[], Any],
+    loop: asyncio.AbstractEventLoop,
+) -> asyncio.Future[Any]:
+    """Call a function in a new thread; return a future of its result."""
+    future = loop.create_future()
+
+    def finish(result: Any, error: Optional[BaseException]) -> None:
+        if future.done():
+            return
+        if error is None:
+            future.set_result(result)
+        else:
+            future.set_exception(error)
+
+    def work() -> None:
+        result: Any = None
+        problem: Optional[BaseException] = None
+        try:
+            result = function()
+        except BaseException as error:
+            problem = error
+        try:
+            loop.call_soon_threadsafe(finish, result, problem)
+        except RuntimeError:  # the launch was given up meanwhile
+            pass
+
+    threading.Thread(target=work, name='launch test', daemon=True).start()
+    return future

@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Helpers of tests."""
+
+from __future__ import annotations
+
+from launch_pytest.tools import process
+
+__all__ = ['process']

@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Wait for what a process does, and assert what it writes.
+
+Each function takes the context of the launch and the action of the process; for output, the
+action must have been created with cached_output=True. What validates an output may return
+whether it is right, or raise an AssertionError. Without a timeout, functions wait as long as the
+process runs. Functions are awaited in asynchronous tests; those with `_sync` are for others.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Coroutine
+from functools import partial
+from typing import Any, Optional, TYPE_CHECKING, TypeVar
+
+from launch_pytest.tools._process_watch import until
+
+if TYPE_CHECKING:
+    from launch import LaunchContext
+    from launch.actions import ExecuteProcess
+
+__tracebackhide__ = True  # for pytest
+
+ResultT = TypeVar('ResultT')
+Validate = Callable[[str], Any]
+
+__all__ = [
+    'assert_output',
+    'assert_output_sync',
+    'assert_stderr',
+    'assert_stderr_sync',
+    'assert_stdout',
+    'assert_stdout_sync',
+    'wait_for_exit',
+    'wait_for_exit_sync',
+    'wait_for_output',
+    'wait_for_output_sync',
+    'wait_for_start',
+    'wait_for_start_sync',
+    'wait_for_stderr',
+    'wait_for_stderr_sync',
+    'wait_for_stdout',
+    'wait_for_stdout_sync',
+]
+
+
+async def wait_for_start(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    timeout: Optional[float] = None,
+) -> bool:
+    """Wait until the process was started; return whether it was in time."""
+
+    def was_started() -> bool:
+        return 'pid' in (execute_process_action.process_details or {})
+
+    return await until(launch_context, execute_process_action, was_started, timeout)
+
+
+async def wait_for_exit(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    timeout: Optional[float] = None,
+) -> bool:
+    """Wait until the process has ended; return whether it has in time."""
+
+    def has_ended() -> bool:
+        return execute_process_action.return_code is not None
+
+    return await until(launch_context, execute_process_action, has_ended, timeout)
+
+
+async def wait_for_stdout(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: Optional[float] = None,
+) -> bool:
+    """Wait until the standard output is right; return whether it is in time."""
+    check = partial(_is_right, execute_process_action.get_stdout, validate_output)
+    return await until(launch_context, execute_process_action, check, timeout)
+
+
+async def wait_for_stderr(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: Optional[float] = None,
+) -> bool:
+    """Wait until the standard error output is right; return whether it is in time."""
+    check = partial(_is_right, execute_process_action.get_stderr, validate_output)
+    return await until(launch_context, execute_process_action, check, timeout)
+
+
+async def assert_stdout(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: Optional[float] = None,
+) -> None:
+    """Wait until the standard output is right, and fail if the time is over."""
+    if not await wait_for_stdout(launch_context, execute_process_action, validate_output, timeout):
+        _fail(
+            execute_process_action,
+            'standard output',
+            execute_process_action.get_stdout(),
+            validate_output,
+        )
+
+
+async def assert_stderr(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: Optional[float] = None,
+) -> None:
+    """Wait until the standard error output is right, and fail if the time is over."""
+    if not await wait_for_stderr(launch_context, execute_process_action, validate_output, timeout):
+        _fail(
+            execute_process_action,
+            'standard error output',
+            execute_process_action.get_stderr(),
+            validate_output,
+        )
+
+
+wait_for_output = wait_for_stdout
+assert_output = assert_stdout
+
+
+def wait_for_start_sync(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    timeout: Optional[float] = None,
+) -> bool:
+    """Wait until the process was started; return whether it was in time."""
+    return _sync(launch_context, wait_for_start(launch_context, execute_process_action, timeout))
+
+
+def wait_for_exit_sync(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    timeout: Optional[float] = None,
+) -> bool:
+    """Wait until the process has ended; return whether it has in time."""
+    return _sync(launch_context, wait_for_exit(launch_context, execute_process_action, timeout))
+
+
+def wait_for_stdout_sync(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: Optional[float] = None,
+) -> bool:
+    """Wait until the standard output is right; return whether it is in time."""
+    return _sync(
+        launch_context,
+        wait_for_stdout(launch_context, execute_process_action, validate_output, timeout),
+    )
+
+
+def wait_for_stderr_sync(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: Optional[float] = None,
+) -> bool:
+    """Wait until the standard error output is right; return whether it is in time."""
+    return _sync(
+        launch_context,
+        wait_for_stderr(launch_context, execute_process_action, validate_output, timeout),
+    )
+
+
+def assert_stdout_sync(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: Optional[float] = None,
+) -> None:
+    """Wait until the standard output is right, and fail if the time is over."""
+    _sync(
+        launch_context,
+        assert_stdout(launch_context, execute_process_action, validate_output, timeout),
+    )
+
+
+def assert_stderr_sync(
+    launch_context: LaunchContext,
+    execute_process_action: ExecuteProcess,
+    validate_output: Validate,
+    timeout: Optional[float] = None,
+) -> None:
+    """Wait until the standard error output is right, and fail if the time is over."""
+    _sync(
+        launch_context,
+        assert_stderr(launch_context, execute_process_action, validate_output, timeout),
+    )
+
+
+wait_for_output_sync = wait_for_stdout_sync
+assert_output_sync = assert_stdout_sync
+
+
+def _is_right(get_output: Callable[[], str], validate_output: Validate) -> bool:
+    """Return whether an output is right; a function that returns nothing is content."""
+    try:
+        verdict = validate_output(get_output())
+    except AssertionError:
+        return False
+    return verdict is None or bool(verdict)
+
+
+def _fail(action: ExecuteProcess, what: str, output: str, validate_output: Validate) -> None:
+    """Raise the AssertionError of the validation, or one that shows the output."""
+    validate_output(output)
+    name = (action.process_details or {}).get('name', action)
+    raise AssertionError(f"the {what} of '{name}' is not what the test waits for:\n{output}")
+
+
+def _sync(launch_context: LaunchContext, coroutine: Coroutine[Any, Any, ResultT]) -> ResultT:
+    """Run a coroutine in the loop of the launch, from another thread."""
+    loop = launch_context.asyncio_loop
+    if loop is None:  # the launch is over, so the coroutine need not wait
+        return asyncio.run(coroutine)
+    if loop is asyncio._get_running_loop():
+        coroutine.close()
+        raise RuntimeError(
+            'functions with _sync cannot be used in asynchronous tests, where they would keep '
+            'the launch from going on: await the function without _sync instead'
+        )
+    return asyncio.run_coroutine_threadsafe(coroutine, loop).result()

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Test what a launch description starts, while it runs and after its end."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from launch_testing import actions, asserts, event_handlers, legacy, markers, tools, util
+    from launch_testing._parametrize import parametrize
+    from launch_testing._post_shutdown_test import post_shutdown_test
+    from launch_testing.io_handler import ActiveIoHandler, IoHandler
+    from launch_testing.launch_test_service import LaunchTestService
+    from launch_testing.proc_info_handler import ActiveProcInfoHandler, ProcInfoHandler
+    from launch_testing.test_result import TestResult
+
+__all__ = [
+    'ActiveIoHandler',
+    'ActiveProcInfoHandler',
+    'IoHandler',
+    'LaunchTestService',
+    'ProcInfoHandler',
+    'TestResult',
+    'actions',
+    'asserts',
+    'event_handlers',
+    'legacy',
+    'markers',
+    'parametrize',
+    'post_shutdown_test',
+    'tools',
+    'util',
+]
+
+_ELSEWHERE = {
+    'ActiveIoHandler': 'io_handler',
+    'ActiveProcInfoHandler': 'proc_info_handler',
+    'actions': '',
+    'asserts': '',
+    'event_handlers': '',
+    'legacy': '',
+    'markers': '',
+    'parametrize': '_parametrize',
+    'post_shutdown_test': '_post_shutdown_test',
+    'tools': '',
+    'util': '',
+}
+
+__getattr__, __dir__ = lazy_exports(__name__, __all__, _ELSEWHERE)

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Watch a launch on behalf of its tests."""
+
+from __future__ import annotations
+
+import signal
+from typing import Any, Optional
+
+from launch.actions import RegisterEventHandler
+from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart, OnShutdown
+from launch.events import Shutdown
+from launch.events.process import ProcessExited
+from launch_testing.io_handler import ActiveIoHandler
+from launch_testing.proc_info_handler import ActiveProcInfoHandler
+
+
+class Observation:
+    """Notes the starts, ends and outputs of processes, and why the launch ended."""
+
+    def __init__(self) -> None:
+        """Create an observation of nothing."""
+        self.proc_info = ActiveProcInfoHandler()
+        self.proc_output = ActiveIoHandler()
+        self.is_closed = False
+        self._shutdown: Optional[Shutdown] = None
+
+    def actions(self) -> list[RegisterEventHandler]:
+        """Return the actions that begin the observation."""
+        return [
+            RegisterEventHandler(OnProcessStart(on_start=self._on_start)),
+            RegisterEventHandler(OnProcessExit(on_exit=self._on_exit)),
+            RegisterEventHandler(
+                OnProcessIO(
+                    on_stdout=self.proc_output.append,
+                    on_stderr=self.proc_output.append,
+                )
+            ),
+            RegisterEventHandler(OnShutdown(on_shutdown=self._on_shutdown)),
+        ]
+
+    def close(self) -> None:
+        """Let no test wait any longer: the launch is over."""
+        self.is_closed = True
+        self.proc_info.close()
+        self.proc_output.close()
+
+    @property
+    def was_interrupted(self) -> bool:
+        """Return whether a signal ended the launch."""
+        shutdown = self._shutdown
+        return shutdown is not None and (
+            shutdown.due_to_sigint or shutdown.reason in signal.Signals.__members__
+        )
+
+    def explain_end(self, status: int, *, were_tests_running: bool) -> str:
+        """Return why a launch ended that should not have."""
+        when = 'before the tests were done' if were_tests_running else 'before it was ready'
+        if status != 0:
+            reason = self._shutdown.reason if self._shutdown else 'see its output'
+            return f'The launch failed {when}: {reason}'
+        if self._shutdown is not None and self._shutdown.reason != 'idle':
+            return f'The launch was shut down {when}: {self._shutdown.reason}'
+        return (
+            f'All processes of the launch ended {when}. If that is right, add the process '
+            'launch_testing.util.KeepAliveProc or the decorator launch_testing.markers.keep_alive.'
+        )
+
+    def report(self) -> str:
+        """Return how the processes are, and what they have written last."""
+        states = ''.join(
+            f'\n  {info.process_name}: '
+            + (
+                f'ended with exit code {info.returncode}'
+                if isinstance(info, ProcessExited)
+                else 'was running'
+            )
+            for info in self.proc_info
+        )
+        if not states:
+            return '\nNo process was started.'
+        return f'\nThe processes:{states}' + self.proc_output.last_output(
+            self.proc_info.processes()
+        )
+
+    def _on_start(self, event: Any, context: Any) -> None:
+        self.proc_output.track(event.action)
+        self.proc_info.append(event)
+
+    def _on_exit(self, event: Any, context: Any) -> None:
+        self.proc_info.append(event)
+
+    def _on_shutdown(self, event: Any, context: Any) -> None:
+        if self._shutdown is None:
+            self._shutdown = event

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The actions of launch descriptions under test."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from launch_testing.actions.ready_to_test import ReadyToTest
+
+__all__ = ['ReadyToTest']
+
+__getattr__, __dir__ = lazy_exports(__name__, __all__)

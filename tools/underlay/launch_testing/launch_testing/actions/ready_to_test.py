@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The action that lets the tests begin."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch import Action
+from launch_testing._ready import TestsMayBegin
+
+if TYPE_CHECKING:
+    from launch import LaunchContext
+
+
+class ReadyToTest(Action):
+    """Lets the tests begin; of several, all must have been visited."""
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return 'ReadyToTest()'
+
+    def execute(self, context: LaunchContext) -> None:
+        """Say so to whoever runs the tests."""
+        context.emit_event_sync(TestsMayBegin(self))

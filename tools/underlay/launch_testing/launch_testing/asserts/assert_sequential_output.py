@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Assert what a process has written, in order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+import re
+from typing import Any, Optional, TYPE_CHECKING, Union
+
+from launch_testing.tools.text import remove_ansi_escape_sequences
+from launch_testing.util.resolve_processes import resolveProcesses, SomeProcess
+
+if TYPE_CHECKING:
+    from launch_testing.io_handler import IoHandler
+
+
+class SequentialTextChecker:
+    """Finds texts one behind the other."""
+
+    def __init__(self, text: str, name: str) -> None:
+        """Create a checker of what a process of some name has written."""
+        self._rest = text
+        self._name = name
+        self._found: list[str] = []
+
+    def assertInStdout(  # noqa: N802
+        self,
+        expected_output: Union[str, re.Pattern[str]],
+        output_filter: Optional[Callable[[str], str]] = None,
+    ) -> None:
+        """Assert that a text stands behind all those that were found before."""
+        rest = self._rest if output_filter is None else output_filter(self._rest)
+        pattern = (
+            re.compile(re.escape(expected_output))
+            if isinstance(expected_output, str)
+            else expected_output
+        )
+        match = pattern.search(rest)
+        shown = expected_output if isinstance(expected_output, str) else expected_output.pattern
+        if match is None:
+            raise AssertionError(
+                f"{shown!r} was not found in the output of '{self._name}' behind "
+                f'{self._found or "its beginning"}. There follows:\n{rest}'
+            )
+        self._found.append(shown)
+        end = match.end()
+        self._rest = rest[end:]
+
+
+@contextmanager
+def assertSequentialStdout(  # noqa: N802
+    proc_output: IoHandler,
+    process: SomeProcess,
+    cmd_args: Any = None,
+) -> Iterator[SequentialTextChecker]:
+    """Return a context with an object that asserts one text behind the other."""
+    (action,) = resolveProcesses(proc_output, process=process, cmd_args=cmd_args)
+    text = remove_ansi_escape_sequences(proc_output.text(action, 'stdout'))
+    yield SequentialTextChecker(text, (action.process_details or {})['name'])

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the processes of a launch have written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, Optional, TYPE_CHECKING
+
+from launch_testing._waiting import Waiting
+from launch_testing.tools.text import Expected, matching_text
+from launch_testing.util.resolve_processes import resolveProcesses, SomeProcess
+
+if TYPE_CHECKING:
+    from launch.actions import ExecuteLocal
+    from launch.events.process import ProcessIO
+
+Filter = Callable[[str], str]
+
+_LAST_LINES = 20
+
+
+class IoHandler:
+    """Keeps what processes have written, in order."""
+
+    def __init__(self) -> None:
+        """Create a handler that knows no process."""
+        self._outputs: dict[ExecuteLocal, list[ProcessIO]] = {}
+        self._all: list[ProcessIO] = []
+
+    def track(self, process: ExecuteLocal) -> None:
+        """Know a process also before it writes anything."""
+        self._outputs.setdefault(process, [])
+
+    def append(self, process_io: ProcessIO) -> None:
+        """Add an event."""
+        self._outputs.setdefault(process_io.action, []).append(process_io)
+        self._all.append(process_io)
+
+    def __iter__(self) -> Iterator[ProcessIO]:
+        """Return the events of all processes."""
+        return iter(list(self._all))
+
+    def __getitem__(self, process: SomeProcess) -> list[ProcessIO]:
+        """Return the events of a process, given as an action or by its name."""
+        (action,) = resolveProcesses(self, process=process, strict_proc_matching=True)
+        return list(self._outputs[action])
+
+    def processes(self) -> list[ExecuteLocal]:
+        """Return the actions of the processes."""
+        return list(self._outputs)
+
+    def process_names(self) -> list[str]:
+        """Return the labels of the processes."""
+        return [(action.process_details or {})['name'] for action in self._outputs]
+
+    def text(self, process: ExecuteLocal, stream: Optional[str] = None) -> str:
+        """Return all that a process has written to `stdout`, to `stderr`, or to both."""
+        return b''.join(
+            event.text
+            for event in list(self._outputs.get(process, ()))
+            if stream is None or event.from_stdout == (stream == 'stdout')
+        ).decode('utf-8', 'replace')
+
+    def last_output(self, processes: Iterable[ExecuteLocal]) -> str:
+        """Return the last lines that processes have written, for error texts."""
+        return ''.join(
+            f"\n  The last output of '{(each.process_details or {})['name']}':\n"
+            + (_indented(self.text(each).splitlines()[-_LAST_LINES:]) or '    (nothing)')
+            for each in processes
+        )
+
+
+class ActiveIoHandler(Waiting, IoHandler):
+    """Keeps what processes have written while they run, and waits for more."""
+
+    def __init__(self) -> None:
+        """Create a handler that knows no process."""
+        Waiting.__init__(self)
+        IoHandler.__init__(self)
+
+    def track(self, process: ExecuteLocal) -> None:
+        """Know a process also before it writes anything."""
+        with self.changing():
+            super().track(process)
+
+    def append(self, process_io: ProcessIO) -> None:
+        """Add an event."""
+        with self.changing():
+            super().append(process_io)
+
+    def waitFor(  # noqa: N802
+        self,
+        expected_output: Expected,
+        process: Optional[SomeProcess] = None,
+        cmd_args: Any = None,
+        output_filter: Optional[Filter] = None,
+        timeout: float = 10,
+        strict_proc_matching: bool = True,
+        strip_ansi_escape_sequences: bool = True,
+        stream: Optional[str] = None,
+    ) -> bool:
+        """Wait until a process has written something; return whether it has in time."""
+
+        def is_there() -> bool:
+            processes = resolveProcesses(
+                self,
+                process=process,
+                cmd_args=cmd_args,
+                strict_proc_matching=strict_proc_matching,
+            )
+            return any(
+                matching_text(
+                    self,
+                    each,
+                    expected_output,
+                    stream=stream,
+                    output_filter=output_filter,
+                    strip_ansi_escape_sequences=strip_ansi_escape_sequences,
+                )
+                for each in processes
+            )
+
+        return self.wait_until(is_there, timeout)
+
+    def assertWaitFor(  # noqa: N802
+        self,
+        expected_output: Expected,
+        process: Optional[SomeProcess] = None,
+        cmd_args: Any = None,
+        output_filter: Optional[Filter] = None,
+        timeout: float = 10,
+        strict_proc_matching: bool = True,
+        strip_ansi_escape_sequences: bool = True,
+        stream: Optional[str] = None,
+    ) -> None:
+        """Do the same, and fail if the time is over."""
+        if not self.waitFor(
+            expected_output,
+            process,
+            cmd_args,
+            output_filter,
+            timeout,
+            strict_proc_matching,
+            strip_ansi_escape_sequences,
+            stream,
+        ):
+            chosen = resolveProcesses(
+                self, process=process, cmd_args=cmd_args, strict_proc_matching=False
+            )
+            shown = getattr(expected_output, 'pattern', expected_output)
+            raise AssertionError(
+                f'{self.why_in_vain(timeout)} for the output {shown!r}.{self.last_output(chosen)}'
+            )
+
+
+def _indented(lines: Iterable[str]) -> str:
+    return '\n'.join(f'    {line}' for line in lines)

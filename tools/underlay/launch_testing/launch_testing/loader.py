@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find the launch description and the tests in a module."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+import inspect
+from types import ModuleType
+from typing import Any, Optional
+import unittest
+
+from launch import LaunchDescription
+from launch_testing._injection import bind
+from launch_testing._parametrize import parameter_sets
+from launch_testing._post_shutdown_test import is_post_shutdown_test
+
+__all__ = ['LoadTestsFromPythonModule', 'TestRun']
+
+_FUNCTION = 'generate_test_description'
+
+
+class TestRun:
+    """A launch description, and the tests to run on it."""
+
+    __test__ = False
+
+    def __init__(
+        self,
+        name: str,
+        test_description_function: Callable[..., Any],
+        param_args: Mapping[str, Any],
+        cases: list[unittest.TestCase],
+    ) -> None:
+        """Create a run from a function, its arguments, and all tests of the module."""
+        self.name = name
+        self.test_description_function = test_description_function
+        self.param_args = dict(param_args)
+        self._cases = cases
+
+    def __str__(self) -> str:
+        """Return the name, with the arguments that tell this run from others."""
+        arguments = ', '.join(f'{name}={value}' for name, value in self.param_args.items())
+        return f'{self.name}[{arguments}]' if arguments else self.name
+
+    @property
+    def pre_shutdown_tests(self) -> list[unittest.TestCase]:
+        """Return the tests that run while the processes do."""
+        return [case for case in self._cases if not is_post_shutdown_test(case)]
+
+    @property
+    def post_shutdown_tests(self) -> list[unittest.TestCase]:
+        """Return the tests that run when all processes have ended."""
+        return [case for case in self._cases if is_post_shutdown_test(case)]
+
+    def normalized_test_description(
+        self,
+        ready_fn: Optional[Callable[[], None]] = None,
+    ) -> tuple[LaunchDescription, dict[str, Any]]:
+        """Return the launch description, and what it offers to the tests."""
+        arguments = dict(self.param_args)
+        if 'ready_fn' in inspect.signature(self.test_description_function).parameters:
+            arguments['ready_fn'] = ready_fn or (lambda: None)
+        result = self.test_description_function(**arguments)
+        description, context = result if isinstance(result, tuple) else (result, {})
+        if not isinstance(description, LaunchDescription):
+            raise TypeError(
+                f'{_FUNCTION}() must return a LaunchDescription, or one with a dictionary of '
+                f'what the tests need, but it returned {result!r}'
+            )
+        return description, dict(context)
+
+    def get_launch_description(self) -> LaunchDescription:
+        """Return the launch description."""
+        return self.normalized_test_description()[0]
+
+    def bind(
+        self, cases: list[unittest.TestCase], injected: Mapping[str, Any]
+    ) -> unittest.TestSuite:
+        """Return a suite of tests that get objects as attributes and arguments."""
+        return bind(cases, {**self.param_args, **injected})
+
+
+def LoadTestsFromPythonModule(  # noqa: N802
+    module: ModuleType,
+    *,
+    name: str = 'launch_tests',
+) -> list[TestRun]:
+    """Return a run for each set of arguments of `generate_test_description`."""
+    function = getattr(module, _FUNCTION, None)
+    if function is None:
+        raise AttributeError(
+            f"the launch test '{module.__file__}' does not contain the required function "
+            f"'{_FUNCTION}()'"
+        )
+    runs = []
+    for arguments in parameter_sets(function):
+        _check(module, function, arguments)
+        cases = list(_cases(unittest.TestLoader().loadTestsFromModule(module)))
+        runs.append(TestRun(name, function, arguments, cases))
+    return runs
+
+
+def _check(module: ModuleType, function: Callable[..., Any], arguments: dict[str, Any]) -> None:
+    """Raise a TypeError if a function cannot be called with its arguments."""
+    signature = inspect.signature(function)
+    names = {*arguments, *({'ready_fn'} & set(signature.parameters))}
+    try:
+        signature.bind(**dict.fromkeys(names))
+    except TypeError as error:
+        raise TypeError(
+            f"{_FUNCTION}{signature} of '{module.__file__}' cannot be called: {error}. It takes "
+            'no arguments, or those that launch_testing.parametrize names'
+        ) from None
+
+
+def _cases(suite: unittest.TestSuite) -> Iterator[unittest.TestCase]:
+    """Yield the tests of a suite, and of the suites in it."""
+    for each in suite:
+        if isinstance(each, unittest.TestSuite):
+            yield from _cases(each)
+        else:
+            yield each

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which processes of a launch run, and how others ended."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, Optional, TYPE_CHECKING, Union
+
+from launch.events.process.process_exited import ProcessExited
+from launch_testing._waiting import Waiting
+from launch_testing.util.resolve_processes import resolveProcesses, SomeProcess
+
+if TYPE_CHECKING:
+    from launch.actions import ExecuteLocal
+    from launch.events.process import ProcessStarted
+
+    ProcessInfo = Union[ProcessStarted, ProcessExited]
+
+
+class ProcInfoHandler:
+    """Keeps the last start or end of each process."""
+
+    def __init__(self) -> None:
+        """Create a handler that knows no process."""
+        self._infos: dict[ExecuteLocal, ProcessInfo] = {}
+
+    def append(self, process_info: ProcessInfo) -> None:
+        """Add an event."""
+        self._infos[process_info.action] = process_info
+
+    def __iter__(self) -> Iterator[ProcessInfo]:
+        """Return the last event of each process."""
+        return iter(list(self._infos.values()))
+
+    def __getitem__(self, process: SomeProcess) -> ProcessInfo:
+        """Return the last event of a process, given as an action or by its name."""
+        (action,) = resolveProcesses(self, process=process, strict_proc_matching=True)
+        return self._infos[action]
+
+    def processes(self) -> list[ExecuteLocal]:
+        """Return the actions of the processes."""
+        return list(self._infos)
+
+    def process_names(self) -> list[str]:
+        """Return the labels of the processes."""
+        return [info.process_name for info in self]
+
+
+class ActiveProcInfoHandler(Waiting, ProcInfoHandler):
+    """Keeps the last start or end of each process, and waits for another."""
+
+    def __init__(self) -> None:
+        """Create a handler that knows no process."""
+        Waiting.__init__(self)
+        ProcInfoHandler.__init__(self)
+
+    def append(self, process_info: ProcessInfo) -> None:
+        """Add an event."""
+        with self.changing():
+            super().append(process_info)
+
+    def waitForStartup(  # noqa: N802
+        self, process: SomeProcess, cmd_args: Any = None, *, timeout: float = 10
+    ) -> bool:
+        """Wait until a process was started; return whether it was in time."""
+        return self.wait_until(lambda: bool(self._matching(process, cmd_args)), timeout)
+
+    def waitForShutdown(  # noqa: N802
+        self, process: Optional[SomeProcess], cmd_args: Any = None, *, timeout: float = 10
+    ) -> bool:
+        """Wait until a process, or each one if it is None, has ended; return whether it has."""
+        return self.wait_until(
+            lambda: all(
+                isinstance(self._infos[action], ProcessExited)
+                for action in self._matching(process, cmd_args)
+            ),
+            timeout,
+        )
+
+    def assertWaitForStartup(  # noqa: N802
+        self, process: SomeProcess, cmd_args: Any = None, *, timeout: float = 10
+    ) -> None:
+        """Wait until a process was started, and fail if the time is over."""
+        if not self.waitForStartup(process, cmd_args, timeout=timeout):
+            raise AssertionError(f'{self.why_in_vain(timeout)} for the start of {process!r}')
+
+    def assertWaitForShutdown(  # noqa: N802
+        self, process: Optional[SomeProcess], cmd_args: Any = None, *, timeout: float = 10
+    ) -> None:
+        """Wait until a process has ended, and fail if the time is over."""
+        if not self.waitForShutdown(process, cmd_args, timeout=timeout):
+            running = [
+                self._infos[action].process_name
+                for action in self._matching(process, cmd_args)
+                if not isinstance(self._infos[action], ProcessExited)
+            ]
+            raise AssertionError(
+                f'{self.why_in_vain(timeout)} for the end of {", ".join(running)}'
+            )
+
+    def _matching(self, process: Optional[SomeProcess], cmd_args: Any) -> list[ExecuteLocal]:
+        return resolveProcesses(
+            self, process=process, cmd_args=cmd_args, strict_proc_matching=process is not None
+        )

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A launch test file, as pytest sees it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import io
+import os
+from typing import Any, Union
+
+from launch_testing.loader import LoadTestsFromPythonModule, TestRun
+from launch_testing.test_result import SKIPPED, TestResult
+from launch_testing.test_runner import LaunchTestRunner
+import pytest
+
+
+class LaunchTestFailure(Exception):
+    """A launch or a test of it failed."""
+
+
+class LaunchTestItem(pytest.Item):
+    """The run of all tests of a file on a launch description."""
+
+    def __init__(self, *, test_run: TestRun, **kwargs: Any) -> None:
+        """Create the item."""
+        super().__init__(**kwargs)
+        self.test_run = test_run
+
+    def runtest(self) -> None:
+        """Launch the description and run the tests; then the environment is as before."""
+        arguments = self.config.getoption('--launch-args')
+        runner = LaunchTestRunner([self.test_run], arguments, stream=io.StringIO())
+        environment = dict(os.environ)
+        try:
+            (result,) = runner.run().values()
+        finally:
+            os.environ.clear()
+            os.environ.update(environment)
+        self._tell(result)
+
+    def _tell(self, result: TestResult) -> None:
+        """Report the single tests: as properties for JUnit XML, and why any failed."""
+        for each in result.outcomes:
+            self.user_properties.append((f'{each.class_name}.{each.name}', each.outcome))
+        problems = result.problems()
+        if problems:
+            raise LaunchTestFailure(
+                '\n\n'.join(f'{each.class_name}.{each.name}\n{each.message}' for each in problems)
+            )
+        if result.outcomes and all(each.outcome == SKIPPED for each in result.outcomes):
+            pytest.skip('; '.join(each.message for each in result.outcomes))
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
+        """Return what went wrong, without the frames of the runner."""
+        if isinstance(excinfo.value, LaunchTestFailure):
+            return str(excinfo.value)
+        return super().repr_failure(excinfo, style)
+
+    def reportinfo(self) -> tuple[Any, int, str]:
+        """Return where the item comes from."""
+        function = self.test_run.test_description_function
+        return self.path, function.__code__.co_firstlineno - 1, self.name
+
+
+class LaunchTestModule(pytest.Module):
+    """A file that holds a launch test if its function has the marker."""
+
+    marker = 'launch_test'
+    item_class = LaunchTestItem
+
+    def collect(self) -> Iterable[Union[pytest.Item, pytest.Collector]]:
+        """Yield the runs of a launch test, or what an ordinary file has."""
+        function = getattr(self.obj, 'generate_test_description', None)
+        marks = [mark for mark in getattr(function, 'pytestmark', ()) if mark.name == self.marker]
+        if not marks:
+            yield from super().collect()
+            return
+        for run in LoadTestsFromPythonModule(self.obj, name=self.path.stem):
+            item = self.item_class.from_parent(self, name=str(run), test_run=run)
+            for mark in getattr(function, 'pytestmark', ()):
+                item.add_marker(getattr(pytest.mark, mark.name)(*mark.args, **mark.kwargs))
+            yield item

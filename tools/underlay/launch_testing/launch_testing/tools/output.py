@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Filter the output of processes, and say what is expected of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+import os
+import re
+from typing import Optional, Union
+
+from launch_testing.tools.text import (
+    build_text_match,
+    Expected,
+    ExpectedLine,
+    lines_match,
+    Match,
+)
+
+__all__ = [
+    'basic_output_filter',
+    'expect_output',
+    'expected_output_from_file',
+    'get_default_filtered_patterns',
+    'get_default_filtered_prefixes',
+]
+
+
+def get_default_filtered_prefixes() -> list[str]:
+    """Return how the lines begin that tests do not care about."""
+    return ['pid', 'rc']
+
+
+def get_default_filtered_patterns() -> list[str]:
+    """Return what the lines look like that tests do not care about."""
+    return []
+
+
+def basic_output_filter(
+    filtered_prefixes: Optional[Iterable[str]] = None,
+    filtered_patterns: Optional[Iterable[Union[str, re.Pattern[str]]]] = None,
+) -> Callable[[str], str]:
+    """Return a function that drops the lines with a prefix, or that match a pattern."""
+    if filtered_prefixes is None:
+        filtered_prefixes = get_default_filtered_prefixes()
+    if filtered_patterns is None:
+        filtered_patterns = get_default_filtered_patterns()
+    prefixes = tuple(filtered_prefixes)
+    patterns = [re.compile(pattern) for pattern in filtered_patterns]
+
+    def is_kept(line: str) -> bool:
+        return not (line.startswith(prefixes) or any(pattern.match(line) for pattern in patterns))
+
+    return lambda text: ''.join(filter(is_kept, text.splitlines(keepends=True)))
+
+
+def expect_output(
+    *,
+    expected_text: Optional[Expected] = None,
+    expected_lines: Optional[Iterable[ExpectedLine]] = None,
+    text: Optional[str] = None,
+    lines: Optional[Iterable[str]] = None,
+    strict: bool = False,
+) -> bool:
+    """
+    Return whether an output is as expected.
+
+    Either `expected_text` or `expected_lines` is given, and either `text` or `lines`.
+
+    :param expected_text: a text, a regular expression, or a function
+    :param expected_lines: the same for each line
+    :param text: the output
+    :param lines: the lines of the output
+    :param strict: whether nothing else may be there
+    """
+    if (expected_text is None) == (expected_lines is None):
+        raise ValueError('expect_output() needs either expected_text or expected_lines')
+    if (text is None) == (lines is None):
+        raise ValueError('expect_output() needs either text or lines')
+    found = (text or '').splitlines() if lines is None else list(lines)
+    if expected_lines is not None:
+        return lines_match(found, expected_lines, strict=strict)
+    match: Match = build_text_match(expected_text or '', strict=strict)
+    return match('\n'.join(found) if text is None else text)
+
+
+def expected_output_from_file(path: Union[str, os.PathLike[str]]) -> list[ExpectedLine]:
+    """Return the lines of the file `path.txt`, or the regular expressions of `path.regex`."""
+    literal, regex = (f'{os.fspath(path)}.{suffix}' for suffix in ('txt', 'regex'))
+    if os.path.exists(literal):
+        return list(_lines(literal))
+    if os.path.exists(regex):
+        return [re.compile(line) for line in _lines(regex)]
+    raise RuntimeError(f"the expected output is neither in '{literal}' nor in '{regex}'")
+
+
+def _lines(path: str) -> list[str]:
+    with open(path, encoding='utf-8') as file:
+        return file.read().splitlines()

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run a process for the length of a block in a launch that runs already."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, Optional, TYPE_CHECKING
+
+from launch import LaunchDescription
+from launch.events.matchers import matches_action
+from launch.events.process import ProcessExited, ShutdownProcess
+from launch_testing.tools.text import remove_ansi_escape_sequences
+
+if TYPE_CHECKING:
+    from launch import LaunchService
+    from launch.actions import ExecuteLocal
+    from launch_testing.io_handler import ActiveIoHandler
+    from launch_testing.proc_info_handler import ActiveProcInfoHandler
+
+__all__ = ['ProcessProxy', 'launch_process']
+
+_SHUTDOWN_TIMEOUT_S = 30.0
+
+
+class ProcessProxy:
+    """Looks at a process of a launch, and waits for it."""
+
+    def __init__(
+        self,
+        process_action: ExecuteLocal,
+        proc_info: ActiveProcInfoHandler,
+        proc_output: ActiveIoHandler,
+        *,
+        output_filter: Optional[Callable[[str], str]] = None,
+    ) -> None:
+        """Create the proxy of a process, which need not run yet."""
+        self._action = process_action
+        self._proc_info = proc_info
+        self._proc_output = proc_output
+        self._output_filter = output_filter
+
+    def wait_for_startup(self, timeout: float = 10) -> bool:
+        """Wait until the process runs; return whether it does in time."""
+        return self._proc_info.wait_until(lambda: self._is_known, timeout)
+
+    def wait_for_shutdown(self, timeout: float = 10) -> bool:
+        """Wait until the process has ended; return whether it has in time."""
+        return self._proc_info.wait_until(lambda: self.terminated, timeout)
+
+    def wait_for_output(
+        self,
+        condition: Optional[Callable[[str], Any]] = None,
+        timeout: Optional[float] = None,
+    ) -> bool:
+        """Wait until the output fulfils a condition, or there is any; return whether it does."""
+        wanted = bool if condition is None else condition
+        return self._proc_output.wait_until(
+            lambda: bool(wanted(self.output)), 10 if timeout is None else timeout
+        )
+
+    @property
+    def running(self) -> bool:
+        """Return whether the process runs."""
+        return self._is_known and not self.terminated
+
+    @property
+    def terminated(self) -> bool:
+        """Return whether the process has ended."""
+        return self._is_known and isinstance(self._proc_info[self._action], ProcessExited)
+
+    @property
+    def exit_code(self) -> int:
+        """Return how the process ended."""
+        info = self._proc_info[self._action]
+        if not isinstance(info, ProcessExited):
+            raise RuntimeError(f"the process '{info.process_name}' has not ended yet")
+        return info.returncode
+
+    @property
+    def stdout(self) -> str:
+        """Return what the process has written to its standard output."""
+        return self._text('stdout')
+
+    @property
+    def stderr(self) -> str:
+        """Return what the process has written to its standard error output."""
+        return self._text('stderr')
+
+    @property
+    def output(self) -> str:
+        """Return all that the process has written."""
+        return self._text(None)
+
+    @property
+    def _is_known(self) -> bool:
+        return self._action in self._proc_info.processes()
+
+    def _text(self, stream: Optional[str]) -> str:
+        text = remove_ansi_escape_sequences(self._proc_output.text(self._action, stream))
+        return text if self._output_filter is None else self._output_filter(text)
+
+
+@contextmanager
+def launch_process(
+    launch_service: LaunchService,
+    process_action: ExecuteLocal,
+    proc_info: ActiveProcInfoHandler,
+    proc_output: ActiveIoHandler,
+    *,
+    output_filter: Optional[Callable[[str], str]] = None,
+) -> Iterator[ProcessProxy]:
+    """Start a process, and end it with the block if it still runs then."""
+    launch_service.include_launch_description(LaunchDescription([process_action]))
+    proxy = ProcessProxy(process_action, proc_info, proc_output, output_filter=output_filter)
+    if not proxy.wait_for_startup(timeout=_SHUTDOWN_TIMEOUT_S):
+        raise RuntimeError(f'{process_action!r} has not started in {_SHUTDOWN_TIMEOUT_S:g} s')
+    try:
+        yield proxy
+    finally:
+        if proxy.running:
+            launch_service.emit_event(
+                ShutdownProcess(process_matcher=matches_action(process_action))
+            )
+            proxy.wait_for_shutdown(timeout=_SHUTDOWN_TIMEOUT_S)

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find the processes of a launch that a test means."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Final, Optional, Protocol, TYPE_CHECKING, Union
+
+from launch.actions.execute_local import ExecuteLocal
+
+if TYPE_CHECKING:
+    SomeProcess = Union[ExecuteLocal, str]
+else:
+    SomeProcess = object
+
+
+class _NoCmdArgs:
+    """The type of NO_CMD_ARGS."""
+
+    def __repr__(self) -> str:
+        return 'NO_CMD_ARGS'
+
+
+NO_CMD_ARGS: Final = _NoCmdArgs()
+
+
+class NoMatchingProcessException(Exception):
+    """No process, or more than one, is what a test means."""
+
+
+class _Handler(Protocol):
+    """What knows processes."""
+
+    def processes(self) -> list[ExecuteLocal]:
+        """Return the actions of the processes."""
+
+
+def resolveProcesses(  # noqa: N802
+    info_obj: _Handler,
+    *,
+    process: Optional[SomeProcess] = None,
+    cmd_args: Any = None,
+    strict_proc_matching: bool = True,
+) -> list[ExecuteLocal]:
+    """
+    Return the processes that a test means.
+
+    :param info_obj: what knows the processes: `proc_info` or `proc_output`
+    :param process: an action, a part of the name, or None for all
+    :param cmd_args: an argument, or several, of the command line, or NO_CMD_ARGS for none
+    :param strict_proc_matching: whether there must be exactly one, unless `process` is None
+    """
+    known = info_obj.processes()
+    found = [each for each in known if _is_meant(each, process) and _has(each, cmd_args)]
+    if process is None:
+        return found
+    if not found:
+        raise NoMatchingProcessException(
+            f'No process is {_wanted(process, cmd_args)}. There are: {_names(known)}'
+        )
+    if strict_proc_matching and len(found) > 1:
+        raise NoMatchingProcessException(
+            f'More than one process is {_wanted(process, cmd_args)}: {_names(found)}. '
+            'Name one of them, give its cmd_args, or pass strict_proc_matching=False'
+        )
+    return found
+
+
+def _is_meant(action: ExecuteLocal, process: Optional[SomeProcess]) -> bool:
+    if isinstance(process, str):
+        return process in (action.process_details or {})['name']
+    if process is None or isinstance(process, ExecuteLocal):
+        return process is None or action is process
+    raise TypeError(
+        f'a process is given by its action or its name, not by {process!r}, which is a '
+        f'{type(process).__name__}'
+    )
+
+
+def _has(action: ExecuteLocal, cmd_args: Any) -> bool:
+    """Return whether the command line of a process has certain arguments."""
+    command = (action.process_details or {})['cmd']
+    if cmd_args is None:
+        return True
+    if cmd_args is NO_CMD_ARGS:
+        return len(command) == 1
+    wanted = [cmd_args] if isinstance(cmd_args, str) else list(cmd_args)
+    return all(argument in command for argument in wanted)
+
+
+def _wanted(process: Optional[SomeProcess], cmd_args: Any) -> str:
+    what = repr(process) if isinstance(process, str) else f'that of {process!r}'
+    return what if cmd_args is None else f'{what} with the arguments {cmd_args!r}'
+
+
+def _names(actions: Iterable[ExecuteLocal]) -> str:
+    return ', '.join((each.process_details or {})['name'] for each in actions) or 'none'

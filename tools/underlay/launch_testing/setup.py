@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Installation of the package."""
+
+from setuptools import find_packages, setup
+
+package_name = 'launch_testing'
+
+setup(
+    name=package_name,
+    version='0.1.0',
+    packages=find_packages(exclude=['test']),
+    package_data={package_name: ['py.typed']},
+    data_files=[
+        ('share/ament_index/resource_index/packages', [f'resource/{package_name}']),
+        (f'share/{package_name}', ['package.xml']),
+    ],
+    install_requires=['setuptools'],
+    zip_safe=True,
+    author='Humanoid workspace maintainers',
+    maintainer='Humanoid workspace maintainers',
+    maintainer_email='maintainers@humanoid-workspace.dev',
+    description='Tests what a launch description starts, while it runs and after its end.',
+    license='Apache-2.0',
+    tests_require=['pytest'],
+    entry_points={
+        'console_scripts': ['launch_test = launch_testing.launch_test:main'],
+        'pytest11': ['launch = launch_testing.pytest.hooks'],
+    },
+)

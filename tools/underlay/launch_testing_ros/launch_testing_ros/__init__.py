@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What tests of launched ROS nodes need besides launch_testing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from launch_testing_ros import tools
+    from launch_testing_ros.message_pump import MessagePump
+    from launch_testing_ros.wait_for_topics import WaitForTopics
+
+__all__ = ['MessagePump', 'WaitForTopics', 'tools']
+
+__getattr__, __dir__ = lazy_exports(__name__, __all__, {'tools': ''})

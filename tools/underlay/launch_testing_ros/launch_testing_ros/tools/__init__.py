@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Filter what ROS nodes write."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from launch_testing_ros.tools import output
+    from launch_testing_ros.tools.output import basic_output_filter
+
+__all__ = ['basic_output_filter', 'output']
+
+__getattr__, __dir__ = lazy_exports(
+    __name__, __all__, {'basic_output_filter': 'output', 'output': ''}
+)

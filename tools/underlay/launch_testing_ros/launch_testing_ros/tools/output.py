@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Filter what ROS nodes write, whatever middleware they use."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+import re
+from typing import Optional, Union
+
+from launch_testing.tools.output import (
+    basic_output_filter as basic_filter,
+)
+from launch_testing.tools.output import (
+    get_default_filtered_patterns,
+    get_default_filtered_prefixes,
+)
+
+__all__ = ['basic_output_filter']
+
+_PREFIXES = {
+    'rmw_connextdds': ['[D', 'RTI Data Distribution Service', 'Expires on'],
+    'rmw_fastrtps_cpp': [],
+    'rmw_fastrtps_dynamic_cpp': [],
+    'rmw_cyclonedds_cpp': [],
+}
+
+
+def basic_output_filter(
+    filtered_prefixes: Optional[Iterable[str]] = None,
+    filtered_patterns: Optional[Iterable[Union[str, re.Pattern[str]]]] = None,
+    filtered_rmw_implementation: Optional[str] = None,
+) -> Callable[[str], str]:
+    """Return a function that drops lines, also those that a middleware is known to write."""
+    prefixes = [*(filtered_prefixes or get_default_filtered_prefixes())]
+    patterns = [*(filtered_patterns or get_default_filtered_patterns())]
+    prefixes += _PREFIXES.get(filtered_rmw_implementation or '', [])
+    return basic_filter(prefixes, patterns)
