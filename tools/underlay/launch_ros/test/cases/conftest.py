@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+import json
 import os
 from pathlib import Path
 import re
@@ -40,6 +41,21 @@ for word in "$@"; do
 done
 pwd >"$record.cwd"
 eval "$REC_THEN"
+"""
+
+ATTEMPT = """
+def attempt(context):
+    import json
+    for make in ATTEMPTS:
+        try:
+            made = make()
+            getattr(made, 'perform', None) and made.perform(context)
+            getattr(made, 'visit', None) and made.visit(context)
+            print('!"accepted"')
+        except Exception as error:
+            print('!' + json.dumps(f'{type(error).__name__}: {error}'), flush=True)
+---
+OpaqueFunction(function=attempt),
 """
 
 MODULES = (
@@ -216,6 +232,22 @@ class Launcher:
     def show_args(self, text: str, **options: Any) -> Outcome:
         """Show the arguments of a text."""
         return self(text, '--show-args', **options)
+
+    def errors(self, *attempts: str, before: str = '', **options: Any) -> list[str]:
+        """
+        Return the error of each of several expressions, which one launch makes and performs.
+
+        How an error ends a launch is the matter of section 3.1.
+        """
+        lambdas = ''.join(f'    lambda: {attempt},\n' for attempt in attempts)
+        text = f'{before}\nATTEMPTS = [\n{lambdas}]\n{ATTEMPT}'
+        out = self(text, **options)
+        assert (out.status, out.runs) == (0, [])
+        return [
+            json.loads(line[1:])
+            for line in out.tidy(out.stdout).splitlines()
+            if line.startswith('!')
+        ]
 
     def script(self, text: str, **env: str) -> Outcome:
         """Run a Python script with the same names imported."""

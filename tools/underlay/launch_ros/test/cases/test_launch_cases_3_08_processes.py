@@ -397,7 +397,7 @@ def test_properties(launch: Any) -> None:
         it,
         """
     )
-    assert [line for line in out.lines if not line.startswith('[')] == [
+    assert [line for line in out.lines if line[0] not in '[ '] == [
         'None None',
         "3 'out\\n' 'err\\n'",
         'n-1 sh / 1',
