@@ -243,11 +243,10 @@ class Launcher:
         text = f'{before}\nATTEMPTS = [\n{lambdas}]\n{ATTEMPT}'
         out = self(text, **options)
         assert (out.status, out.runs) == (0, [])
-        return [
-            json.loads(line[1:])
-            for line in out.tidy(out.stdout).splitlines()
-            if line.startswith('!')
-        ]
+        lines = out.tidy(out.stdout).splitlines()
+        found = [json.loads(line[1:]) for line in lines if line.startswith('!')]
+        assert len(found) == len(attempts)
+        return found
 
     def script(self, text: str, **env: str) -> Outcome:
         """Run a Python script with the same names imported."""

@@ -320,6 +320,33 @@ def test_context_of_a_launch(launch: Any) -> None:
     assert (out.status, out.said[2]) == (1, '2')
 
 
+def test_completion_futures(launch: Any) -> None:
+    """3.2 The launch waits for futures that were added to it; emitting can be awaited."""
+    out = launch(
+        """
+        import launch.events
+
+
+        def slow(context):
+            future = context.asyncio_loop.create_future()
+            context.asyncio_loop.call_later(0.3, lambda: print('done') or future.set_result(None))
+            context.add_completion_future(future)
+
+
+        async def emit(context):
+            await context.emit_event(launch.events.TimerEvent(timer_action=None))
+        ---
+        RegisterEventHandler(EventHandler(
+            matcher=lambda event: isinstance(event, launch.events.TimerEvent),
+            entities=[LogInfo(msg='event')])),
+        OpaqueFunction(function=slow),
+        OpaqueCoroutine(coroutine=emit),
+        """
+    )
+    assert (out.status, out.said) == (0, ['event'])
+    assert 'done' in out.lines
+
+
 def test_a_context_without_a_launch(launch: Any) -> None:
     """3.2 A context can be made anywhere to perform substitutions and hold handlers."""
     out = launch.script(

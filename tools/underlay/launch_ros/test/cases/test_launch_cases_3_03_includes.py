@@ -156,6 +156,39 @@ def test_undeclared_arguments_are_accepted(launch: Any) -> None:
     assert (out.status, out.said) == (0, ['extra'])
 
 
+ARGUMENTS = """
+    DeclareLaunchArgument('speed', default_value='1'),
+    LogInfo(msg=LaunchConfiguration('looked_up', default='')),
+    ExecuteProcess(cmd=['rec']),
+"""
+
+
+def test_undeclared_arguments_of_the_command_line(launch: Any) -> None:
+    """3.3 Undeclared arguments are set; what nobody looks up is told, or refused (issue)."""
+    out = launch(ARGUMENTS, 'looked_up:=yes')
+    assert (out.status, out.said) == (0, ['yes'])
+    assert 'WARN' not in out.text
+    out = launch(ARGUMENTS, 'nothing_like_it:=1')
+    assert (out.status, len(out.runs)) == (0, 1)
+    assert any('nothing_like_it' in line for line in out.lines if line.startswith('[WARNING]'))
+    out = launch(ARGUMENTS, 'sped:=1')
+    assert (out.status, out.runs) == (1, [])
+    assert "'sped'" in out.stdout + out.err and "'speed'" in out.stdout + out.err
+    launch.write('it.launch.py', ARGUMENTS)
+    out = launch.run('launch', '--allow-unknown-args', 'it.launch.py', 'sped:=1', 'z:=2').end()
+    assert (out.status, len(out.runs)) == (0, 1)
+    assert 'WARN' not in out.text
+
+
+def test_a_file_is_executed_once(launch: Any) -> None:
+    """3.3 A Python file is executed once for each of its includes (section 6)."""
+    out = launch(
+        "print('top')\n---\nIncludeLaunchDescription('child.launch.py'),",
+        files={'child.launch.py': "print('child')\n---\nLogInfo(msg='x'),"},
+    )
+    assert sorted(line for line in out.lines if not line.startswith('[')) == ['child', 'top']
+
+
 def test_what_cannot_be_looked_into_beforehand_is_no_error(launch: Any) -> None:
     """3.3 A file that is only found with the launch's configurations is found in time."""
     out = launch(
@@ -288,7 +321,11 @@ def test_sources_of_one_format(source: str, name: str, said: str, launch: Any) -
         (
             'it.launch.xml',
             '<launch><log></launch>',
-            ['Caught multiple exceptions when trying to load file of format [xml]:', ' - '],
+            [
+                'Caught multiple exceptions when trying to load file of format [xml]:',
+                ' - InvalidFrontendLaunchFileError: the file is not XML: ',
+                ' - SyntaxError: ',
+            ],
         ),
         (
             'it.txt',

@@ -33,6 +33,25 @@ def test_parts_concatenate(launch: Any) -> None:
     ) == ['a', 'ab', 'xxx', 'p/q']
 
 
+def test_paths_of_python_are_texts(launch: Any) -> None:
+    """3.5 A pathlib.Path stands for its text, wherever a text may stand (3.0)."""
+    out = launch(
+        """
+        from pathlib import Path
+        ---
+        DeclareLaunchArgument('p', default_value=Path('/a')),
+        LogInfo(msg=[Path('/b'), 'c', LaunchConfiguration('p')]),
+        SetEnvironmentVariable('CASE_P', Path('/c')),
+        Node(package='stub', executable=Path('rec'), parameters=[Path('p.yaml')],
+             arguments=[Path('/d')], cwd=Path('sub')),
+        """,
+        files={'p.yaml': '{}', 'sub/p.yaml': '{}'},
+    )
+    assert out.said == ['/bc/a']
+    assert out.run.args == ['/d', '--ros-args', '--params-file', 'p.yaml']
+    assert (out.run.env['CASE_P'], out.run.cwd) == ('/c', str(out.here / 'sub'))
+
+
 def test_what_is_no_text(launch: Any) -> None:
     """3.5 Other values, and lists in lists, are refused when the action is made."""
     nested, *others = launch.errors(

@@ -220,6 +220,18 @@ def test_program_that_cannot_be_started(launch: Any) -> None:
     assert './broken' in out.text.partition(head)[2]
 
 
+def test_program_that_does_not_exist(launch: Any) -> None:
+    """3.8 A program that is missing is noticed before anything starts, unless told not to."""
+    entities = "ExecuteProcess(cmd=['rec']), ExecuteProcess(cmd=['no_such_program']),"
+    out = launch(entities)
+    assert (out.status, out.runs) == (1, [])
+    assert 'no_such_program' in out.error
+    out = launch.run('launch', '--no-preflight', 'it.launch.py').end()
+    assert (out.status, len(out.runs)) == (0, 1)
+    head = '[ERROR] [no_such_program-2]: exception occurred while executing process:'
+    assert any(line.startswith(head) for line in out.lines)
+
+
 RESPAWN = """
     ExecuteProcess(cmd=['sh', '-c', 'rec "$CASE_X"; exit {status}'], respawn={respawn},
                    respawn_delay={delay}, respawn_max_retries={retries},

@@ -143,6 +143,18 @@ def test_killed_launch_leaves_nothing(launch: Any, alive: Any) -> None:
         time.sleep(0.05)
 
 
+def test_each_process_leads_a_group(launch: Any) -> None:
+    """3.10 A process has a group of its own, so that all of it can be signalled (issue)."""
+    out = launch(
+        """
+        ExecuteProcess(cmd=['sh', '-c', 'echo $$ $(ps -o pgid= -p $$)'], output='screen'),
+        """
+    )
+    (line,) = (line for line in out.lines if line.startswith('[sh-1]'))
+    pid, group = line.split()[1:]
+    assert pid == group
+
+
 def test_descendants_end_too(launch: Any, alive: Any) -> None:
     """3.10 What a process has started ends with it (issue)."""
     run = launch.start(

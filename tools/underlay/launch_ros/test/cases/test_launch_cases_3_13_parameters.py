@@ -73,6 +73,13 @@ def test_several_elements(launch: Any) -> None:
     assert own == [1, 2]
 
 
+def test_temporary_files(launch: Any) -> None:
+    """3.13 The temporary files are there as long as the launch (section 6)."""
+    out = launch(_node("[{'a': 1}]", ', output="screen"'), REC_THEN='ls tmp')
+    assert any('launch_params_' in line for line in out.lines)
+    assert list((out.here / 'tmp').iterdir()) == []
+
+
 def test_file_that_is_none(launch: Any) -> None:
     """3.13 A path that is no file is a warning, and left out."""
     out = launch(_node("['no.yaml', {'a': 1}]"))

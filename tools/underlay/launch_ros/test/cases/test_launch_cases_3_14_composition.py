@@ -140,6 +140,31 @@ container(*nodes),
     ]
 
 
+def test_two_actions_at_once(launch: Any, tmp_path: Path) -> None:
+    """3.14 Two actions load at once: each container answers when the other is asked as well."""
+    (tmp_path / 'meet').mkdir()
+    out = launch(
+        HELPERS
+        + """
+ends = []
+
+
+def load(name):
+    action = LoadComposableNodes(target_container=['/box/', name], composable_node_descriptions=[
+        ComposableNode(package='meet', plugin='Meet', name=name)])
+    return [RegisterEventHandler(OnExecutionComplete(
+        target_action=action,
+        on_completion=lambda event, context: ends.append(1) or ends[1:] and Shutdown() or None)),
+        action]
+---
+container(name='first'), container(name='second'), *load('first'), *load('second'),
+"""
+    )
+    assert out.status == 0
+    for name in ('first', 'second'):
+        assert f"Loaded node '/{name}' in container '/box/{name}'" in out.text
+
+
 def test_shutdown_while_waiting(launch: Any) -> None:
     """3.14 The launch waits for a container as long as it takes, but not in a shutdown."""
     out = launch(
