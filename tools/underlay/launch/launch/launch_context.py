@@ -50,6 +50,8 @@ class LaunchContext:
         self._processes: Optional[ProcessRegistry] = None
         self._spawn: Optional[Spawn] = None
         self._open_files: tuple[OpenFile, ...] = ()
+        self._scopes_location = False
+        self._warned_locations: set[tuple[str, str]] = set()
         self._observer: Optional[VisitObserver] = None
         self._before_start: Optional[BeforeStart] = None
         self._first_failure: Optional[int] = None

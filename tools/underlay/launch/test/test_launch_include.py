@@ -11,6 +11,7 @@ from launch import (
     LaunchContext,
     LaunchDescription,
     LaunchDescriptionSource,
+    LaunchService,
 )
 from launch.actions import IncludeLaunchDescription, LogInfo, SetEnvironmentVariable
 from launch.launch_description_sources import (
@@ -67,10 +68,11 @@ def test_arguments_see_those_before_them(run: Run, write: Write) -> None:
     assert 'hello xy in' in result.text
 
 
-def test_including_file_is_restored(run: Run, write: Write) -> None:
-    """After an include, the folder is again that of the including file."""
+@pytest.fixture
+def top_file(write: Write) -> str:
+    """Return the path of a launch file that tells its folder behind an include."""
     write('sub/child.launch.py', CHILD)
-    top = write(
+    return write(
         'top.launch.py',
         (
             'from launch import LaunchDescription\n'
@@ -78,11 +80,33 @@ def test_including_file_is_restored(run: Run, write: Write) -> None:
             'from launch.substitutions import ThisLaunchFileDir\n'
             'def generate_launch_description():\n'
             '    return LaunchDescription([IncludeLaunchDescription([ThisLaunchFileDir(),'
-            ' "/sub/child.launch.py"]), LogInfo(msg=ThisLaunchFileDir())])\n'
+            ' "/sub/child.launch.py"]), LogInfo(msg=ThisLaunchFileDir()),'
+            ' LogInfo(msg=ThisLaunchFileDir())])\n'
         ),
     )
-    result = run(IncludeLaunchDescription(top))
-    assert result.lines[-1] == f'[INFO] [launch.user]: {top.rpartition("/")[0]}'
+
+
+def test_location_after_an_include(run: Run, top_file: str) -> None:
+    """The folder is that of the included file, as in ROS 2 Jazzy; one warning says so."""
+    result = run(IncludeLaunchDescription(top_file))
+    folder = top_file.rpartition('/')[0]
+    assert result.lines[-1] == f'[INFO] [launch.user]: {folder}/sub'
+    [warning] = [line for line in result.lines if 'WARNING' in line]
+    assert warning.startswith(
+        f"[WARNING] [launch]: ThisLaunchFileDir in '{top_file}' stands for "
+        f"'{folder}/sub/child.launch.py'"
+    )
+
+
+def test_location_is_scoped_if_wanted(capfd: Any, top_file: str) -> None:
+    """The folder is again that of the including file if the context is told so."""
+    service = LaunchService(noninteractive=True)
+    service.context._scopes_location = True
+    service.include_launch_description(LaunchDescription([IncludeLaunchDescription(top_file)]))
+    assert service.run() == 0
+    text = capfd.readouterr().out
+    assert text.splitlines()[-1] == f'[INFO] [launch.user]: {top_file.rpartition("/")[0]}'
+    assert 'WARNING' not in text
 
 
 def test_location_of_a_description_without_file(run: Run) -> None:

@@ -8,7 +8,18 @@ from typing import Any, Optional
 
 from launch import LaunchDescription, LaunchService
 from launch._rehearsal.rehearsal import rehearse
-from launch_ros.actions import Node, PushRosNamespace, SetParameter
+from launch._rehearsal.tree_text import tree_lines
+from launch.actions import LogInfo
+from launch_ros.actions import (
+    LifecycleNode,
+    LoadComposableNodes,
+    Node,
+    PushRosNamespace,
+    ROSTimer,
+    SetParameter,
+)
+from launch_ros.descriptions import ComposableNode
+from launch_ros.ros_adapters import find_ros_adapter
 from launch_ros.utilities.effective_parameters import effective_parameters
 import pytest
 
@@ -67,3 +78,27 @@ def test_facts_of_a_node(tmp_path: Path) -> None:
     assert facts['parameter_files'] == [str(path)]
     assert facts['parameters'] == {'a': 2, 'deep.text': 'true', 'rate': 5, 'use_sim_time': True}
     assert facts['remappings'] == {'a': 'b'}
+
+
+def test_actions_that_need_a_ros_node() -> None:
+    """What they would do is told, and the launch's own node is not made for it."""
+    nodes = [ComposableNode(package='p', plugin='P', name='n', parameters=[{'rate': 5}])]
+    service = LaunchService(noninteractive=True)
+    service.include_launch_description(
+        LaunchDescription(
+            [
+                LifecycleNode(executable='/bin/true', name='l', namespace=''),
+                LoadComposableNodes(composable_node_descriptions=nodes, target_container='/c'),
+                ROSTimer(period=2.0, actions=[LogInfo(msg='late')]),
+            ]
+        )
+    )
+    root, status = rehearse(service)
+    assert status == 0 and find_ros_adapter(service.context) is None
+    node, loading, timer = root.children
+    assert node.facts['node_name'] == 'l'
+    assert loading.facts['target_container'] == '/c'
+    assert loading.facts['composable_nodes'][0]['parameters'] == {'rate': 5}
+    assert timer.waiting[0][0] == '2.0 s to pass'
+    text = '\n'.join(tree_lines(root))
+    assert '  composable node:\n    package: p\n    plugin: P\n    node name: n\n' in text

@@ -18,6 +18,8 @@ label, argv, shell, cwd, environment
 command     of a process that waits: its words, described
 node_name, node_namespace, parameter_files, parameters, remappings
             of a node; the parameters are those that it sees, from all files and dictionaries
+target_container, composable_nodes
+            the container, and for each node that it loads package, plugin and what a node has
 """
 
 from __future__ import annotations

@@ -82,6 +82,11 @@ def _fact(name: str, value: Any, indent: str) -> Iterator[str]:
         for key, each in value.items():
             text = _variable(key, each) if name in _TEXTS else f'{key}: {_cut(repr(each))}'
             yield from _wrapped(text, indent + _STEP)
+    elif isinstance(value, list) and isinstance(value[0], Mapping):
+        for each in value:
+            yield f'{indent}{label.removesuffix("s")}:'
+            for key, inner in each.items():
+                yield from _fact(key, inner, indent + _STEP)
     elif isinstance(value, list):
         words = map(shlex.quote, value) if name == 'argv' else map(str, value)
         yield from _wrapped(f'{label}: {" ".join(words)}', indent)

@@ -29,7 +29,12 @@ def enter_launch_file(context: LaunchContext, file: OpenFile) -> LeaveLaunchFile
 
 
 class LeaveLaunchFile(LaunchDescriptionEntity):
-    """Makes the including file the one that is being read again."""
+    """
+    Makes the including file the one that is being read again.
+
+    In ROS 2 Jazzy, ThisLaunchFile and ThisLaunchFileDir go on to stand for the included file;
+    they do so here unless the context is told otherwise.
+    """
 
     def __init__(self, before: dict[str, str], open_files: tuple[OpenFile, ...]) -> None:
         """Create the entity from what was known before."""
@@ -39,5 +44,5 @@ class LeaveLaunchFile(LaunchDescriptionEntity):
     def visit(self, context: LaunchContext) -> None:
         """Restore it."""
         context._open_files = self._open_files
-        if self._before:
+        if self._before and context._scopes_location:
             context.extend_locals(self._before)

@@ -102,6 +102,7 @@ class TimerAction(Action):
         period_s = perform_typed_substitution(context, self.__period, float)
         if context._observer is not None:
             context._observer.note_waiting(f'{period_s} s to pass', self.__actions)
+            return
         self.__timer = self._start(context, context.asyncio_loop, period_s)
 
     def _start(

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from launch.substitutions._launch_file_location import launch_file_location
 from launch.substitutions._path_operator import PathOperator
-from launch.substitutions.substitution_failure import SubstitutionFailure
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -21,9 +21,4 @@ class ThisLaunchFile(PathOperator):
 
     def perform(self, context: LaunchContext) -> str:
         """Return the path; a failure says that no file is being read."""
-        path = context.get_locals_as_dict().get('current_launch_file_path')
-        if path is None:
-            raise SubstitutionFailure(
-                'ThisLaunchFile cannot be used in a script: no launch file is being read'
-            )
-        return str(path)
+        return launch_file_location(context, 'current_launch_file_path', 'ThisLaunchFile')

@@ -28,6 +28,18 @@ class LoadRequest:
     parameters: list[NamedValue]
     extra_arguments: list[NamedValue]
 
+    def as_data(self) -> dict[str, Any]:
+        """Return it as plain data, for whoever wants to see it."""
+        return {
+            'package': self.package,
+            'plugin': self.plugin,
+            'node_name': self.names.name,
+            'node_namespace': self.names.namespace,
+            'parameters': dict(self.parameters),
+            'remappings': dict(rule.split(':=', 1) for rule in self.remap_rules),
+            'extra_arguments': dict(self.extra_arguments),
+        }
+
     def to_message(self) -> Any:
         """Return the request of the service (composition_interfaces/LoadNode)."""
         from composition_interfaces.srv import LoadNode

@@ -44,7 +44,7 @@ class LifecycleNode(Node):
     def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
         """Start the node, and follow its states from the first one on."""
         entities = super().execute(context)
-        if not context.is_shutdown:
+        if not context.is_shutdown and context._observer is None:
             from launch_ros.actions._lifecycle_link import LifecycleLink
             from launch_ros.ros_adapters import get_ros_adapter
 

@@ -74,6 +74,20 @@ class LoadComposableNodes(Action):
         for request in requests:
             if request.names.name is not None:
                 warn_of_same_names(context, request.names.name_in_root, name)
+        if context._observer is not None:
+            nodes = [request.as_data() for request in requests]
+            context._observer.note(target_container=name, composable_nodes=nodes)
+        else:
+            self._load(context, requests, name, process)
+
+    def _load(
+        self,
+        context: LaunchContext,
+        requests: list[LoadRequest],
+        name: str,
+        process: Optional[asyncio.Future[Any]],
+    ) -> None:
+        """Begin to ask the container."""
         from launch_ros.actions._container_client import ContainerClient
         from launch_ros.ros_adapters import get_ros_adapter
 

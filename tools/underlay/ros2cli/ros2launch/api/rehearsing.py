@@ -9,7 +9,7 @@ import json
 import sys
 from typing import Any
 
-from ros2launch.api.running import make_service
+from ros2launch.api.running import LaunchOptions, make_service
 
 HEADER = """\
 Nothing is started; this is what would be. To find it out, the commands in
@@ -22,17 +22,15 @@ def rehearse_launch_file(
     launch_file_path: str,
     launch_file_arguments: Sequence[str],
     as_json: bool,
-    check_names: bool = True,
-    resolve_programs: bool = True,
+    **options: bool,
 ) -> int:
-    """Print what a launch file would do; return the status, 1 if it cannot be launched."""
+    """
+    Print what a launch file would do; return the status, 1 if it cannot be launched.
+
+    The other arguments are those of LaunchOptions.
+    """
     service = make_service(
-        launch_file_path,
-        launch_file_arguments,
-        noninteractive=True,
-        debug=False,
-        check_names=check_names,
-        resolve_programs=resolve_programs,
+        launch_file_path, launch_file_arguments, LaunchOptions(**options, noninteractive=True)
     )
     from launch._rehearsal.rehearsal import rehearse
 

@@ -4,48 +4,53 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from ros2launch.api.arguments import parse_launch_arguments
+
+
+@dataclass(frozen=True)
+class LaunchOptions:
+    """
+    How a launch is run.
+
+    :param noninteractive: whether nobody sits at a terminal
+    :param debug: whether everything is logged
+    :param check_names: whether arguments that no launch file declares are mistakes
+    :param resolve_programs: whether all programs must be there before the first one starts
+    :param prefork: whether Python nodes are copies of a process that is ready
+    :param scoped_location: whether an include keeps its location to itself
+    """
+
+    noninteractive: bool = False
+    debug: bool = False
+    check_names: bool = True
+    resolve_programs: bool = True
+    prefork: bool = True
+    scoped_location: bool = False
 
 
 def launch_a_launch_file(
     *,
     launch_file_path: str,
     launch_file_arguments: Sequence[str],
-    noninteractive: bool = False,
-    debug: bool = False,
-    check_names: bool = True,
-    resolve_programs: bool = True,
     strict_exit: bool = False,
-    prefork: bool = True,
+    **options: bool,
 ) -> int:
-    """Run a launch file until everything that it started has ended; return the status."""
-    service = make_service(
-        launch_file_path,
-        launch_file_arguments,
-        noninteractive=noninteractive,
-        debug=debug,
-        check_names=check_names,
-        resolve_programs=resolve_programs,
-        prefork=prefork,
-    )
+    """
+    Run a launch file until everything that it started has ended; return the status.
+
+    The other arguments are those of LaunchOptions.
+    """
+    service = make_service(launch_file_path, launch_file_arguments, LaunchOptions(**options))
     status: int = service.run()
     if strict_exit and status == 0:
         return service.context._first_failure or 0
     return status
 
 
-def make_service(
-    path: str,
-    argument_texts: Sequence[str],
-    *,
-    noninteractive: bool,
-    debug: bool,
-    check_names: bool,
-    resolve_programs: bool,
-    prefork: bool = True,
-) -> Any:
+def make_service(path: str, argument_texts: Sequence[str], options: LaunchOptions) -> Any:
     """Return a launch service that is to visit a launch file, with its checks."""
     arguments = parse_launch_arguments(argument_texts)
     from launch import LaunchDescription, LaunchService
@@ -54,14 +59,18 @@ def make_service(
 
     source = AnyLaunchDescriptionSource(path)
     service = LaunchService(
-        argv=list(argument_texts), noninteractive=noninteractive, debug=debug, prefork=prefork
+        argv=list(argument_texts),
+        noninteractive=options.noninteractive,
+        debug=options.debug,
+        prefork=options.prefork,
     )
     service.include_launch_description(
         LaunchDescription([IncludeLaunchDescription(source, launch_arguments=arguments)])
     )
+    service.context._scopes_location = options.scoped_location
     before_start: Any = service.context._before_start
-    before_start.resolves_programs &= resolve_programs
-    if check_names and arguments:
+    before_start.resolves_programs &= options.resolve_programs
+    if options.check_names and arguments:
         _check_names([name for name, _ in arguments], source, before_start)
     return service
 

@@ -49,11 +49,19 @@ class LaunchCommand(CommandExtension):
             launch_file_arguments=arguments + prefix,
             noninteractive=args.noninteractive,
             debug=args.debug,
-            check_names=not args.allow_unknown_args,
-            resolve_programs=not args.no_preflight,
             strict_exit=args.strict_exit,
             prefork=not args.no_prefork,
+            **_common(args),
         )
+
+
+def _common(args: argparse.Namespace) -> dict[str, bool]:
+    """Return the options that a dry run obeys as well."""
+    return {
+        'check_names': not args.allow_unknown_args,
+        'resolve_programs': not args.no_preflight,
+        'scoped_location': args.scoped_location,
+    }
 
 
 def _rehearse(path: str, arguments: list[str], args: argparse.Namespace) -> int:
@@ -63,8 +71,7 @@ def _rehearse(path: str, arguments: list[str], args: argparse.Namespace) -> int:
         launch_file_path=path,
         launch_file_arguments=arguments,
         as_json=args.json,
-        check_names=not args.allow_unknown_args,
-        resolve_programs=not args.no_preflight,
+        **_common(args),
     )
 
 

@@ -61,6 +61,12 @@ def add_launch_options(parser: argparse.ArgumentParser) -> None:
         help='Start what there is, also if some programs are missing',
     )
     add(
+        '--scoped-location',
+        action='store_true',
+        help='Let ThisLaunchFileDir() and $(dirname) stand for the including file again after '
+        'an include',
+    )
+    add(
         '--strict-exit',
         action='store_true',
         help='Exit with the status of the first process that failed',

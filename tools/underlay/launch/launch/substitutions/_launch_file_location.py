@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the launch file that is being read lies."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch.substitutions.substitution_failure import SubstitutionFailure
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
+
+def launch_file_location(context: LaunchContext, variable: str, name: str) -> str:
+    """Return a local variable about the file for the substitution of a name."""
+    known = context.get_locals_as_dict()
+    if variable not in known:
+        raise SubstitutionFailure(
+            f'{name} cannot be used in a script: no launch file is being read'
+        )
+    if context._open_files:
+        _warn_of_another_file(
+            context, name, context._open_files[-1].path, known['current_launch_file_path']
+        )
+    return str(known[variable])
+
+
+def _warn_of_another_file(context: LaunchContext, name: str, reading: str, meant: str) -> None:
+    """Warn, once for each pair of files, that an include has left its location behind."""
+    if reading == meant or (reading, meant) in context._warned_locations:
+        return
+    from launch.logging import get_logger
+
+    context._warned_locations.add((reading, meant))
+    get_logger('launch').warning(
+        "%s in '%s' stands for '%s', which has been included before; pass --scoped-location to "
+        'ros2 launch, or use the substitution before the include',
+        name,
+        reading,
+        meant,
+    )
