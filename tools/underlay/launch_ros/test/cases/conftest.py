@@ -33,7 +33,7 @@ BANNER_LINES = 2
 RECORDER = r"""#!/bin/sh
 record=$REC_DIR/$$
 printf '%s\0' "$@" >"$record.args"
-tr '\0' '\0' <"/proc/$$/environ" >"$record.env"
+cat "/proc/$$/environ" >"$record.env"
 previous=
 for word in "$@"; do
   [ "$previous" = --params-file ] && cp "$word" "$record.params.$(ls "$REC_DIR" | wc -l)"
@@ -254,7 +254,7 @@ class Launcher:
         return self._start([sys.executable, str(path)], subprocess.DEVNULL, env).end()
 
     def run(self, *words: str, stdin: Any = subprocess.DEVNULL, **env: str) -> Running:
-        """Start `ros2` with some words; launch arguments may stand before the file."""
+        """Start `ros2` with some words; launch arguments are moved to the end."""
         arguments = [word for word in words if ':=' in word]
         others = [word for word in words if ':=' not in word]
         command = ['ros2', *others, *arguments]
@@ -292,7 +292,7 @@ class Launcher:
         }
         return {
             **kept,
-            'AMENT_PREFIX_PATH': f'{self.prefix}:{os.environ["AMENT_PREFIX_PATH"]}',
+            'AMENT_PREFIX_PATH': f'{self.prefix}:{os.environ.get("AMENT_PREFIX_PATH", "")}',
             'PATH': f'{self.prefix}/lib/stub:{os.environ["PATH"]}',
             'REC_DIR': str(self.here / 'rec'),
             'ROS_LOG_DIR': str(self.here / 'log'),

@@ -80,23 +80,33 @@ def test_order_of_an_include(launch: Any) -> None:
     assert out.said == ['one: two']
 
 
+PLACES = """
+    LogInfo(msg=ThisLaunchFile()),
+    GroupAction([IncludeLaunchDescription('sub/child.launch.py')]),
+    LogInfo(msg=ThisLaunchFileDir()),
+    LogInfo(msg=LocalSubstitution('current_launch_file_path')),
+    LogInfo(msg=LocalSubstitution('current_launch_file_directory')),
+"""
+
+
 def test_location_of_the_file(launch: Any) -> None:
-    """3.3 A file knows its absolute path and folder, also the one that includes it afterwards."""
-    out = launch(
-        """
-        LogInfo(msg=ThisLaunchFile()),
-        GroupAction([IncludeLaunchDescription('sub/child.launch.py')]),
-        LogInfo(msg=ThisLaunchFileDir()),
-        IncludeLaunchDescription('sub/child.launch.py'),
-        LogInfo(msg=ThisLaunchFile()),
-        LogInfo(msg=LocalSubstitution('current_launch_file_path')),
-        LogInfo(msg=LocalSubstitution('current_launch_file_directory')),
-        """,
-        files={'sub/child.launch.py': 'LogInfo(msg=ThisLaunchFileDir()),'},
-    )
-    mine = 'HERE/it.launch.py'
-    # Section 6: the place is restored behind an include.
-    assert out.said == [mine, 'HERE/sub', 'HERE', 'HERE/sub', mine, mine, 'HERE']
+    """3.3 A file knows its absolute path; behind an include, also a scoped one, the child's."""
+    files = {'sub/child.launch.py': 'LogInfo(msg=ThisLaunchFileDir()),'}
+    out = launch(PLACES, files=files)
+    assert out.said == [
+        *['HERE/it.launch.py', 'HERE/sub', 'HERE/sub', 'HERE/sub/child.launch.py', 'HERE/sub']
+    ]
+    (warning,) = (line for line in out.lines if line.startswith('[WARNING]'))
+    assert 'ThisLaunchFileDir' in warning
+
+
+def test_location_of_the_file_in_a_scope(launch: Any) -> None:
+    """3.3 With an option the place is restored behind an include (section 6)."""
+    files = {'sub/child.launch.py': 'LogInfo(msg=ThisLaunchFileDir()),'}
+    launch(PLACES, files=files)
+    out = launch.run('launch', '--scoped-location', 'it.launch.py').end()
+    assert out.said == [*['HERE/it.launch.py', 'HERE/sub', 'HERE', 'HERE/it.launch.py', 'HERE']]
+    assert 'WARNING' not in out.text
 
 
 REQUIRED = """

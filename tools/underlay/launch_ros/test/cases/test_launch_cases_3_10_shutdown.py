@@ -60,9 +60,18 @@ def test_times_from_the_command_line(launch: Any) -> None:
 
 def test_second_interrupt(launch: Any) -> None:
     """3.10 Later interrupts are told and ignored; the status is 0 all the same."""
-    text = STUBBORN.replace('{trap}', 'echo ouch').replace('{options}', ", sigterm_timeout='1'")
-    run = launch.start(text).wait_for('[it-1] up').send(signal.SIGINT)
-    out = run.wait_for('[it-1] ouch').send(signal.SIGINT).end()
+    run = launch.start(
+        """
+        script = 'trap "echo ouch" INT; echo up; while [ ! -f end ]; do sleep 0.1; done'
+        ---
+        ExecuteProcess(cmd=['sh', '-c', script], output='screen', name='it'),
+        """
+    )
+    run.wait_for('[it-1] up').send(signal.SIGINT)
+    run.wait_for('[it-1] ouch').send(signal.SIGINT)
+    run.wait_for('again, ignoring...')
+    (launch.here / 'end').touch()
+    out = run.end()
     first = '[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)'
     told = [line for line in out.lines if 'user interrupted' in line]
     assert told == [first, first + ' again, ignoring...']
@@ -147,7 +156,7 @@ def test_each_process_leads_a_group(launch: Any) -> None:
     """3.10 A process has a group of its own, so that all of it can be signalled (issue)."""
     out = launch(
         """
-        ExecuteProcess(cmd=['sh', '-c', 'echo $$ $(ps -o pgid= -p $$)'], output='screen'),
+        ExecuteProcess(cmd=['sh', '-c', 'echo $$ $(cut -d" " -f5 /proc/$$/stat)'], output='screen'),
         """
     )
     (line,) = (line for line in out.lines if line.startswith('[sh-1]'))
