@@ -73,8 +73,11 @@ class Supervisor:
             self._begin_escalation()
 
     def send_signal(self, number: signal.Signals) -> None:
-        """Send a signal to the process."""
+        """Send a signal to the process; one that has ended needs none."""
         if self._process is None:
+            if self.return_code is not None:
+                self._logger.debug("signal '%s' not sent: it has ended already", number.name)
+                return
             raise RuntimeError(
                 f"the signal '{number.name}' cannot be sent to process[{self._label}], which is "
                 'not running'
