@@ -156,7 +156,8 @@ def test_each_process_leads_a_group(launch: Any) -> None:
     """3.10 A process has a group of its own, so that all of it can be signalled (issue)."""
     out = launch(
         """
-        ExecuteProcess(cmd=['sh', '-c', 'echo $$ $(cut -d" " -f5 /proc/$$/stat)'], output='screen'),
+        ExecuteProcess(
+            cmd=['sh', '-c', 'echo $$ $(cut -d" " -f5 /proc/$$/stat)'], output='screen'),
         """
     )
     (line,) = (line for line in out.lines if line.startswith('[sh-1]'))
