@@ -11,10 +11,13 @@ from typing import Any
 
 import pytest
 
-STUBBORN = """
+
+def _waiting(trap: str) -> str:
+    """Return the text of a process that does something on SIGINT and goes on."""
+    return f"""
     ExecuteProcess(cmd=['sh', '-c', 'trap "{trap}" INT; echo up $$; while :; do sleep 0.1; done'],
-                   output='screen', name='it'{options}),
-"""
+                   output='screen', name='it'),
+    """
 
 
 def test_escalation(launch: Any) -> None:
@@ -46,7 +49,7 @@ def test_escalation(launch: Any) -> None:
 
 def test_times_from_the_command_line(launch: Any) -> None:
     """3.10 The times default to launch arguments, which default to 5 seconds."""
-    text = STUBBORN.replace('{trap}', '').replace('{options}', '')
+    text = _waiting('')
     run = launch.start(text, 'sigterm_timeout:=1', 'sigkill_timeout:=9')
     out = run.wait_for('[it-1] up').send(signal.SIGINT).end()
     assert "failed to terminate '1' seconds after receiving 'SIGINT'" in out.text
@@ -86,7 +89,7 @@ def test_reason_of_an_interrupt(launch: Any) -> None:
         RegisterEventHandler(OnShutdown(on_shutdown=lambda event, context: LogInfo(
             msg=f'{event.reason} {event.due_to_sigint}'))),
         """
-        + STUBBORN.replace('{trap}', 'exit 0').replace('{options}', '')
+        + _waiting('exit 0')
     )
     out = run.wait_for('[it-1] up').send(signal.SIGINT).end()
     assert out.said == ['ctrl-c (SIGINT) True']
@@ -96,7 +99,7 @@ def test_reason_of_an_interrupt(launch: Any) -> None:
 @pytest.mark.parametrize('number', [signal.SIGTERM, signal.SIGQUIT, signal.SIGHUP])
 def test_other_signals(number: signal.Signals, launch: Any, alive: Any) -> None:
     """3.10 SIGTERM and its like end the launch and its processes (section 6)."""
-    text = STUBBORN.replace('{trap}', 'exit 0').replace('{options}', '')
+    text = _waiting('exit 0')
     run = launch.start(text).wait_for('[it-1] up')
     child = int(run.stdout.partition('[it-1] up ')[2].split()[0])
     out = run.send(number).end()
@@ -108,9 +111,7 @@ def test_other_signals(number: signal.Signals, launch: Any, alive: Any) -> None:
 @pytest.mark.parametrize('options', [[], ['--noninteractive']])
 def test_interrupt_at_a_terminal(options: list[str], launch: Any) -> None:
     """3.10 Ctrl-C at a terminal ends everything, each process interrupted once (issue)."""
-    launch.write(
-        'it.launch.py', STUBBORN.replace('{trap}', 'echo INT; exit 0').replace('{options}', '')
-    )
+    launch.write('it.launch.py', _waiting('echo INT; exit 0'))
     main, terminal = pty.openpty()
     run = launch.run('launch', *options, 'it.launch.py', stdin=terminal)
     os.close(terminal)
@@ -139,7 +140,7 @@ def test_nothing_starts_during_shutdown(launch: Any) -> None:
 
 def test_killed_launch_leaves_nothing(launch: Any, alive: Any) -> None:
     """3.10 Even SIGKILL to the launch ends its processes (issue)."""
-    text = STUBBORN.replace('{trap}', '').replace('{options}', '')
+    text = _waiting('')
     arguments = ['sigterm_timeout:=0.2', 'sigkill_timeout:=0.2']
     run = launch.start(text, *arguments).wait_for('[it-1] up')
     child = int(run.stdout.partition('[it-1] up ')[2].split()[0])
@@ -156,8 +157,9 @@ def test_each_process_leads_a_group(launch: Any) -> None:
     """3.10 A process has a group of its own, so that all of it can be signalled (issue)."""
     out = launch(
         """
-        ExecuteProcess(
-            cmd=['sh', '-c', 'echo $$ $(cut -d" " -f5 /proc/$$/stat)'], output='screen'),
+        script = 'echo $$ $(cut -d" " -f5 /proc/$$/stat)'
+        ---
+        ExecuteProcess(cmd=['sh', '-c', script], output='screen'),
         """
     )
     (line,) = (line for line in out.lines if line.startswith('[sh-1]'))
