@@ -64,6 +64,17 @@ def test_second_interrupt_is_ignored(launcher: Start) -> None:
     assert 'ctrl-c (SIGINT) again, ignoring...' in launch.text
 
 
+@pytest.mark.parametrize('timeout', ["'soon'", "substitutions.LaunchConfiguration('unset')"])
+def test_timeout_that_cannot_be_used(launcher: Start, timeout: str) -> None:
+    """A timeout that is no number is an error in the log; the process is ended all the same."""
+    launch = launcher(_process('exec sleep 60', f'sigterm_timeout={timeout}'))
+    launch.wait_for('] ready')
+    launch.process.send_signal(signal.SIGINT)
+    assert launch.end() == 0
+    assert 'the sigterm_timeout of process[sh-1] must be a number of seconds: ' in launch.text
+    assert 'Traceback' not in launch.text and living_members(_group(launch.text)) == []
+
+
 def test_escalation(launcher: Start) -> None:
     """A process that ignores signals is killed when both timeouts are over."""
     launch = launcher(

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from launch.actions.execute_local import ExecuteLocal
     from launch.launch_context import LaunchContext
 
+_USUAL_TIMEOUT = '5'
+
 
 class Supervisor:
     """Starts a process, reports on it, starts it again if wanted, and ends it on shutdown."""
@@ -217,10 +219,26 @@ class Supervisor:
             label=self._label,
             logger=self._logger,
             send=process.send_signal,
-            sigterm_timeout=perform_substitutions(self._context, self._options.sigterm_timeout),
-            sigkill_timeout=perform_substitutions(self._context, self._options.sigkill_timeout),
+            sigterm_timeout=self._timeout('sigterm_timeout'),
+            sigkill_timeout=self._timeout('sigkill_timeout'),
         )
         self._escalation.begin(self._loop)
+
+    def _timeout(self, name: str) -> str:
+        """Return a timeout; one that cannot be used keeps no process from being ended."""
+        try:
+            text = perform_substitutions(self._context, getattr(self._options, name))
+            float(text)
+        except (RuntimeError, ValueError) as error:
+            self._logger.error(
+                'the %s of process[%s] must be a number of seconds: %s; it is %s seconds instead',
+                name,
+                self._label,
+                error,
+                _USUAL_TIMEOUT,
+            )
+            return _USUAL_TIMEOUT
+        return text
 
     def _command_line(self) -> str:
         return ' '.join(self._details['cmd'])
