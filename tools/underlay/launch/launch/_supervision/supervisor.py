@@ -71,7 +71,9 @@ class Supervisor:
         """End the process, and do not start it again."""
         if not self._stopped.done():
             self._stopped.set_result(None)
-        if self._process is not None and self._escalation is None:
+        if self._process is None:
+            self._stop_waiting()
+        elif self._escalation is None:
             self._begin_escalation()
 
     def send_signal(self, number: signal.Signals) -> None:
@@ -88,6 +90,11 @@ class Supervisor:
         """Write to the standard input of the process."""
         if self._process is not None:
             self._process.write(data)
+
+    def _stop_waiting(self) -> None:
+        """Let a start that is under way come to its end soon, if everything is to end."""
+        if self._context.is_shutdown and self._context._processes is not None:
+            self._context._processes.hurry()
 
     # The life of the process.
 
