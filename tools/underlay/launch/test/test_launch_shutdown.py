@@ -126,6 +126,24 @@ def test_killed_launch(launcher: Start, wait_until: Wait) -> None:
     wait_until(lambda: not any(living_members(group) for group in groups))
 
 
+def test_output_to_a_full_disk(
+    launch_command: list[str], write: Callable[[str, str], str]
+) -> None:
+    """The processes do their work although nobody can see it, but it is said that nobody can."""
+    path = write(
+        'it.launch.py',
+        'from launch import LaunchDescription\nfrom launch.actions import *\n'
+        'def generate_launch_description():\n    return LaunchDescription([\n'
+        "        ExecuteProcess(cmd=['sh', '-c', 'echo x; echo y >&2'], output='screen')])\n",
+    )
+    with open('/dev/full', 'wb') as full:
+        result = subprocess.run(
+            [*launch_command, path], stdout=full, stderr=subprocess.PIPE, text=True, timeout=30
+        )
+    assert result.returncode == 0
+    assert result.stderr == 'The output cannot be written any more: No space left on device\n'
+
+
 def test_closed_output(
     tmp_path: Path,
     write: Callable[[str, str], str],
