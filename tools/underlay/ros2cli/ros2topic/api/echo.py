@@ -8,9 +8,10 @@ import time
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
+from ros2cli.patience import Patience
 from ros2topic.api.printing import printer
 from ros2topic.api.qos import choose_qos
-from ros2topic.api.waiting import Patience, settled_publishers
+from ros2topic.api.waiting import settled_publishers
 
 PERIOD_S = 0.1
 

@@ -8,7 +8,7 @@ import time
 from typing import Any
 
 from rclpy.qos import QoSPresetProfiles
-from ros2topic.api.outgoing import OutgoingMessage
+from ros2cli.messages.outgoing import OutgoingMessage
 from ros2topic.api.qos import copy_profile, override
 
 ANNOUNCE_S = 1.0
@@ -20,7 +20,7 @@ def publish(node: Any, message: OutgoingMessage, args: argparse.Namespace) -> No
     """Wait for subscriptions if need be, then publish until enough is published."""
     profile = copy_profile(QoSPresetProfiles.get_from_short_key(args.qos_profile or 'default'))
     override(profile, args)
-    publisher = node.create_publisher(message.message_type, args.topic_name, profile)
+    publisher = node.create_publisher(type(message.message), args.topic_name, profile)
     _wait_for_subscriptions(node, publisher, args)
     print('publisher: beginning loop')
     times = 1 if args.once else args.times

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli.messages.values_arguments import add_values_arguments
 from ros2topic.api.argument_types import positive_int, positive_number
 
 
@@ -12,15 +13,7 @@ def add_pub_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the message and how often to publish it."""
     parser.add_argument('topic_name', help="Name of the ROS topic to publish to (e.g. '/chatter')")
     parser.add_argument('message_type', help="Type of the ROS message (e.g. 'std_msgs/String')")
-    source = parser.add_mutually_exclusive_group()
-    source.add_argument(
-        'values',
-        nargs='?',
-        default='{}',
-        help='Values to fill the message with in YAML format (e.g. "data: Hello World"), '
-        'otherwise the message will be published with default values',
-    )
-    source.add_argument('--stdin', action='store_true', help='Read values from standard input')
+    add_values_arguments(parser, 'message')
     _add_count(parser)
     _add_waiting(parser)
 

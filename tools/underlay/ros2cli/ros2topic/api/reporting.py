@@ -7,7 +7,7 @@ from collections.abc import Callable
 import time
 from typing import Any
 
-from ros2topic.api.waiting import Patience
+from ros2cli.patience import Patience
 
 PERIOD_S = 1.0
 

@@ -5,17 +5,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from ros2cli.messages.lookup import get_message, UnknownType
+from ros2cli.messages.lookup import get_passed_type
 from ros2topic.api.waiting import find_types
 
 
 def resolve_type(node: Any, topic: str, type_name: str | None) -> Any:
     """Return the class of a topic's messages; RuntimeError says why it cannot be known."""
     name = type_name or _discovered_type(node, topic)
-    try:
-        return get_message(name)
-    except UnknownType as error:
-        raise RuntimeError(f'The passed message type is invalid\n{error}') from error
+    return get_passed_type(name, 'msg')
 
 
 def _discovered_type(node: Any, topic: str) -> str:

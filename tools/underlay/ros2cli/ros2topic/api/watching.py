@@ -6,10 +6,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from ros2cli.patience import Patience
 from ros2topic.api import get_topic_types
 from ros2topic.api.qos import matching_qos
 from ros2topic.api.subscription_type import resolve_type
-from ros2topic.api.waiting import find_types, Patience, settled_publishers
+from ros2topic.api.waiting import find_types, settled_publishers
 
 PERIOD_S = 0.02
 QUEUE_DEPTH = 1000

@@ -34,9 +34,9 @@ class BwVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print a report every second until the user stops it."""
+        from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
         from ros2topic.api.reporting import report_for_ever
-        from ros2topic.api.waiting import absolute
         from ros2topic.api.watching import subscribe_when_published
 
         topic = absolute(args.topic_name)

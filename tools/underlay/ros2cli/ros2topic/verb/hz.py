@@ -37,9 +37,9 @@ class HzVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print a report every second until the user stops it."""
+        from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
         from ros2topic.api.hz import print_rate
-        from ros2topic.api.waiting import absolute
 
         with DirectNode(args, wait=False) as node:
             print_rate(node, absolute(args.topic_name), args)
