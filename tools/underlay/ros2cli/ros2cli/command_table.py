@@ -6,10 +6,15 @@ from __future__ import annotations
 from ros2cli.entry import Entry
 
 COMMANDS = {
-    'interface': Entry('ros2interface.command.interface:InterfaceCommand', 'Show information about ROS interfaces'),
+    'interface': Entry(
+        'ros2interface.command.interface:InterfaceCommand', 'Show information about ROS interfaces'
+    ),
     'launch': Entry('ros2launch.command.launch:LaunchCommand', 'Run a launch file'),
     'node': Entry('ros2node.command.node:NodeCommand', 'Various node related sub-commands'),
     'pkg': Entry('ros2pkg.command.pkg:PkgCommand', 'Various package related sub-commands'),
     'run': Entry('ros2run.command.run:RunCommand', 'Run a package specific executable'),
+    'service': Entry(
+        'ros2service.command.service:ServiceCommand', 'Various service related sub-commands'
+    ),
     'topic': Entry('ros2topic.command.topic:TopicCommand', 'Various topic related sub-commands'),
 }

@@ -38,8 +38,14 @@ def get_passed_type(name: str, kind: str) -> Any:
         raise RuntimeError(f'{text}\n{error}') from error
 
 
+def type_name(interface: Any) -> str:
+    """Return `package/msg/Type` for the class of an interface."""
+    package, kind = interface.__module__.split('.')[:2]
+    return f'{package}/{kind}/{interface.__name__}'
+
+
 def _get_interface(name: str, kind: str) -> Any:
-    package, folder, type_name = _parts(name, kind)
+    package, folder, short_name = _parts(name, kind)
     if folder != kind:
         error = WrongKind if folder in EXAMPLES else UnknownType
         raise error(_form_text(name, kind))
@@ -47,9 +53,9 @@ def _get_interface(name: str, kind: str) -> Any:
         module = import_module(f'{package}.{kind}')
     except ModuleNotFoundError as error:
         raise UnknownType(_no_package_text(package, kind)) from error
-    interface = getattr(module, type_name, None)
+    interface = getattr(module, short_name, None)
     if not isinstance(interface, type):
-        raise UnknownType(_no_type_text(f'{package}/{kind}', type_name, vars(module)))
+        raise UnknownType(_no_type_text(f'{package}/{kind}', short_name, vars(module)))
     return interface
 
 

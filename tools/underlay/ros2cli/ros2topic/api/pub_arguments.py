@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli.argument_types import node_name, positive_int, positive_number, whole_number
 from ros2cli.messages.values_arguments import add_values_arguments
-from ros2topic.api.argument_types import positive_int, positive_number
 
 
 def add_pub_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,7 +31,7 @@ def _add_count(parser: argparse.ArgumentParser) -> None:
         '-p',
         '--print',
         metavar='N',
-        type=int,
+        type=whole_number,
         default=1,
         help='Only print every N-th published message (default: 1)',
     )
@@ -45,14 +45,16 @@ def _add_count(parser: argparse.ArgumentParser) -> None:
         metavar='N',
         help='Publish this number of times and then exit',
     )
-    parser.add_argument('-n', '--node-name', help='Name of the created publishing node')
+    parser.add_argument(
+        '-n', '--node-name', type=node_name, help='Name of the created publishing node'
+    )
 
 
 def _add_waiting(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '-w',
         '--wait-matching-subscriptions',
-        type=int,
+        type=whole_number,
         metavar='N',
         help='Wait until finding the specified number of matching subscriptions; defaults to 1 '
         'with --once or --times, otherwise to 0',

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli.argument_types import positive_int
 from ros2cli.node.arguments import add_strategy_arguments
-from ros2topic.api.argument_types import positive_int
+from ros2topic.api.filter_argument import add_filter_argument
 from ros2topic.verb import VerbExtension
 
 DEFAULT_WINDOW = 10000
@@ -29,6 +30,7 @@ class HzVerb(VerbExtension):
             metavar='WINDOW',
             help='window size, in number of messages, for calculating rate (default: %(default)s)',
         )
+        add_filter_argument(parser, 'count')
         parser.add_argument(
             '--wall-time',
             action='store_true',

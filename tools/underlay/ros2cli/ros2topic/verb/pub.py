@@ -25,10 +25,13 @@ class PubVerb(VerbExtension):
         from ros2cli.messages.lookup import get_passed_type
         from ros2cli.messages.outgoing import OutgoingMessage
         from ros2cli.messages.values_arguments import values_text
+        from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
         from ros2topic.api.pub import publish
 
         message_type = get_passed_type(args.message_type, 'msg')
+        if not args.topic_name.startswith('~'):
+            absolute(args.topic_name)
         message = OutgoingMessage(message_type(), values_text(args))
         with DirectNode(args, node_name=args.node_name, wait=False) as node:
             publish(node, message, args)
