@@ -11,6 +11,7 @@ COMMANDS = {
     ),
     'launch': Entry('ros2launch.command.launch:LaunchCommand', 'Run a launch file'),
     'node': Entry('ros2node.command.node:NodeCommand', 'Various node related sub-commands'),
+    'param': Entry('ros2param.command.param:ParamCommand', 'Various param related sub-commands'),
     'pkg': Entry('ros2pkg.command.pkg:PkgCommand', 'Various package related sub-commands'),
     'run': Entry('ros2run.command.run:RunCommand', 'Run a package specific executable'),
     'service': Entry(

@@ -11,20 +11,23 @@ from ros2cli.patience import Patience
 CONNECTION_TIMEOUT_S = 5.0
 
 
-def wait_for_response(node: Any, client: Any, future: Any) -> Any:
-    """Return what a call returns; RuntimeError if the service disappears before that."""
+def wait_for_response(node: Any, client: Any, future: Any, timeout_s: float = float('inf')) -> Any:
+    """Return what a call returns; RuntimeError if the service disappears or time is over."""
     name = client.srv_name
 
     def is_over() -> bool:
         return bool(future.done() or not client.service_is_ready())
 
-    wait_until(node, is_over, Patience(f"the answer of '{name}'"))
+    if not wait_until(node, is_over, Patience(f"the answer of '{name}'"), timeout_s):
+        raise RuntimeError(f"The service '{name}' has not answered within {timeout_s:g} s")
     if not future.done():
         raise RuntimeError(f"The service '{name}' has gone away before it answered")
     return future.result()
 
 
-def call(node: Any, service_type: Any, name: str, request: Any) -> Any:
+def call(
+    node: Any, service_type: Any, name: str, request: Any, timeout_s: float = float('inf')
+) -> Any:
     """Call a service of a node that is there, and return its response."""
     client = node.create_client(service_type, name)
     try:
@@ -34,6 +37,6 @@ def call(node: Any, service_type: Any, name: str, request: Any) -> Any:
                 f"The service '{name}' does not connect within {CONNECTION_TIMEOUT_S:g} s: "
                 'its process may be stopped, or just be ending'
             )
-        return wait_for_response(node, client, client.call_async(request))
+        return wait_for_response(node, client, client.call_async(request), timeout_s)
     finally:
         node.destroy_client(client)
