@@ -127,7 +127,7 @@ def test_set_and_get(ros2_robot: Ros2) -> None:
             'Wrong parameter type',
             "'speed' is of the type double, but '1' is integer",
         ),
-        ('speed', '-3.5', "Parameter speed out of range", None),
+        ('speed', '-3.5', 'Parameter speed out of range', None),
         ('fingers.count', '2', 'Trying to set a read-only parameter: fingers.count.', None),
         ('sped', '2.0', '', "Did you mean 'speed'?"),
     ],

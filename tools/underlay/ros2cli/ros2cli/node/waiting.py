@@ -15,15 +15,16 @@ PERIOD_S = 0.05
 def wait_until(
     node: Any,
     is_true: Callable[[], object],
-    patience: Patience,
+    patience: Patience | None,
     timeout_s: float = float('inf'),
 ) -> bool:
-    """Spin until something is true, or the time is over; return whether it is."""
+    """Spin until something is true or the time is over, with or without a word about it."""
     end = time.monotonic() + timeout_s
     while not is_true():
         if time.monotonic() > end:
             return False
-        patience.check()
+        if patience:
+            patience.check()
         node.spin_once(PERIOD_S)
     return True
 
