@@ -48,6 +48,16 @@ def robot(ros_environment_variables: dict[str, str]) -> Iterator[dict[str, str]]
             yield variables
 
 
+@pytest.fixture(scope='session')
+def container(ros_environment_variables: dict[str, str]) -> Iterator[dict[str, str]]:
+    """Run a container of components in a domain of its own; return its variables."""
+    pytest.importorskip('composition_interfaces.srv')
+    with domain_id() as domain:
+        variables = {'ROS_DOMAIN_ID': str(domain)}
+        with helper_process('container.py', {**ros_environment_variables, **variables}):
+            yield variables
+
+
 @contextmanager
 def helper_process(name: str, environment: dict[str, str]) -> Iterator[None]:
     """Run a program of this folder from when it is ready to the end of the block."""

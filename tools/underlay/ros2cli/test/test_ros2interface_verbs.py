@@ -16,7 +16,8 @@ def test_list_has_headings(ros2_here: Ros2) -> None:
     lines = ros2_here('interface', 'list').stdout.splitlines()
     headings = [line for line in lines if not line.startswith('    ')]
     assert headings == ['Messages:', 'Services:', 'Actions:']
-    messages = lines[1 : lines.index('Services:')]
+    services = lines.index('Services:')
+    messages = lines[1:services]
     assert '    std_msgs/msg/Header' in messages
     assert messages == sorted(messages)
 

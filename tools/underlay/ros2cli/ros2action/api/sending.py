@@ -45,6 +45,7 @@ class GoalSender:
     def wait_for_server(self) -> None:
         """Wait as long as it takes."""
         print('Waiting for an action server to become available...')
+        self._node.wait_for_graph(self._client.server_is_ready)
         patience = Patience(f"a server of the action '{self._name}'", self._hint)
         wait_until(self._node, self._client.server_is_ready, patience)
 

@@ -24,7 +24,7 @@ class ComponentCommand(VerbCommand):
             'Run a component into its own standalone container node',
         ),
         'types': Entry(
-            'ros2component.verb.types:TypesVerb',
+            'ros2component.verb.component_types:TypesVerb',
             'Output a list of components registered in the ament index',
         ),
         'unload': Entry(

@@ -8,7 +8,7 @@ from typing import Any
 from ros2cli.names import closest, is_hidden
 from ros2cli.node.graph import foreign_topics
 
-__all__ = ['get_topic_names_and_types', 'get_topic_types', 'unknown_topic_text']
+__all__ = ['closest_topic', 'get_topic_names_and_types', 'get_topic_types', 'unknown_topic_text']
 
 
 def get_topic_names_and_types(
@@ -33,5 +33,10 @@ def get_topic_types(node: Any, topic: str) -> list[str]:
 
 def unknown_topic_text(node: Any, topic: str) -> str:
     """Return the error text for an unknown topic, with a name that comes close."""
+    return '\n'.join([f"Unknown topic '{topic}'", closest_topic(node, topic)]).rstrip()
+
+
+def closest_topic(node: Any, topic: str) -> str:
+    """Return a question that names the topic which is meant, or '' if none is close."""
     known = [name for name, _ in get_topic_names_and_types(node=node)]
-    return '\n'.join([f"Unknown topic '{topic}'", closest(topic, known)]).rstrip()
+    return closest(topic, [name for name in known if name != topic])

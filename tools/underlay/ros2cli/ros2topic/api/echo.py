@@ -11,6 +11,7 @@ from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
 from ros2cli.patience import Patience
+from ros2topic.api import closest_topic
 from ros2topic.api.draining import drain
 from ros2topic.api.incompatibility import Incompatibility
 from ros2topic.api.losses import LossCounter, lost_text
@@ -25,7 +26,13 @@ def echo(node: Any, topic: str, message_type: Any, args: argparse.Namespace) -> 
     """Print messages until one has come, if that is enough, or until the time is over."""
     end = time.monotonic() + (args.timeout if args.timeout is not None else float('inf'))
     listener = Listener(node, topic, message_type, args)
-    listener.listen(end, Patience(f"a message on '{topic}'"))
+
+    def hint() -> str:
+        if node.count_publishers(topic):
+            return ''
+        return f'Nobody publishes it. {closest_topic(node, topic)}'
+
+    listener.listen(end, Patience(f"a message on '{topic}'", hint))
 
 
 class Listener:

@@ -7,7 +7,7 @@ import sys
 from typing import Any
 
 from rclpy.qos import qos_check_compatible, QoSCompatibility, QoSProfile
-from ros2cli.node.graph import foreign_publishers, foreign_subscriptions
+from ros2cli.node.graph import foreign_publishers, foreign_subscriptions, UNKNOWN_NODE_NAME
 
 
 class Incompatibility:
@@ -41,15 +41,15 @@ class Incompatibility:
 
     def _others(self) -> list[Any]:
         find = foreign_subscriptions if self._publishes else foreign_publishers
-        found: list[Any] = find(self._node, self._topic)
-        return found
+        found = find(self._node, self._topic)
+        return [info for info in found if info.node_name != UNKNOWN_NODE_NAME]
 
     def _reason(self, info: Any) -> str:
         pair = (self._profile, info.qos_profile)
         status, reason = qos_check_compatible(*(pair if self._publishes else reversed(pair)))
         if status != QoSCompatibility.ERROR:
             return ''
-        return str(reason).replace('ERROR: ', '').strip(' ;')
+        return '; '.join(str(reason).replace('ERROR: ', '').strip(' ;').split(';'))
 
     def _text(self, info: Any, reason: str) -> str:
         ends = [f"'/{self._node.get_name()}'", f"'{info.node_namespace.rstrip('/')}/"]

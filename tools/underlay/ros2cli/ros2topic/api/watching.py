@@ -8,7 +8,7 @@ from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
 from ros2cli.patience import Patience
-from ros2topic.api import get_topic_types
+from ros2topic.api import closest_topic, get_topic_types
 from ros2topic.api.draining import drain
 from ros2topic.api.incompatibility import Incompatibility
 from ros2topic.api.qos import matching_qos
@@ -51,7 +51,7 @@ def _wait_until_published(node: Any, topic: str) -> None:
     if find_types(node, topic):
         return
     print(f'WARNING: topic [{topic}] does not appear to be published yet')
-    patience = Patience(f"a publisher of '{topic}'")
+    patience = Patience(f"a publisher of '{topic}'", lambda: closest_topic(node, topic))
     while not get_topic_types(node, topic):
         patience.check()
         node.spin_once(PERIOD_S)

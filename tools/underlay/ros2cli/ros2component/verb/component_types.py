@@ -19,7 +19,7 @@ class TypesVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the components of one package, or of all under the names of the packages."""
-        from ros2component.api.types import get_component_packages, get_component_types
+        from ros2component.api.index import get_component_packages, get_component_types
 
         if args.package_name is not None:
             types = get_component_types(args.package_name)
