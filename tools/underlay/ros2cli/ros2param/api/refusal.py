@@ -12,13 +12,13 @@ from ros2param.api.values import type_name, TYPES
 
 
 def refusal_hint(
-    node: Any, node_name: str, args: argparse.Namespace, value: ParameterValue
+    node: Any, node_name: str, args: argparse.Namespace, value: ParameterValue, reason: str
 ) -> str:
-    """Return what is wrong with a parameter's name or the type of its value, or ''."""
+    """Return what is wrong with a parameter's name, or with the type that a node refuses."""
     current = get_parameters(node, node_name, [args.parameter_name])[0]
     if current.type not in TYPES:
         return unknown_parameter_hint(node, node_name, args.parameter_name)
-    if current.type == value.type:
+    if current.type == value.type or 'type' not in reason:
         return ''
     wanted, given = type_name(current.type), type_name(value.type)
     text = f"'{args.parameter_name}' is of the type {wanted}, but {args.value!r} is {given}."

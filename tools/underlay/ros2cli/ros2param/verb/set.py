@@ -34,10 +34,10 @@ class SetVerb(VerbExtension):
         value = parse_value(args.value)
         with remote_node(args) as (node, name):
             result = set_parameter(node, name, args.parameter_name, value)
-            hint = '' if result.successful else refusal_hint(node, name, args, value)
-        reason = f': {result.reason}' if result.reason else ''
-        if result.successful:
-            print(f'Set parameter successful{reason}')
-            return None
+            reason = f': {result.reason}' if result.reason else ''
+            if result.successful:
+                print(f'Set parameter successful{reason}')
+                return None
+            hint = refusal_hint(node, name, args, value, reason)
         print(f'Setting parameter failed{reason}\n{hint}'.rstrip(), file=sys.stderr)
         return None
