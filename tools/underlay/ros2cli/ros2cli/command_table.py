@@ -6,9 +6,34 @@ from __future__ import annotations
 from ros2cli.entry import Entry
 
 COMMANDS = {
+    'action': Entry(
+        'ros2action.command.action:ActionCommand', 'Various action related sub-commands'
+    ),
+    'component': Entry(
+        'ros2component.command.component:ComponentCommand',
+        'Various component related sub-commands',
+    ),
+    'daemon': Entry(
+        'ros2daemon.command.daemon:DaemonCommand', 'Various daemon related sub-commands'
+    ),
+    'interface': Entry(
+        'ros2interface.command.interface:InterfaceCommand', 'Show information about ROS interfaces'
+    ),
     'launch': Entry('ros2launch.command.launch:LaunchCommand', 'Run a launch file'),
+    'lifecycle': Entry(
+        'ros2lifecycle.command.lifecycle:LifecycleCommand',
+        'Various lifecycle related sub-commands',
+    ),
+    'multicast': Entry(
+        'ros2multicast.command.multicast:MulticastCommand',
+        'Various multicast related sub-commands',
+    ),
     'node': Entry('ros2node.command.node:NodeCommand', 'Various node related sub-commands'),
+    'param': Entry('ros2param.command.param:ParamCommand', 'Various param related sub-commands'),
     'pkg': Entry('ros2pkg.command.pkg:PkgCommand', 'Various package related sub-commands'),
     'run': Entry('ros2run.command.run:RunCommand', 'Run a package specific executable'),
+    'service': Entry(
+        'ros2service.command.service:ServiceCommand', 'Various service related sub-commands'
+    ),
     'topic': Entry('ros2topic.command.topic:TopicCommand', 'Various topic related sub-commands'),
 }

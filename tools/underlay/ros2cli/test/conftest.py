@@ -2,6 +2,8 @@
 """Fixtures: a domain of one's own, a talker, and the command line as a process."""
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
 import os
 from pathlib import Path
 import subprocess
@@ -33,9 +35,35 @@ def ros_environment_variables() -> Iterator[dict[str, str]]:
 @pytest.fixture(scope='session')
 def talker(ros_environment_variables: dict[str, str]) -> Iterator[None]:
     """Run the talker for all tests that look at the graph."""
+    with helper_process('talker.py', ros_environment_variables):
+        yield
+
+
+@pytest.fixture(scope='session')
+def robot(ros_environment_variables: dict[str, str]) -> Iterator[dict[str, str]]:
+    """Run the robot in a domain of its own; return the variables of that domain."""
+    with domain_id() as domain:
+        variables = {'ROS_DOMAIN_ID': str(domain)}
+        with helper_process('robot.py', {**ros_environment_variables, **variables}):
+            yield variables
+
+
+@pytest.fixture(scope='session')
+def container(ros_environment_variables: dict[str, str]) -> Iterator[dict[str, str]]:
+    """Run a container of components in a domain of its own; return its variables."""
+    pytest.importorskip('composition_interfaces.srv')
+    with domain_id() as domain:
+        variables = {'ROS_DOMAIN_ID': str(domain)}
+        with helper_process('container.py', {**ros_environment_variables, **variables}):
+            yield variables
+
+
+@contextmanager
+def helper_process(name: str, environment: dict[str, str]) -> Iterator[None]:
+    """Run a program of this folder from when it is ready to the end of the block."""
     process = subprocess.Popen(
-        [sys.executable, str(Path(__file__).with_name('talker.py'))],
-        env=ros_environment_variables,
+        [sys.executable, str(Path(__file__).with_name(name))],
+        env=environment,
         stdout=subprocess.PIPE,
         text=True,
     )
@@ -103,3 +131,19 @@ def ros2_here(
         return subprocess.CompletedProcess(words, status, captured.out, captured.err)
 
     return run
+
+
+@pytest.fixture
+def ros2_robot(
+    ros2_here: Callable[..., subprocess.CompletedProcess[str]], robot: dict[str, str]
+) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Return a function that runs a command in this process, where it sees the robot."""
+    return partial(ros2_here, **robot)
+
+
+@pytest.fixture
+def start_at_robot(
+    start_ros2: Callable[..., subprocess.Popen[str]], robot: dict[str, str]
+) -> Callable[..., subprocess.Popen[str]]:
+    """Return a function that starts a command which sees the robot."""
+    return partial(start_ros2, extra=robot)

@@ -8,9 +8,16 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, PoseWithCovariance
 import pytest
 from ros2cli.messages.fill import fill
-from ros2topic.api.outgoing import OutgoingMessage, parse_values
+from ros2cli.messages.lookup import get_passed_type
+from ros2cli.messages.outgoing import OutgoingMessage
+from ros2cli.messages.values import parse_values
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, ByteMultiArray, String, UInt64
+
+
+def outgoing(type_name: str, text: str) -> OutgoingMessage:
+    """Return a message as `ros2 topic pub` makes it."""
+    return OutgoingMessage(get_passed_type(type_name, 'msg')(), text)
 
 
 def test_nested_fields_are_set() -> None:
@@ -52,15 +59,15 @@ def test_arrays_of_all_kinds() -> None:
 
 def test_time_is_set_at_each_publication() -> None:
     """A header with the value `auto` gets the present time whenever it is published."""
-    outgoing = OutgoingMessage('geometry_msgs/msg/PoseStamped', '{header: auto}')
+    message = outgoing('geometry_msgs/msg/PoseStamped', '{header: auto}')
     for second in (3, 4):
-        assert outgoing.stamped(Time(sec=second)).header.stamp.sec == second
+        assert message.stamped(Time(sec=second)).header.stamp.sec == second
 
 
 def test_now_is_a_time() -> None:
     """A field of the type Time takes the value `now`."""
-    outgoing = OutgoingMessage('std_msgs/Header', '{stamp: now}')
-    assert outgoing.stamped(Time(sec=5)).stamp.sec == 5
+    message = outgoing('std_msgs/Header', '{stamp: now}')
+    assert message.stamped(Time(sec=5)).stamp.sec == 5
 
 
 @pytest.mark.parametrize(
@@ -93,7 +100,7 @@ def test_now_is_a_time() -> None:
 def test_wrong_values_are_explained(type_name: str, text: str, error: str) -> None:
     """Each kind of mistake has its text."""
     with pytest.raises(RuntimeError, match=error):
-        OutgoingMessage(type_name, text)
+        outgoing(type_name, text)
 
 
 @pytest.mark.parametrize(

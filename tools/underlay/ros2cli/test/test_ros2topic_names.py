@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import pytest
-from ros2topic.api.waiting import absolute
+from ros2cli.names import absolute
 
 
 @pytest.mark.parametrize('name', ['/a', 'a', 'robot1/joint_commands', '_hidden/x'])

@@ -6,29 +6,70 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
+KINDS = {'msg': 'message', 'srv': 'service', 'action': 'action'}
+EXAMPLES = {
+    'msg': 'std_msgs/msg/String',
+    'srv': 'std_srvs/srv/Trigger',
+    'action': 'tf2_msgs/action/LookupTransform',
+}
+
 
 class UnknownType(Exception):
     """A name stands for no interface that is installed."""
 
 
+class WrongKind(UnknownType):
+    """A name stands for a message where a service is needed, or the like."""
+
+
 def get_message(name: str) -> Any:
     """Return the class of a message, named `package/msg/Type` or `package/Type`."""
-    parts = name.split('/')
-    if len(parts) == 2:
-        parts.insert(1, 'msg')
-    if len(parts) != 3 or parts[1] != 'msg' or not all(part.isidentifier() for part in parts):
-        raise UnknownType(
-            f"'{name}' is not of the form 'package/msg/Type', for example 'std_msgs/msg/String'"
-        )
-    package, kind, type_name = parts
+    return _get_interface(name, 'msg')
+
+
+def get_passed_type(name: str, kind: str) -> Any:
+    """Return the class of a `msg`, `srv` or `action` that the user names, or RuntimeError."""
+    try:
+        return _get_interface(name, kind)
+    except UnknownType as error:
+        text = f'The passed {KINDS[kind]} type is invalid'
+        if isinstance(error, WrongKind) and kind == 'srv':
+            text = 'The passed type is not a service'
+        raise RuntimeError(f'{text}\n{error}') from error
+
+
+def type_name(interface: Any) -> str:
+    """Return `package/msg/Type` for the class of an interface."""
+    package, kind = interface.__module__.split('.')[:2]
+    return f'{package}/{kind}/{interface.__name__}'
+
+
+def _get_interface(name: str, kind: str) -> Any:
+    package, folder, short_name = _parts(name, kind)
+    if folder != kind:
+        error = WrongKind if folder in EXAMPLES else UnknownType
+        raise error(_form_text(name, kind))
     try:
         module = import_module(f'{package}.{kind}')
     except ModuleNotFoundError as error:
         raise UnknownType(_no_package_text(package, kind)) from error
-    message = getattr(module, type_name, None)
-    if not hasattr(message, 'get_fields_and_field_types'):
-        raise UnknownType(_no_type_text(f'{package}/{kind}', type_name, vars(module)))
-    return message
+    interface = getattr(module, short_name, None)
+    if not isinstance(interface, type):
+        raise UnknownType(_no_type_text(f'{package}/{kind}', short_name, vars(module)))
+    return interface
+
+
+def _parts(name: str, kind: str) -> list[str]:
+    parts = name.split('/')
+    if len(parts) == 2:
+        parts.insert(1, kind)
+    if len(parts) != 3 or not all(part.isidentifier() for part in parts):
+        raise UnknownType(_form_text(name, kind))
+    return parts
+
+
+def _form_text(name: str, kind: str) -> str:
+    return f"'{name}' is not of the form 'package/{kind}/Type', for example '{EXAMPLES[kind]}'"
 
 
 def _no_package_text(package: str, kind: str) -> str:

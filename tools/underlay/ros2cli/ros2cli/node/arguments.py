@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli.argument_types import positive_number
 from ros2cli.node.discovery import DEFAULT_SPIN_TIME
 
 
@@ -12,7 +13,7 @@ def add_node_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options for discovery and time."""
     parser.add_argument(
         '--spin-time',
-        type=_positive_seconds,
+        type=positive_number,
         default=DEFAULT_SPIN_TIME,
         metavar='SECONDS',
         help='time to wait for discovery if no other node answers (default: %(default)s)',
@@ -32,8 +33,8 @@ def add_strategy_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _positive_seconds(text: str) -> float:
-    value = float(text)
-    if not 0.0 < value < float('inf'):
-        raise argparse.ArgumentTypeError(f'{text!r} is not a positive number of seconds')
-    return value
+def add_hidden_nodes_argument(parser: argparse.ArgumentParser) -> None:
+    """Add the choice of hidden nodes."""
+    parser.add_argument(
+        '--include-hidden-nodes', action='store_true', help='Consider hidden nodes as well'
+    )

@@ -14,6 +14,7 @@ from typing import Any
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.parameter import Parameter
+from rclpy.signals import SignalHandlerOptions
 from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.node.arguments import add_node_arguments as add_arguments
 from ros2cli.node.discovery import DEFAULT_SPIN_TIME, wait_until_stable
@@ -32,17 +33,29 @@ class DirectNode:
     """A hidden node in a `with` statement; its attributes are those of the rclpy node."""
 
     def __init__(
-        self, args: argparse.Namespace | None, *, node_name: str | None = None, wait: bool = True
+        self,
+        args: argparse.Namespace | None,
+        *,
+        node_name: str | None = None,
+        wait: bool = True,
+        survives_interrupt: bool = False,
     ) -> None:
-        """Keep the options of the command line; nothing happens before the `with`."""
+        """
+        Keep the options of the command line; nothing happens before the `with`.
+
+        Ctrl-C ends the node at once, unless it is to survive that for some last words.
+        """
         self._spin_time_s: float = getattr(args, 'spin_time', None) or DEFAULT_SPIN_TIME
         self._use_sim_time: bool = getattr(args, 'use_sim_time', False)
         self._node_name = node_name or f'{NODE_NAME_PREFIX}_{os.getpid()}'
         self._wait = wait
+        self._signals = (
+            SignalHandlerOptions.SIGTERM if survives_interrupt else SignalHandlerOptions.ALL
+        )
 
     def __enter__(self) -> DirectNode:
         """Start rclpy and the node, and wait for discovery."""
-        rclpy.init(args=[])
+        rclpy.init(args=[], signal_handler_options=self._signals)
         self.node = rclpy.create_node(
             self._node_name,
             start_parameter_services=False,

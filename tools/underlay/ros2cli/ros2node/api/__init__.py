@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any, NamedTuple
 
-from ros2cli.node import HIDDEN_NODE_PREFIX
+from ros2cli.names import is_hidden
 
 __all__ = [
     'NodeName',
@@ -41,7 +41,7 @@ def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[Nod
         if name != node.get_name()
     )
     return sorted(
-        (name for name in names if include_hidden_nodes or not _is_hidden(name)),
+        (name for name in names if include_hidden_nodes or not is_hidden(name.full_name)),
         key=lambda name: name.full_name,
     )
 
@@ -72,10 +72,6 @@ def node_sections(
         ('Action Clients', _actions(clients)),
     ]
     return [(title, _visible(found, include_hidden)) for title, found in sections]
-
-
-def _is_hidden(name: NodeName) -> bool:
-    return any(part.startswith(HIDDEN_NODE_PREFIX) for part in name.full_name.split('/'))
 
 
 def _visible(found: list[tuple[str, list[str]]], include_hidden: bool) -> list[TopicInfo]:

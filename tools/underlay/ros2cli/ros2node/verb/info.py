@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli.names import closest
 from ros2cli.node.arguments import add_strategy_arguments
 from ros2node.verb import VerbExtension
 
@@ -41,8 +42,4 @@ class InfoVerb(VerbExtension):
 
 
 def _unknown_node(name: str, known: list[str]) -> str:
-    from ros2cli.suggest import did_you_mean
-
-    with_slash = f'/{name}'
-    hint = f'Did you mean {with_slash!r}?' if with_slash in known else did_you_mean(name, known)
-    return '\n'.join([f"Unable to find node '{name}'", hint]).rstrip()
+    return '\n'.join([f"Unable to find node '{name}'", closest(name, known)]).rstrip()

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from ros2cli.names import closest, is_hidden
 from ros2cli.node.graph import foreign_topics
 
-__all__ = ['get_topic_names_and_types', 'get_topic_types', 'is_hidden', 'unknown_topic_text']
+__all__ = ['closest_topic', 'get_topic_names_and_types', 'get_topic_types', 'unknown_topic_text']
 
 
 def get_topic_names_and_types(
@@ -30,16 +31,12 @@ def get_topic_types(node: Any, topic: str) -> list[str]:
     return dict(get_topic_names_and_types(node=node, include_hidden_topics=True)).get(topic, [])
 
 
-def is_hidden(topic: str) -> bool:
-    """Tell if a part of the topic's name starts with an underscore."""
-    return any(part.startswith('_') for part in topic.split('/'))
-
-
 def unknown_topic_text(node: Any, topic: str) -> str:
     """Return the error text for an unknown topic, with a name that comes close."""
-    from ros2cli.suggest import did_you_mean
+    return '\n'.join([f"Unknown topic '{topic}'", closest_topic(node, topic)]).rstrip()
 
+
+def closest_topic(node: Any, topic: str) -> str:
+    """Return a question that names the topic which is meant, or '' if none is close."""
     known = [name for name, _ in get_topic_names_and_types(node=node)]
-    with_slash = f'/{topic}'
-    close = f'Did you mean {with_slash!r}?' if with_slash in known else did_you_mean(topic, known)
-    return '\n'.join([f"Unknown topic '{topic}'", close]).rstrip()
+    return closest(topic, [name for name in known if name != topic])

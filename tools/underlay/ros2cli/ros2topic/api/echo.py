@@ -4,13 +4,20 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
+import sys
 import time
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
-from ros2topic.api.printing import printer
+from ros2cli.patience import Patience
+from ros2topic.api import closest_topic
+from ros2topic.api.draining import drain
+from ros2topic.api.incompatibility import Incompatibility
+from ros2topic.api.losses import LossCounter, lost_text
+from ros2topic.api.printing import formatter
 from ros2topic.api.qos import choose_qos
-from ros2topic.api.waiting import Patience, settled_publishers
+from ros2topic.api.waiting import settled_publishers
 
 PERIOD_S = 0.1
 
@@ -19,41 +26,85 @@ def echo(node: Any, topic: str, message_type: Any, args: argparse.Namespace) -> 
     """Print messages until one has come, if that is enough, or until the time is over."""
     end = time.monotonic() + (args.timeout if args.timeout is not None else float('inf'))
     listener = Listener(node, topic, message_type, args)
-    patience = Patience(f"a message on '{topic}'")
-    while time.monotonic() < end and not (args.once and listener.count):
-        node.spin_once(min(PERIOD_S, max(0.0, end - time.monotonic())))
-        if not listener.count:
-            patience.check()
+
+    def hint() -> str:
+        if node.count_publishers(topic):
+            return ''
+        return f'Nobody publishes it. {closest_topic(node, topic)}'
+
+    listener.listen(end, Patience(f"a message on '{topic}'", hint))
 
 
 class Listener:
     """A subscription that prints what it receives."""
 
-    def __init__(self, node: Any, topic: str, message_type: Any, args: argparse.Namespace) -> None:
+    def __init__(
+        self,
+        node: Any,
+        topic: str,
+        message_type: Any,
+        args: argparse.Namespace,
+        format_message: Callable[[Any, Any], str] | None = None,
+    ) -> None:
         """Subscribe with the quality of service that the publishers offer."""
         profile, notices = choose_qos(args, settled_publishers(node, topic))
         for notice in notices:
             print(notice)
         self.count = 0
+        self._node = node
         self._once = args.once
-        self._print = printer(args)
-        events = SubscriptionEventCallbacks(
-            message_lost=None if args.no_lost_messages else _report_lost
-        )
+        self._accepts = args.filter or _accept_all
+        self._format = format_message or formatter(args)
+        self._tells_losses = not args.no_lost_messages
+        self._topic = topic
+        self._losses = LossCounter(self._has_one_publisher)
+        self._incompatibility = Incompatibility(node, topic, profile)
         self._subscription = node.create_subscription(
-            message_type, topic, self._receive, profile, event_callbacks=events, raw=args.raw
+            message_type,
+            topic,
+            self._receive,
+            profile,
+            event_callbacks=SubscriptionEventCallbacks(
+                incompatible_qos=self._incompatibility.on_event,
+                message_lost=None if args.no_lost_messages else self._report_lost,
+            ),
+            raw=args.raw,
         )
+
+    def listen(self, end_s: float, patience: Patience) -> None:
+        """Print until a moment of the monotonic clock, or until one message if that is enough."""
+        while time.monotonic() < end_s and not (self._once and self.count):
+            self._node.spin_once(min(PERIOD_S, max(0.0, end_s - time.monotonic())))
+            self._incompatibility.check()
+            if not self.count:
+                patience.check()
 
     def _receive(self, message: Any, info: Any) -> None:
-        if not (self._once and self.count):
-            self.count += 1
-            self._print(message, info)
+        """Print a message and those that wait behind it, in one go."""
+        texts = self._texts(message, info)
+        for each in drain(self._subscription):
+            texts += self._texts(*each)
+        if texts:
+            sys.stdout.write(''.join(texts))
+            sys.stdout.flush()
+
+    def _texts(self, message: Any, info: Any) -> list[str]:
+        if self._once and self.count:
+            return []
+        gap = self._losses.report_gap(info) if self._tells_losses else ''
+        if not self._accepts(message):
+            return [gap]
+        self.count += 1
+        return [gap, self._format(message, info)]
+
+    def _has_one_publisher(self) -> bool:
+        return bool(self._node.count_publishers(self._topic) == 1)
+
+    def _report_lost(self, status: Any) -> None:
+        """Report a loss that the middleware notices, unless the gap will show it."""
+        if not self._has_one_publisher():
+            print(lost_text(status.total_count_change, status.total_count), end='')
 
 
-def _report_lost(status: Any) -> None:
-    print(
-        'A message was lost!!!\n'
-        f'\ttotal count change:{status.total_count_change}\n'
-        f'\ttotal count: {status.total_count}',
-        end='---\n',
-    )
+def _accept_all(message: Any) -> bool:
+    return True

@@ -5,23 +5,27 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli.argument_types import whole_number
+from ros2topic.api.filter_argument import add_filter_argument
+
 DEFAULT_TRUNCATE_LENGTH = 128
 
 
 def add_echo_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the choice of what to print, and how long."""
-    _add_form(parser)
+    add_form_arguments(parser)
+    _add_selection(parser)
     _add_limits(parser)
 
 
-def _add_form(parser: argparse.ArgumentParser) -> None:
+def add_form_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the choice between YAML and commas, and of what is left out."""
     add = parser.add_argument
     add(
         '--csv',
         action='store_true',
         help='Output all recursive fields separated by commas (e.g. for plotting)',
     )
-    add('--field', help='Echo a selected field of a message, e.g. "pose.position"')
     add(
         '-f',
         '--full-length',
@@ -31,7 +35,7 @@ def _add_form(parser: argparse.ArgumentParser) -> None:
     add(
         '-l',
         '--truncate-length',
-        type=int,
+        type=whole_number,
         default=DEFAULT_TRUNCATE_LENGTH,
         help='The length to truncate arrays, bytes, and string to (default: %(default)s)',
     )
@@ -42,6 +46,12 @@ def _add_form(parser: argparse.ArgumentParser) -> None:
         action='store_true',
         help='Print collections in the flow style, on one line',
     )
+
+
+def _add_selection(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add('--field', help='Echo a selected field of a message, e.g. "pose.position"')
+    add_filter_argument(parser, 'echo')
     add('--raw', action='store_true', help='Echo the raw binary representation')
     add(
         '-i',

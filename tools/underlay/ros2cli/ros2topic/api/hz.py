@@ -20,5 +20,10 @@ def print_rate(node: Any, topic: str, args: argparse.Namespace) -> None:
     def count(_: Any) -> None:
         meter.add(clock.now().nanoseconds / 1e9 if clock else time.monotonic())
 
-    subscribe_when_published(node, topic, count)
-    report_for_ever(node, topic, meter.report)
+    def count_accepted(message: Any) -> None:
+        if args.filter(message):
+            count(message)
+
+    callback = count_accepted if args.filter else count
+    watched = subscribe_when_published(node, topic, callback, raw=not args.filter)
+    report_for_ever(node, topic, meter.report, watched)

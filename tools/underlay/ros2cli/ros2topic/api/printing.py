@@ -13,19 +13,23 @@ from ros2cli.messages.text import to_csv, to_yaml
 SEPARATOR = '---'
 
 
-def printer(args: argparse.Namespace) -> Callable[[Any, Any], None]:
-    """Return the function that prints a message and its info as the options say."""
-    shortening = Shortening(
-        None if args.full_length else args.truncate_length, args.no_arr, args.no_str
-    )
+def formatter(args: argparse.Namespace) -> Callable[[Any, Any], str]:
+    """Return the function that turns a message and its info into what the options ask for."""
+    shortening = chosen_shortening(args)
+    end = '\n' if args.csv else f'{SEPARATOR}\n'
 
-    def print_message(message: Any, info: Any) -> None:
+    def format_message(message: Any, info: Any) -> str:
         value = nested_field(message, args.field) if args.field else message
         texts = [to_yaml(info)] if args.include_message_info else []
-        texts.append(_value_text(value, shortening, args))
-        print(''.join(texts), end='\n' if args.csv else f'{SEPARATOR}\n')
+        return ''.join([*texts, value_text(value, shortening, args), end])
 
-    return print_message
+    return format_message
+
+
+def chosen_shortening(args: argparse.Namespace) -> Shortening:
+    """Return the limits of texts and arrays that the options choose."""
+    length = None if args.full_length else args.truncate_length
+    return Shortening(length, args.no_arr, args.no_str)
 
 
 def nested_field(message: Any, path: str) -> Any:
@@ -39,7 +43,8 @@ def nested_field(message: Any, path: str) -> Any:
     return value
 
 
-def _value_text(value: Any, shortening: Shortening, args: argparse.Namespace) -> str:
+def value_text(value: Any, shortening: Shortening, args: argparse.Namespace) -> str:
+    """Return a message or the value of a field as YAML or with commas."""
     if args.csv:
         return to_csv(value, shortening)
     if args.raw or isinstance(value, (bool, int, float, str, bytes)):

@@ -7,8 +7,11 @@ import argparse
 import time
 from typing import Any
 
+from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.qos import QoSPresetProfiles
-from ros2topic.api.outgoing import OutgoingMessage
+from ros2cli.messages.outgoing import OutgoingMessage
+from ros2cli.node.waiting import spin_until
+from ros2topic.api.incompatibility import Incompatibility
 from ros2topic.api.qos import copy_profile, override
 
 ANNOUNCE_S = 1.0
@@ -18,55 +21,73 @@ SETTLE_S = 0.25
 
 def publish(node: Any, message: OutgoingMessage, args: argparse.Namespace) -> None:
     """Wait for subscriptions if need be, then publish until enough is published."""
-    profile = copy_profile(QoSPresetProfiles.get_from_short_key(args.qos_profile or 'default'))
-    override(profile, args)
-    publisher = node.create_publisher(message.message_type, args.topic_name, profile)
-    _wait_for_subscriptions(node, publisher, args)
+    publication = Publication(node, message, args)
+    publication.wait_for_subscriptions()
     print('publisher: beginning loop')
-    times = 1 if args.once else args.times
-    count = 0
-    next_s = time.monotonic()
-    while times == 0 or count < times:
-        _spin_until(node, next_s)
-        next_s += 1.0 / args.rate
-        count += 1
-        _publish_one(node, publisher, message, count, args)
-    _spin_until(node, time.monotonic() + args.keep_alive)
+    publication.publish_all()
+    spin_until(node, time.monotonic() + args.keep_alive)
 
 
-def _publish_one(
-    node: Any, publisher: Any, message: OutgoingMessage, count: int, args: argparse.Namespace
-) -> None:
-    outgoing = message.stamped(node.get_clock().now().to_msg())
-    if args.print and count % args.print == 0:
-        print(f'publishing #{count}: {outgoing!r}\n')
-    publisher.publish(outgoing)
+class Publication:
+    """The publisher of a message and how often it publishes."""
 
+    def __init__(self, node: Any, message: OutgoingMessage, args: argparse.Namespace) -> None:
+        """Create the publisher with the quality of service that the options ask for."""
+        profile = copy_profile(QoSPresetProfiles.get_from_short_key(args.qos_profile or 'default'))
+        override(profile, args)
+        topic = node.resolve_topic_name(args.topic_name)
+        self._node = node
+        self._message = message
+        self._args = args
+        self._incompatibility = Incompatibility(node, topic, profile, publishes=True)
+        self._publisher = node.create_publisher(
+            type(message.message),
+            topic,
+            profile,
+            event_callbacks=PublisherEventCallbacks(
+                incompatible_qos=self._incompatibility.on_event
+            ),
+        )
 
-def _wait_for_subscriptions(node: Any, publisher: Any, args: argparse.Namespace) -> None:
-    """Wait until subscriptions are known, and a moment more until they know us as well."""
-    wanted = args.wait_matching_subscriptions
-    if wanted is None:
-        wanted = 1 if args.once or args.times else 0
-    start = announced = time.monotonic()
-    while publisher.get_subscription_count() < wanted:
-        now = time.monotonic()
-        if args.max_wait_time_secs is not None and now - start > args.max_wait_time_secs:
+    def publish_all(self) -> None:
+        """Publish as many times as is asked for, or for ever."""
+        times = 1 if self._args.once else self._args.times
+        count = 0
+        next_s = time.monotonic()
+        while times == 0 or count < times:
+            spin_until(self._node, next_s)
+            self._incompatibility.check()
+            next_s += 1.0 / self._args.rate
+            count += 1
+            self._publish_one(count)
+
+    def _publish_one(self, count: int) -> None:
+        outgoing = self._message.stamped(self._node.get_clock().now().to_msg())
+        if self._args.print and count % self._args.print == 0:
+            print(f'publishing #{count}: {outgoing!r}\n')
+        self._publisher.publish(outgoing)
+
+    def wait_for_subscriptions(self) -> None:
+        """Wait until subscriptions are known, and a moment more until they know us as well."""
+        wanted = self._args.wait_matching_subscriptions
+        if wanted is None:
+            wanted = 1 if self._args.once or self._args.times else 0
+        start = announced = time.monotonic()
+        while self._publisher.get_subscription_count() < wanted:
+            now = time.monotonic()
+            self._check_patience(now - start, wanted)
+            if now >= announced:
+                print(f'Waiting for at least {wanted} matching subscription(s)...')
+                announced = now + ANNOUNCE_S
+            self._node.spin_once(PERIOD_S)
+            self._incompatibility.check()
+        if wanted:
+            spin_until(self._node, time.monotonic() + SETTLE_S)
+
+    def _check_patience(self, waited_s: float, wanted: int) -> None:
+        limit_s = self._args.max_wait_time_secs
+        if limit_s is not None and waited_s > limit_s:
             raise RuntimeError(
                 f'Timed out waiting for subscribers: Expected {wanted} subcribers but only got '
-                f'{publisher.get_subscription_count()} subscribers'
+                f'{self._publisher.get_subscription_count()} subscribers'
             )
-        if now >= announced:
-            print(f'Waiting for at least {wanted} matching subscription(s)...')
-            announced = now + ANNOUNCE_S
-        node.spin_once(PERIOD_S)
-    if wanted:
-        _spin_until(node, time.monotonic() + SETTLE_S)
-
-
-def _spin_until(node: Any, end_s: float) -> None:
-    while True:
-        left_s = end_s - time.monotonic()
-        node.spin_once(max(0.0, left_s))
-        if left_s <= 0.0:
-            return

@@ -5,22 +5,15 @@ from __future__ import annotations
 
 import argparse
 
-from ros2topic.api.argument_types import positive_int, positive_number
+from ros2cli.argument_types import node_name, positive_int, positive_number, whole_number
+from ros2cli.messages.values_arguments import add_values_arguments
 
 
 def add_pub_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the message and how often to publish it."""
     parser.add_argument('topic_name', help="Name of the ROS topic to publish to (e.g. '/chatter')")
     parser.add_argument('message_type', help="Type of the ROS message (e.g. 'std_msgs/String')")
-    source = parser.add_mutually_exclusive_group()
-    source.add_argument(
-        'values',
-        nargs='?',
-        default='{}',
-        help='Values to fill the message with in YAML format (e.g. "data: Hello World"), '
-        'otherwise the message will be published with default values',
-    )
-    source.add_argument('--stdin', action='store_true', help='Read values from standard input')
+    add_values_arguments(parser, 'message')
     _add_count(parser)
     _add_waiting(parser)
 
@@ -38,7 +31,7 @@ def _add_count(parser: argparse.ArgumentParser) -> None:
         '-p',
         '--print',
         metavar='N',
-        type=int,
+        type=whole_number,
         default=1,
         help='Only print every N-th published message (default: 1)',
     )
@@ -52,14 +45,16 @@ def _add_count(parser: argparse.ArgumentParser) -> None:
         metavar='N',
         help='Publish this number of times and then exit',
     )
-    parser.add_argument('-n', '--node-name', help='Name of the created publishing node')
+    parser.add_argument(
+        '-n', '--node-name', type=node_name, help='Name of the created publishing node'
+    )
 
 
 def _add_waiting(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '-w',
         '--wait-matching-subscriptions',
-        type=int,
+        type=whole_number,
         metavar='N',
         help='Wait until finding the specified number of matching subscriptions; defaults to 1 '
         'with --once or --times, otherwise to 0',

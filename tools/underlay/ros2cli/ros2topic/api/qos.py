@@ -16,6 +16,7 @@ from rclpy.qos import (
     ReliabilityPolicy,
 )
 
+QUEUE_DEPTH = 1000
 POLICY_TYPES: dict[str, Any] = {
     'history': HistoryPolicy,
     'reliability': ReliabilityPolicy,
@@ -38,6 +39,7 @@ def choose_qos(args: argparse.Namespace, publishers: list[Any]) -> tuple[QoSProf
 def matching_qos(publishers: list[Any]) -> tuple[QoSProfile, list[str]]:
     """Return the strongest profile that still connects to all publishers, with notices."""
     profile = copy_profile(QoSPresetProfiles.get_from_short_key('sensor_data'))
+    profile.depth = QUEUE_DEPTH
     profiles = [info.qos_profile for info in publishers]
     profile.reliability, first = _common(
         [each.reliability for each in profiles],

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli.argument_types import positive_number, whole_number
+
 PROFILES = (
     'unknown',
     'default',
@@ -22,6 +24,7 @@ POLICIES = {
     'durability': ('system_default', 'transient_local', 'volatile', 'unknown', 'best_available'),
     'liveliness': ('system_default', 'automatic', 'manual_by_topic', 'unknown', 'best_available'),
 }
+LARGEST_DEPTH = 1_000_000
 
 
 def add_qos_arguments(parser: argparse.ArgumentParser, role: str) -> None:
@@ -33,7 +36,7 @@ def add_qos_arguments(parser: argparse.ArgumentParser, role: str) -> None:
         'other side',
     )
     parser.add_argument(
-        '--qos-depth', metavar='N', type=int, help=f'Queue size setting of the {role}'
+        '--qos-depth', metavar='N', type=_queue_depth, help=f'Queue size setting of the {role}'
     )
     for policy, choices in POLICIES.items():
         parser.add_argument(
@@ -44,6 +47,15 @@ def add_qos_arguments(parser: argparse.ArgumentParser, role: str) -> None:
     parser.add_argument(
         '--qos-liveliness-lease-duration-seconds',
         metavar='SECONDS',
-        type=float,
+        type=positive_number,
         help=f'Quality of service liveliness lease duration setting of the {role}',
     )
+
+
+def _queue_depth(text: str) -> int:
+    depth = whole_number(text)
+    if depth > LARGEST_DEPTH:
+        raise argparse.ArgumentTypeError(
+            f'a queue of {text} messages is too long: at most {LARGEST_DEPTH}'
+        )
+    return depth

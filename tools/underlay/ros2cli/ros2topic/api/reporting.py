@@ -7,24 +7,23 @@ from collections.abc import Callable
 import time
 from typing import Any
 
-from ros2topic.api.waiting import Patience
+from ros2cli.node.waiting import spin_until
+from ros2cli.patience import Patience
+from ros2topic.api.incompatibility import Incompatibility
 
 PERIOD_S = 1.0
 
 
-def report_for_ever(node: Any, topic: str, report: Callable[[], str]) -> None:
+def report_for_ever(
+    node: Any, topic: str, report: Callable[[], str], incompatibility: Incompatibility
+) -> None:
     """Print what `report()` returns, if anything; say so when there is nothing for long."""
     patience = Patience(f"messages on '{topic}'")
     while True:
-        _collect(node)
+        spin_until(node, time.monotonic() + PERIOD_S)
+        incompatibility.check()
         text = report()
         if text:
             print(text)
         else:
             patience.check()
-
-
-def _collect(node: Any) -> None:
-    end = time.monotonic() + PERIOD_S
-    while time.monotonic() < end:
-        node.spin_once(max(0.0, end - time.monotonic()))

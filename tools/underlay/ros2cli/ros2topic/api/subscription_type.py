@@ -5,24 +5,23 @@ from __future__ import annotations
 
 from typing import Any
 
-from ros2cli.messages.lookup import get_message, UnknownType
+from ros2cli.messages.lookup import get_passed_type
+from ros2topic.api import closest_topic
 from ros2topic.api.waiting import find_types
 
 
 def resolve_type(node: Any, topic: str, type_name: str | None) -> Any:
     """Return the class of a topic's messages; RuntimeError says why it cannot be known."""
     name = type_name or _discovered_type(node, topic)
-    try:
-        return get_message(name)
-    except UnknownType as error:
-        raise RuntimeError(f'The passed message type is invalid\n{error}') from error
+    return get_passed_type(name, 'msg')
 
 
 def _discovered_type(node: Any, topic: str) -> str:
     types = find_types(node, topic)
     if not types:
         print(f'WARNING: topic [{topic}] does not appear to be published yet')
-        raise RuntimeError('Could not determine the type for the passed topic')
+        text = 'Could not determine the type for the passed topic'
+        raise RuntimeError('\n'.join([text, closest_topic(node, topic)]).rstrip())
     if len(types) > 1:
         raise RuntimeError(
             f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]"

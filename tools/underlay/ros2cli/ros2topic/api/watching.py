@@ -6,13 +6,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ros2topic.api import get_topic_types
+from rclpy.event_handler import SubscriptionEventCallbacks
+from ros2cli.patience import Patience
+from ros2topic.api import closest_topic, get_topic_types
+from ros2topic.api.draining import drain
+from ros2topic.api.incompatibility import Incompatibility
 from ros2topic.api.qos import matching_qos
 from ros2topic.api.subscription_type import resolve_type
-from ros2topic.api.waiting import find_types, Patience, settled_publishers
+from ros2topic.api.waiting import find_types, settled_publishers
 
 PERIOD_S = 0.02
-QUEUE_DEPTH = 1000
 
 
 def subscribe_when_published(
@@ -21,20 +24,34 @@ def subscribe_when_published(
     callback: Callable[[Any], None],
     *,
     raw: bool = True,
-) -> Any:
-    """Wait for a topic as long as it takes and return a subscription that fits it."""
+) -> Incompatibility:
+    """Wait for a topic as long as it takes, subscribe to it and return what may be wrong."""
     _wait_until_published(node, topic)
     message_type = resolve_type(node, topic, None)
     profile, _ = matching_qos(settled_publishers(node, topic))
-    profile.depth = QUEUE_DEPTH
-    return node.create_subscription(message_type, topic, callback, profile, raw=raw)
+    incompatibility = Incompatibility(node, topic, profile)
+
+    def receive(message: Any) -> None:
+        callback(message)
+        for each, _ in drain(subscription):
+            callback(each)
+
+    subscription = node.create_subscription(
+        message_type,
+        topic,
+        receive,
+        profile,
+        raw=raw,
+        event_callbacks=SubscriptionEventCallbacks(incompatible_qos=incompatibility.on_event),
+    )
+    return incompatibility
 
 
 def _wait_until_published(node: Any, topic: str) -> None:
     if find_types(node, topic):
         return
     print(f'WARNING: topic [{topic}] does not appear to be published yet')
-    patience = Patience(f"a publisher of '{topic}'")
+    patience = Patience(f"a publisher of '{topic}'", lambda: closest_topic(node, topic))
     while not get_topic_types(node, topic):
         patience.check()
         node.spin_once(PERIOD_S)

@@ -7,8 +7,8 @@ import argparse
 import time
 from typing import Any
 
+from ros2cli.argument_types import positive_int
 from ros2cli.node.arguments import add_strategy_arguments
-from ros2topic.api.argument_types import positive_int
 from ros2topic.api.bandwidth import BandwidthMeter
 from ros2topic.verb import VerbExtension
 
@@ -34,9 +34,9 @@ class BwVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print a report every second until the user stops it."""
+        from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
         from ros2topic.api.reporting import report_for_ever
-        from ros2topic.api.waiting import absolute
         from ros2topic.api.watching import subscribe_when_published
 
         topic = absolute(args.topic_name)
@@ -46,7 +46,7 @@ class BwVerb(VerbExtension):
             meter.add(time.monotonic(), len(data))
 
         with DirectNode(args, wait=False) as node:
-            subscribe_when_published(node, topic, count)
+            watched = subscribe_when_published(node, topic, count)
             print(f'Subscribed to [{topic}]')
-            report_for_ever(node, topic, lambda: meter.report(time.monotonic()))
+            report_for_ever(node, topic, lambda: meter.report(time.monotonic()), watched)
         return None

@@ -6,8 +6,8 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from ros2cli.argument_types import positive_int
 from ros2cli.node.arguments import add_strategy_arguments
-from ros2topic.api.argument_types import positive_int
 from ros2topic.api.delay import DelayMeter
 from ros2topic.verb import VerbExtension
 
@@ -33,9 +33,9 @@ class DelayVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print a report every second until the user stops it."""
+        from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
         from ros2topic.api.reporting import report_for_ever
-        from ros2topic.api.waiting import absolute
         from ros2topic.api.watching import subscribe_when_published
 
         topic = absolute(args.topic_name)
@@ -46,8 +46,8 @@ class DelayVerb(VerbExtension):
                 now_s = node.get_clock().now().nanoseconds / 1e9
                 meter.add(now_s - _stamp_s(message))
 
-            subscribe_when_published(node, topic, count, raw=False)
-            report_for_ever(node, topic, meter.report)
+            watched = subscribe_when_published(node, topic, count, raw=False)
+            report_for_ever(node, topic, meter.report, watched)
         return None
 
 

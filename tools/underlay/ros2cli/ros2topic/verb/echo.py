@@ -28,10 +28,10 @@ class EchoVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print messages until enough have come or the user stops it."""
+        from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
         from ros2topic.api.echo import echo
         from ros2topic.api.subscription_type import resolve_type
-        from ros2topic.api.waiting import absolute
 
         topic = absolute(args.topic_name)
         with DirectNode(args, wait=False) as node:

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli.argument_types import positive_int
 from ros2cli.node.arguments import add_strategy_arguments
-from ros2topic.api.argument_types import positive_int
+from ros2topic.api.filter_argument import add_filter_argument
 from ros2topic.verb import VerbExtension
 
 DEFAULT_WINDOW = 10000
@@ -29,6 +30,7 @@ class HzVerb(VerbExtension):
             metavar='WINDOW',
             help='window size, in number of messages, for calculating rate (default: %(default)s)',
         )
+        add_filter_argument(parser, 'count')
         parser.add_argument(
             '--wall-time',
             action='store_true',
@@ -37,9 +39,9 @@ class HzVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print a report every second until the user stops it."""
+        from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
         from ros2topic.api.hz import print_rate
-        from ros2topic.api.waiting import absolute
 
         with DirectNode(args, wait=False) as node:
             print_rate(node, absolute(args.topic_name), args)

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
 from ros2cli.node.arguments import add_node_arguments
 from ros2topic.api.pub_arguments import add_pub_arguments
@@ -23,12 +22,17 @@ class PubVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Publish until enough is published or the user stops it."""
+        from ros2cli.messages.lookup import get_passed_type
+        from ros2cli.messages.outgoing import OutgoingMessage
+        from ros2cli.messages.values_arguments import values_text
+        from ros2cli.names import absolute
         from ros2cli.node.direct import DirectNode
-        from ros2topic.api.outgoing import OutgoingMessage
         from ros2topic.api.pub import publish
 
-        text = sys.stdin.read() if args.stdin else args.values
-        message = OutgoingMessage(args.message_type, text)
+        message_type = get_passed_type(args.message_type, 'msg')
+        if not args.topic_name.startswith('~'):
+            absolute(args.topic_name)
+        message = OutgoingMessage(message_type(), values_text(args))
         with DirectNode(args, node_name=args.node_name, wait=False) as node:
             publish(node, message, args)
         return None

@@ -26,3 +26,19 @@ def positive_number(text: str) -> float:
     if not 0.0 < value < float('inf'):
         raise argparse.ArgumentTypeError(f'{text!r} is not a number above zero')
     return value
+
+
+def whole_number(text: str) -> int:
+    """Return a whole number that is not negative, or say why a text is none."""
+    if not (text.isascii() and text.isdigit()):
+        raise argparse.ArgumentTypeError(f'{text!r} is not a whole number')
+    return int(text)
+
+
+def node_name(text: str) -> str:
+    """Return a node's name without its namespace, or say why a text is none."""
+    if not (text.isascii() and text.isidentifier()):
+        raise argparse.ArgumentTypeError(
+            f'{text!r} is no name of a node: letters, digits and underscores, no digit first'
+        )
+    return text

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Send a goal and follow it to its end."""
+
+from __future__ import annotations
+
+from textwrap import indent
+from typing import Any
+
+from action_msgs.msg import GoalStatus
+from action_msgs.srv import CancelGoal
+from rclpy.action import ActionClient
+from ros2action.api import get_action_names_and_types, get_action_servers
+from ros2cli.messages.lookup import type_name
+from ros2cli.messages.outgoing import OutgoingMessage
+from ros2cli.messages.text import to_yaml
+from ros2cli.names import closest
+from ros2cli.node.waiting import wait_until
+from ros2cli.patience import Patience
+
+STATUS_NAMES = {
+    getattr(GoalStatus, f'STATUS_{name}'): name
+    for name in (
+        'UNKNOWN',
+        'ACCEPTED',
+        'EXECUTING',
+        'CANCELING',
+        'SUCCEEDED',
+        'CANCELED',
+        'ABORTED',
+    )
+}
+
+
+class GoalSender:
+    """The client of one action."""
+
+    def __init__(self, node: Any, action_type: Any, name: str, *, with_feedback: bool) -> None:
+        """Create the client; it may connect later."""
+        self._node = node
+        self._name = name
+        self._type_name = type_name(action_type)
+        self._feedback = FeedbackPrinter() if with_feedback else None
+        self._client = ActionClient(node.node, action_type, name)
+
+    def wait_for_server(self) -> None:
+        """Wait as long as it takes."""
+        print('Waiting for an action server to become available...')
+        self._node.wait_for_graph(self._client.server_is_ready)
+        patience = Patience(f"a server of the action '{self._name}'", self._hint)
+        wait_until(self._node, self._client.server_is_ready, patience)
+
+    def send(self, message: OutgoingMessage) -> None:
+        """Send the goal and print its result; an interrupt cancels it first."""
+        goal = message.stamped(self._node.get_clock().now().to_msg())
+        print(f'Sending goal:\n{_indented(goal, 5)}')
+        sending = self._client.send_goal_async(goal, self._feedback)
+        handle = None
+        try:
+            handle = self._wait(sending, 'the acceptance of the goal')
+            if handle.accepted:
+                self._follow(handle)
+            else:
+                print('Goal was rejected.')
+        except KeyboardInterrupt:
+            self._cancel(handle or self._wait(sending, 'the acceptance of the goal'))
+            raise
+
+    def _follow(self, handle: Any) -> None:
+        print(f'Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n')
+        if self._feedback:
+            self._feedback.begin()
+        response = self._wait(handle.get_result_async(), 'the result', tells=not self._feedback)
+        print(f'Result:\n{_indented(response.result, 4)}')
+        print(f'Goal finished with status: {STATUS_NAMES[response.status]}')
+
+    def _cancel(self, handle: Any) -> None:
+        if not handle.accepted or handle.status in (
+            GoalStatus.STATUS_SUCCEEDED,
+            GoalStatus.STATUS_CANCELED,
+            GoalStatus.STATUS_ABORTED,
+        ):
+            return
+        print('Canceling goal...')
+        response = self._wait(handle.cancel_goal_async(), 'the end of the goal')
+        if response.return_code == CancelGoal.Response.ERROR_NONE:
+            print('Goal canceled.')
+        else:
+            print(f'Failed to cancel goal: the server answers {response.return_code}')
+
+    def _wait(self, future: Any, what: str, *, tells: bool = True) -> Any:
+        """Return the result of a future; RuntimeError if the server has gone away."""
+
+        def is_over() -> bool:
+            return bool(future.done() or not self._client.server_is_ready())
+
+        text = f"{what} from '{self._name}'"
+        wait_until(self._node, is_over, Patience(text) if tells else None)
+        if not future.done():
+            raise RuntimeError(f"The server of '{self._name}' has gone away before {what} came")
+        return future.result()
+
+    def _hint(self) -> str:
+        """Return the action of another type or name that may be meant, or ''."""
+        servers = get_action_servers(self._node, self._name)
+        types = [each for server in servers for each in server.types if each != self._type_name]
+        if types:
+            return f"'{self._name}' has the type '{types[0]}', not '{self._type_name}'."
+        names = [name for name, _ in get_action_names_and_types(node=self._node)]
+        return closest(self._name, [name for name in names if name != self._name])
+
+
+class FeedbackPrinter:
+    """Prints feedback, but none before the acceptance of the goal that it belongs to."""
+
+    def __init__(self) -> None:
+        """Keep what comes first."""
+        self._early: list[Any] | None = []
+
+    def __call__(self, message: Any) -> None:
+        """Print a piece of feedback, or keep it."""
+        if self._early is None:
+            print(f'Feedback:\n{_indented(message.feedback, 4)}')
+        else:
+            self._early.append(message)
+
+    def begin(self) -> None:
+        """Print what came too early, and from now on all at once."""
+        early, self._early = self._early or [], None
+        for message in early:
+            self(message)
+
+
+def _indented(message: Any, width: int) -> str:
+    """Return a message as YAML, moved to the right."""
+    return indent(to_yaml(message), ' ' * width)

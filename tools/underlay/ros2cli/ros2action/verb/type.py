@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 action type`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2action.verb import VerbExtension
+from ros2cli.node.arguments import add_strategy_arguments
+
+
+class TypeVerb(VerbExtension):
+    """Print an action's type."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the action's name."""
+        add_strategy_arguments(parser)
+        parser.add_argument(
+            'action_name', help="Name of the ROS action to get type (e.g. '/fibonacci')"
+        )
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print all types of the action; without one the status is 1."""
+        from ros2action.api import get_action_names_and_types
+        from ros2cli.node.strategy import NodeStrategy
+
+        with NodeStrategy(args) as node:
+            types = dict(get_action_names_and_types(node=node)).get(args.action_name, [])
+        for name in types:
+            print(name)
+        return 0 if types else 1

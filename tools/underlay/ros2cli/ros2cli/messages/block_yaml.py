@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Write plain values as block YAML, as PyYAML does but several times as fast.
+
+It is meant for streams of messages: mappings, lists, numbers and texts of one line. For all
+else, that is, texts of several lines and other types, it says that PyYAML is needed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from math import isfinite
+import re
+from typing import Any
+
+import yaml
+
+PLAIN_TEXT = re.compile(r'[a-zA-Z_/][a-zA-Z0-9_/]{5,}')
+Dumper: Any = getattr(yaml, 'CSafeDumper', yaml.SafeDumper)
+UNLIMITED_WIDTH = 2**31 - 1
+
+
+class NeedsPyYaml(Exception):
+    """A value is of a kind that only PyYAML writes."""
+
+
+def to_block_yaml(plain: Any) -> str:
+    """Return a mapping, list or scalar as YAML; NeedsPyYaml if it is out of the ordinary."""
+    if isinstance(plain, (dict, list)) and plain:
+        return '\n'.join(_lines(plain, '')) + '\n'
+    raise NeedsPyYaml
+
+
+def _lines(plain: Any, indent: str) -> Iterator[str]:
+    if isinstance(plain, dict):
+        yield from _mapping_lines(plain, indent)
+        return
+    for item in plain:
+        if isinstance(item, (dict, list)) and item:
+            first, *rest = _lines(item, f'{indent}  ')
+            yield f'{indent}- {first[len(indent) + 2 :]}'
+            yield from rest
+        else:
+            yield f'{indent}- {_scalar(item)}'
+
+
+def _mapping_lines(plain: dict[str, Any], indent: str) -> Iterator[str]:
+    for name, value in plain.items():
+        if isinstance(value, dict) and value:
+            yield f'{indent}{_text(name)}:'
+            yield from _lines(value, f'{indent}  ')
+        elif isinstance(value, list) and value:
+            yield f'{indent}{_text(name)}:'
+            yield from _lines(value, indent)
+        else:
+            yield f'{indent}{_text(name)}: {_scalar(value)}'
+
+
+def _scalar(value: Any) -> str:
+    kind = type(value)
+    if kind is float:
+        return _float(value)
+    if kind is str:
+        return _text(value)
+    if kind is int:
+        return str(value)
+    if kind is bool:
+        return 'true' if value else 'false'
+    if value in ([], {}):
+        return str(value)
+    raise NeedsPyYaml
+
+
+def _float(value: float) -> str:
+    text = repr(value)
+    if 'e' in text and '.' not in text:
+        return text.replace('e', '.0e', 1)
+    if not isfinite(value):
+        return '.nan' if value != value else f'{text[:-3]}.inf'
+    return text
+
+
+@lru_cache(maxsize=1000)
+def _text(text: str) -> str:
+    """Return a text with the quotes that YAML needs; PyYAML knows about each that is odd."""
+    if PLAIN_TEXT.fullmatch(text):
+        return text
+    first, *rest = dump(text, flow_style=False).splitlines()
+    if rest not in ([], ['...']):
+        raise NeedsPyYaml
+    return first
+
+
+def dump(plain: Any, *, flow_style: bool) -> str:
+    """Return a plain value as PyYAML writes it, with long lines and all letters kept."""
+    text: str = yaml.dump(
+        plain,
+        Dumper=Dumper,
+        allow_unicode=True,
+        sort_keys=False,
+        width=UNLIMITED_WIDTH,
+        default_flow_style=flow_style,
+    )
+    return text

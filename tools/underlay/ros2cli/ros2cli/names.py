@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Names of the graph as users write them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import re
+
+NAME = re.compile(r'(/[A-Za-z_][A-Za-z0-9_]*)+')
+
+
+def absolute(name: str, kind: str = 'topic') -> str:
+    """Return a name with the leading slash that users leave out, if it is one."""
+    full_name = name if name.startswith('/') else f'/{name}'
+    if not NAME.fullmatch(full_name):
+        raise RuntimeError(
+            f"'{name}' is no name of a {kind}: parts of letters, digits and underscores, none of "
+            "which begins with a digit, joined by slashes, as in '/robot1/joint_commands'"
+        )
+    return full_name
+
+
+def closest(name: str, known: Iterable[str]) -> str:
+    """Return a question that names the known name which is meant, or '' if none is close."""
+    from ros2cli.suggest import did_you_mean
+
+    names = list(known)
+    with_slash = f'/{name}'
+    return f'Did you mean {with_slash!r}?' if with_slash in names else did_you_mean(name, names)
+
+
+def is_hidden(name: str) -> bool:
+    """Tell if a part of a name starts with an underscore."""
+    return any(part.startswith('_') for part in name.split('/'))

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Call services."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ros2cli.node.waiting import wait_until
+from ros2cli.patience import Patience
+
+CONNECTION_TIMEOUT_S = 5.0
+
+
+def wait_for_response(node: Any, client: Any, future: Any, timeout_s: float = float('inf')) -> Any:
+    """Return what a call returns; RuntimeError if the service disappears or time is over."""
+    name = client.srv_name
+
+    def is_over() -> bool:
+        return bool(future.done() or not client.service_is_ready())
+
+    if not wait_until(node, is_over, Patience(f"the answer of '{name}'"), timeout_s):
+        raise RuntimeError(f"The service '{name}' has not answered within {timeout_s:g} s")
+    if not future.done():
+        raise RuntimeError(f"The service '{name}' has gone away before it answered")
+    return future.result()
+
+
+def call(
+    node: Any, service_type: Any, name: str, request: Any, timeout_s: float = float('inf')
+) -> Any:
+    """Call a service of a node that is there, and return its response."""
+    client = node.create_client(service_type, name)
+    try:
+        patience = Patience(f"the service '{name}'")
+        if not wait_until(node, client.service_is_ready, patience, CONNECTION_TIMEOUT_S):
+            raise RuntimeError(
+                f"The service '{name}' does not connect within {CONNECTION_TIMEOUT_S:g} s: "
+                'its process may be stopped, or just be ending'
+            )
+        return wait_for_response(node, client, client.call_async(request), timeout_s)
+    finally:
+        node.destroy_client(client)

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say what a command waits for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import sys
+import time
+
+PATIENCE_S = 2.0
+
+
+class Patience:
+    """Says once on stderr what a command waits for, when it has been waiting for a while."""
+
+    def __init__(self, what: str, hint: Callable[[], str] = str) -> None:
+        """Start the wait; `hint()` returns what may help, or ''."""
+        self._what = what
+        self._hint = hint
+        self._end = time.monotonic() + PATIENCE_S
+
+    def check(self) -> None:
+        """Speak up if the time has come."""
+        if time.monotonic() > self._end:
+            text = f'Still waiting for {self._what} (Ctrl-C to stop)'
+            print(f'{text} {self._hint()}'.rstrip(), file=sys.stderr)
+            self._end = float('inf')

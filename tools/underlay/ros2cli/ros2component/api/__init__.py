@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Containers of components, asked through their services."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any, NamedTuple
+
+from rcl_interfaces.msg import Parameter
+from ros2cli.names import closest
+from ros2cli.node.calls import call
+from ros2cli.node.lookup import nodes_with_service
+from ros2component.api.services import container_services
+from ros2param.api.values import parse_value
+
+__all__ = [
+    'Component',
+    'find_container',
+    'get_components',
+    'get_containers',
+    'load_component',
+    'unload_component',
+]
+
+SERVICE = '/_container'
+LIST_TYPE = 'composition_interfaces/srv/ListNodes'
+
+
+class Component(NamedTuple):
+    """A component in a container."""
+
+    uid: int
+    name: str
+
+
+def get_containers(node: Any) -> list[str]:
+    """Return the full names of all container nodes, sorted."""
+    return nodes_with_service(node, f'{SERVICE}/list_nodes', LIST_TYPE, include_hidden_nodes=True)
+
+
+def find_container(node: Any, name: str) -> str:
+    """Return the full name of a container that is there, or RuntimeError."""
+    full_name = name if name.startswith('/') else f'/{name}'
+    node.wait_for_graph(lambda: full_name in get_containers(node))
+    known = get_containers(node)
+    if full_name not in known:
+        text = f"Unable to find container node '{name}'"
+        raise RuntimeError('\n'.join([text, closest(full_name, known)]).rstrip())
+    return full_name
+
+
+def get_components(node: Any, container: str, timeout_s: float) -> list[Component]:
+    """Return the components in a container."""
+    service = container_services().ListNodes
+    response = call(
+        node, service, f'{container}{SERVICE}/list_nodes', service.Request(), timeout_s
+    )
+    return [
+        Component(uid, name) for uid, name in zip(response.unique_ids, response.full_node_names)
+    ]
+
+
+def load_component(node: Any, container: str, args: argparse.Namespace) -> Component:
+    """Load a component as the command line says; RuntimeError has the container's reason."""
+    service = container_services().LoadNode
+    request = service.Request(
+        package_name=args.package_name,
+        plugin_name=args.plugin_name,
+        node_name=args.node_name or '',
+        node_namespace=args.node_namespace or '',
+        log_level=args.log_level,
+        remap_rules=args.remap_rule,
+        parameters=[_parameter(text) for text in args.parameter],
+        extra_arguments=[_parameter(text) for text in args.extra_argument],
+    )
+    response = call(node, service, f'{container}{SERVICE}/load_node', request)
+    if not response.success:
+        raise RuntimeError(f'Failed to load component: {_capitalized(response.error_message)}')
+    return Component(response.unique_id, response.full_node_name)
+
+
+def unload_component(node: Any, container: str, uid: int) -> str:
+    """Unload a component; return '' or why the container does not."""
+    service = container_services().UnloadNode
+    request = service.Request(unique_id=uid)
+    response = call(node, service, f'{container}{SERVICE}/unload_node', request)
+    return '' if response.success else response.error_message or 'it gives no reason'
+
+
+def _capitalized(reason: str) -> str:
+    return reason[:1].upper() + reason[1:] or 'the container gives no reason'
+
+
+def _parameter(text: str) -> Parameter:
+    name, _, value = text.partition(':=')
+    return Parameter(name=name, value=parse_value(value))

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A container for one component, which lives as long as the command."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
+import subprocess
+
+from ros2cli.node.direct import DirectNode
+from ros2cli.node.waiting import wait_until
+from ros2cli.patience import Patience
+from ros2component.api import get_containers, load_component
+from ros2pkg.api import PackageNotFoundError
+from ros2run.api import get_executable_path
+
+PACKAGE = 'rclcpp_components'
+EXECUTABLE = 'component_container'
+END_TIMEOUT_S = 5.0
+
+
+def run_standalone(args: argparse.Namespace) -> int:
+    """Start a container, load the component into it, and return the container's exit status."""
+    with _container_process(args.container_node_name) as process:
+        _load(process, args)
+        return process.wait()
+
+
+def _load(process: subprocess.Popen[bytes], args: argparse.Namespace) -> None:
+    name = f'/{args.container_node_name}'
+    with DirectNode(args, wait=False) as node:
+
+        def is_over() -> bool:
+            return process.poll() is not None or name in get_containers(node)
+
+        wait_until(node, is_over, Patience(f"the container '{name}'"))
+        if process.poll() is not None:
+            raise RuntimeError(f"The container '{name}' has ended with {process.returncode}")
+        component = load_component(node, name, args)
+    print(f"Loaded component {component.uid} into '{name}' container node as '{component.name}'")
+
+
+@contextmanager
+def _container_process(name: str) -> Iterator[subprocess.Popen[bytes]]:
+    """Start a container; it ends with the block at the latest."""
+    process = subprocess.Popen([_executable(), '--ros-args', '-r', f'__node:={name}'])
+    try:
+        yield process
+    finally:
+        process.terminate()
+        try:
+            process.wait(END_TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def _executable() -> str:
+    try:
+        path = get_executable_path(package_name=PACKAGE, executable_name=EXECUTABLE)
+    except PackageNotFoundError:
+        path = None
+    if path is None:
+        raise RuntimeError(
+            f"The executable '{EXECUTABLE}' of the package '{PACKAGE}' is not installed: "
+            'containers are C++ programs, which PyPI does not have. Run the node as a process of '
+            'its own instead'
+        )
+    return path

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 component list`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import Any
+
+from ros2cli.node.arguments import add_strategy_arguments
+from ros2component.verb import VerbExtension
+
+ANSWER_TIMEOUT_S = 5.0
+
+
+class ListVerb(VerbExtension):
+    """Output a list of running containers and components."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the container and the choice of components."""
+        add_strategy_arguments(parser)
+        parser.add_argument(
+            'container_node_name', nargs='?', help='Container node name to list components from'
+        )
+        parser.add_argument(
+            '--containers-only', action='store_true', help='List found containers nodes only'
+        )
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print the containers, each with the components in it."""
+        from ros2cli.node.direct import DirectNode
+        from ros2component.api import find_container, get_containers
+
+        name = args.container_node_name
+        with DirectNode(args, wait=name is None) as node:
+            containers = get_containers(node) if name is None else [find_container(node, name)]
+            for container in containers:
+                if args.containers_only:
+                    print(container)
+                else:
+                    _print_components(node, container)
+        return None
+
+
+def _print_components(node: Any, container: str) -> None:
+    from ros2component.api import get_components
+
+    try:
+        components = get_components(node, container, ANSWER_TIMEOUT_S)
+    except RuntimeError as error:
+        print(f"The components in '{container}' are unknown: {error}", file=sys.stderr)
+        return
+    print(container)
+    for component in components:
+        print(f'  {component.uid}  {component.name}')

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 component standalone`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2cli.argument_types import node_name
+from ros2cli.node.arguments import add_strategy_arguments
+from ros2component.api.load_arguments import add_load_arguments
+from ros2component.verb import VerbExtension
+
+DEFAULT_CONTAINER_NAME = 'standalone_container'
+
+
+class StandaloneVerb(VerbExtension):
+    """Run a component into its own standalone container node."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the container's name and the component."""
+        add_strategy_arguments(parser)
+        parser.add_argument(
+            '-c',
+            '--container-node-name',
+            type=node_name,
+            default=DEFAULT_CONTAINER_NAME,
+            help='Name of the container node to be created (default: %(default)s)',
+        )
+        add_load_arguments(parser)
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Start a container, load the component, and stay until the container ends."""
+        from ros2component.api.standalone import run_standalone
+
+        return run_standalone(args)

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 component unload`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from ros2cli.argument_types import whole_number
+from ros2cli.node.arguments import add_strategy_arguments
+from ros2component.verb import VerbExtension
+
+
+class UnloadVerb(VerbExtension):
+    """Unload a component from a container node."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the container and the numbers of the components."""
+        add_strategy_arguments(parser)
+        parser.add_argument(
+            'container_node_name', help='Container node name to unload component from'
+        )
+        parser.add_argument(
+            'component_uid', nargs='+', type=whole_number, help='Unique ID of the component'
+        )
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Unload the components one by one; the status is 1 if one of them stays."""
+        from ros2cli.node.direct import DirectNode
+        from ros2component.api import find_container, unload_component
+
+        status = 0
+        with DirectNode(args, wait=False) as node:
+            container = find_container(node, args.container_node_name)
+            for uid in args.component_uid:
+                reason = unload_component(node, container, uid)
+                if reason:
+                    status = 1
+                    print(
+                        f"Failed to unload component {uid} from '{container}' container node\n"
+                        f'    {reason}',
+                        file=sys.stderr,
+                    )
+                else:
+                    print(f"Unloaded component {uid} from '{container}' container node")
+        return status

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The interfaces that are installed, from the index of resources; nothing is imported."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ament_index_python.resources import get_resource, get_resources
+
+__all__ = ['get_interface_packages', 'get_interfaces', 'unknown_package_text']
+
+RESOURCE = 'rosidl_interfaces'
+
+
+def get_interface_packages() -> list[str]:
+    """Return the names of all packages with interfaces, sorted."""
+    return sorted(get_resources(RESOURCE))
+
+
+def get_interfaces(package: str, kinds: Iterable[str]) -> list[str]:
+    """Return a package's interfaces of some kinds as `package/kind/Type`, sorted."""
+    wanted = set(kinds)
+    files, _ = get_resource(RESOURCE, package)
+    names = {line.rpartition('.')[0] for line in files.splitlines() if line}
+    return sorted(f'{package}/{name}' for name in names if name.partition('/')[0] in wanted)
+
+
+def unknown_package_text(package: str) -> str:
+    """Return the error text for a package without interfaces, with the cause if known."""
+    from ros2cli.suggest import did_you_mean
+
+    hint = did_you_mean(package, get_interface_packages()) or _cause(package)
+    return '\n'.join([f"Unknown package '{package}'", hint]).rstrip()
+
+
+def _cause(package: str) -> str:
+    from ament_index_python.packages import get_packages_with_prefixes
+    from ros_environment.workspace import explain_missing_package
+
+    if package in get_packages_with_prefixes():
+        return f"The package '{package}' is installed, but defines no interfaces."
+    return explain_missing_package(package)

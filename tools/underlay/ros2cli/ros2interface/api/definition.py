@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find the definition of an interface among the installed files."""
+
+from __future__ import annotations
+
+import os
+from typing import NamedTuple
+
+from ros2interface.api import get_interface_packages, get_interfaces, unknown_package_text
+from ros2interface.api.kinds import HEADINGS
+from ros2pkg.api import get_share_directory
+
+
+class Definition(NamedTuple):
+    """The name of an interface and the text that defines it."""
+
+    name: str
+    text: str
+
+
+def read_definition(name: str) -> Definition:
+    """Read the file of an interface; RuntimeError says which part of its name is wrong."""
+    package, kind, type_name = split_name(name)
+    stem = os.path.join(get_share_directory(package), kind, type_name)
+    for path in (f'{stem}.{kind}', f'{stem}.idl'):
+        if os.path.isfile(path):
+            with open(path, encoding='utf-8') as stream:
+                return Definition(name, stream.read())
+    raise RuntimeError(_missing_text(name, f'{stem}.idl'))
+
+
+def split_name(name: str) -> list[str]:
+    """Return the three parts of `package/kind/Type`, of which the package exists."""
+    parts = name.split('/')
+    if len(parts) != 3 or not all(parts):
+        raise RuntimeError(
+            f"Invalid name '{name}'. Expected three parts separated by '/'{_closest(name)}"
+        )
+    if parts[0] not in get_interface_packages():
+        raise RuntimeError(unknown_package_text(parts[0]))
+    return parts
+
+
+def _missing_text(name: str, path: str) -> str:
+    return f"Could not find the interface '{path}'{_closest(name)}"
+
+
+def _closest(name: str) -> str:
+    """Return a line with the interface that may be meant, or ''."""
+    from ros2cli.suggest import did_you_mean
+
+    package, _, type_name = name.partition('/')
+    if package not in get_interface_packages() or type_name in HEADINGS:
+        return ''
+    known = get_interfaces(package, HEADINGS)
+    exact = [full_name for full_name in known if full_name.endswith(f'/{type_name}')]
+    hint = did_you_mean(exact[0] if exact else name, known)
+    return f'\n{hint}' if hint else ''

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Definitions with the definitions of their fields' types below each field."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import re
+
+from ros2interface.api.definition import Definition, read_definition
+
+FIELD = re.compile(r'\s*(?P<type>[A-Za-z][A-Za-z0-9_/]*)(\[[^\]]*\])?\s+[a-z][A-Za-z0-9_]*\b')
+COMMENT = re.compile(r"""#.*|("[^"]*"|'[^']*')""")
+PRIMITIVES = frozenset(
+    'bool byte char float32 float64 int8 uint8 int16 uint16 int32 uint32 int64 uint64 string '
+    'wstring'.split()
+)
+TYPES_OF_OLD = {'Header': 'std_msgs/msg/Header'}
+
+
+def expand(
+    definition: Definition, *, all_comments: bool = False, no_comments: bool = False
+) -> Iterator[str]:
+    """Yield the lines of a definition and, with a tab before them, those of its fields."""
+    for line in definition.text.splitlines():
+        shown = _without_comment(line) if no_comments else line
+        if shown.strip() or not no_comments:
+            yield shown
+        for nested in _nested_lines(line, definition.name, all_comments and not no_comments):
+            yield f'\t{nested}' if nested else ''
+
+
+def _nested_lines(line: str, name: str, with_comments: bool) -> Iterator[str]:
+    type_name = field_type(line, name.partition('/')[0])
+    if type_name is not None:
+        yield from expand(
+            read_definition(type_name), all_comments=with_comments, no_comments=not with_comments
+        )
+
+
+def field_type(line: str, package: str) -> str | None:
+    """Return the full name of the message that a field has, or None for all other lines."""
+    field = FIELD.match(_without_comment(line))
+    if not field or field['type'] in PRIMITIVES:
+        return None
+    parts = field['type'].split('/')
+    if len(parts) == 1:
+        return TYPES_OF_OLD.get(parts[0], f'{package}/msg/{parts[0]}')
+    return f'{parts[0]}/msg/{parts[-1]}'
+
+
+def _without_comment(line: str) -> str:
+    """Return a line without its comment; a `#` in quotes begins none."""
+    return COMMENT.sub(lambda match: match[1] or '', line).rstrip()

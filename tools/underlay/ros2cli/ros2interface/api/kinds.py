@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The kinds of interfaces and the options that choose among them."""
+
+from __future__ import annotations
+
+import argparse
+
+HEADINGS = {'msg': 'Messages', 'srv': 'Services', 'action': 'Actions'}
+
+
+def add_kind_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add an option for each kind."""
+    add = parser.add_argument
+    add('-m', '--only-msgs', action='store_true', help='Only consider the message types')
+    add('-s', '--only-srvs', action='store_true', help='Only consider the service types')
+    add('-a', '--only-actions', action='store_true', help='Only consider the action types')
+
+
+def chosen_kinds(args: argparse.Namespace) -> list[str]:
+    """Return the kinds that the options choose; all if none is chosen."""
+    wanted = {'msg': args.only_msgs, 'srv': args.only_srvs, 'action': args.only_actions}
+    return [kind for kind in HEADINGS if wanted[kind]] or list(HEADINGS)

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the user of an interface fills."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ros2cli.messages.lookup import get_passed_type, KINDS
+from ros2interface.api.definition import read_definition, split_name
+
+PARTS = {'srv': 'Request', 'action': 'Goal'}
+
+
+def create_prototype(name: str) -> Any:
+    """Return a message, or the request of a service or the goal of an action, with defaults."""
+    _, kind, _ = split_name(name)
+    if kind not in KINDS:
+        raise RuntimeError(f"Unknown kind of interface '{kind}' in '{name}': {', '.join(KINDS)}")
+    read_definition(name)
+    interface = get_passed_type(name, kind)
+    return getattr(interface, PARTS[kind])() if kind in PARTS else interface()

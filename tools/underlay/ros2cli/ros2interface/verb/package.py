@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 interface package`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2interface.api.kinds import add_kind_arguments, chosen_kinds
+from ros2interface.verb import VerbExtension
+
+
+class PackageVerb(VerbExtension):
+    """Output a list of available interface types within one package."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the package and the choice of kinds."""
+        add_kind_arguments(parser)
+        parser.add_argument('package_name', help="Name of the ROS package (e.g. 'std_msgs')")
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print the interfaces of the package."""
+        from ros2interface.api import get_interface_packages, get_interfaces, unknown_package_text
+
+        if args.package_name not in get_interface_packages():
+            return unknown_package_text(args.package_name)
+        for name in get_interfaces(args.package_name, chosen_kinds(args)):
+            print(name)
+        return None

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 interface packages`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2interface.api.kinds import add_kind_arguments, chosen_kinds
+from ros2interface.verb import VerbExtension
+
+
+class PackagesVerb(VerbExtension):
+    """Output a list of packages that provide interfaces."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the choice of kinds."""
+        add_kind_arguments(parser)
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print the packages with an interface of one of the kinds."""
+        from ros2interface.api import get_interface_packages, get_interfaces
+
+        for package in get_interface_packages():
+            if get_interfaces(package, chosen_kinds(args)):
+                print(package)
+        return None

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 interface show`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from ros2interface.verb import VerbExtension
+
+STDIN = '-'
+
+
+class ShowVerb(VerbExtension):
+    """Output the interface definition."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the interface and the choice of comments."""
+        parser.add_argument(
+            'type',
+            help='Show an interface definition (e.g. "example_interfaces/msg/String"). '
+            'Passing "-" reads the argument from stdin',
+        )
+        comments = parser.add_mutually_exclusive_group()
+        comments.add_argument(
+            '--all-comments',
+            action='store_true',
+            help='Show all comments, including for all nested interface definitions',
+        )
+        comments.add_argument(
+            '--no-comments', action='store_true', help='Show no comments or whitespace'
+        )
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print the definition with those of its fields below them."""
+        from ros2interface.api.definition import read_definition
+        from ros2interface.api.expansion import expand
+
+        name = sys.stdin.readline().strip() if args.type == STDIN else args.type
+        lines = expand(
+            read_definition(name), all_comments=args.all_comments, no_comments=args.no_comments
+        )
+        for line in list(lines):
+            print(line)
+        return None

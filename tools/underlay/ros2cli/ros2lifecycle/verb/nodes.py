@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 lifecycle nodes`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2cli.node.arguments import add_strategy_arguments
+from ros2lifecycle.verb import VerbExtension
+
+
+class NodesVerb(VerbExtension):
+    """Output a list of nodes with lifecycle."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the choice of nodes and of a mere count."""
+        add_strategy_arguments(parser)
+        parser.add_argument(
+            '-a', '--all', action='store_true', help='Display all nodes even hidden ones'
+        )
+        parser.add_argument(
+            '-c',
+            '--count-nodes',
+            action='store_true',
+            help='Only display the number of nodes discovered',
+        )
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print one full name a line, or the count."""
+        from ros2cli.node.strategy import NodeStrategy
+        from ros2lifecycle.api import get_lifecycle_nodes
+
+        with NodeStrategy(args) as node:
+            names = get_lifecycle_nodes(node, include_hidden_nodes=args.all)
+        for line in [str(len(names))] if args.count_nodes else names:
+            print(line)
+        return None

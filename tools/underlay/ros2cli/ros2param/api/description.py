@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a node tells about a parameter, as text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rcl_interfaces.msg import ParameterDescriptor
+from ros2param.api.values import type_name
+
+
+def description_lines(descriptor: ParameterDescriptor) -> Iterator[str]:
+    """Yield the lines about a parameter: its type, its description and its constraints."""
+    yield f'Parameter name: {descriptor.name}'
+    yield f'  Type: {type_name(descriptor.type)}'
+    if descriptor.description:
+        yield f'  Description: {descriptor.description}'
+    yield '  Constraints:'
+    if descriptor.read_only:
+        yield '    Read only: true'
+    for limits in (*descriptor.integer_range, *descriptor.floating_point_range):
+        yield f'    Min value: {limits.from_value}'
+        yield f'    Max value: {limits.to_value}'
+        if limits.step:
+            yield f'    Step: {limits.step}'
+    if descriptor.additional_constraints:
+        yield f'    Additional constraints: {descriptor.additional_constraints}'

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 param delete`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from ros2param.api.arguments import (
+    add_node_name_argument,
+    add_param_arguments,
+    add_parameter_name_argument,
+)
+from ros2param.verb import VerbExtension
+
+
+class DeleteVerb(VerbExtension):
+    """Delete parameter."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the node and the parameter."""
+        add_param_arguments(parser)
+        add_node_name_argument(parser)
+        add_parameter_name_argument(parser)
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print what the node says; a refusal is no error, but is told on stderr."""
+        from rcl_interfaces.msg import ParameterValue
+        from ros2param.api import set_parameter
+        from ros2param.api.remote import remote_node
+
+        with remote_node(args) as (node, name):
+            result = set_parameter(node, name, args.parameter_name, ParameterValue())
+        reason = f': {result.reason}' if result.reason else ''
+        if result.successful:
+            print(f'Deleted parameter successfully{reason}')
+            return None
+        print(f'Deleting parameter failed{reason}', file=sys.stderr)
+        return None

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 param describe`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from ros2param.api.arguments import add_node_name_argument, add_param_arguments
+from ros2param.verb import VerbExtension
+
+
+class DescribeVerb(VerbExtension):
+    """Show descriptive information about declared parameters."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the node and the parameters."""
+        add_param_arguments(parser)
+        add_node_name_argument(parser)
+        parser.add_argument('parameter_names', nargs='+', help='Names of the parameters')
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print the description of each parameter that the node has."""
+        from ros2param.api import describe_parameters, list_parameters
+        from ros2param.api.description import description_lines
+        from ros2param.api.remote import remote_node
+
+        with remote_node(args) as (node, name):
+            known = set(list_parameters(node, name))
+            wanted = [each for each in args.parameter_names if each in known]
+            descriptors = describe_parameters(node, name, wanted) if wanted else []
+        for descriptor in descriptors:
+            print('\n'.join(description_lines(descriptor)))
+        for each in args.parameter_names:
+            if each not in known:
+                print(_unknown_text(name, each, known), file=sys.stderr)
+        return None
+
+
+def _unknown_text(node_name: str, parameter: str, known: set[str]) -> str:
+    from ros2cli.suggest import did_you_mean
+
+    text = f"The node '{node_name}' has no parameter '{parameter}'."
+    return f'{text} {did_you_mean(parameter, known)}'.rstrip()

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 param load`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from ros2param.api.arguments import add_node_name_argument, add_param_arguments
+from ros2param.verb import VerbExtension
+
+
+class LoadVerb(VerbExtension):
+    """Load parameter file for a node."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the node and the file."""
+        add_param_arguments(parser)
+        add_node_name_argument(parser)
+        parser.add_argument('parameter_file', help='Parameter file')
+        parser.add_argument(
+            '--no-use-wildcard',
+            action='store_true',
+            help="Do not load parameters in the '/**' namespace into the node",
+        )
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Set the parameters one by one and print what the node says to each."""
+        from ros2param.api import set_parameter
+        from ros2param.api.file import read_parameters
+        from ros2param.api.remote import remote_node
+
+        with remote_node(args) as (node, name):
+            values = read_parameters(
+                args.parameter_file, name, use_wildcard=not args.no_use_wildcard
+            )
+            for parameter, value in values.items():
+                result = set_parameter(node, name, parameter, value)
+                reason = f': {result.reason}' if result.reason else ''
+                if result.successful:
+                    print(f'Set parameter {parameter} successful{reason}')
+                else:
+                    print(f'Set parameter {parameter} failed{reason}', file=sys.stderr)
+        return None

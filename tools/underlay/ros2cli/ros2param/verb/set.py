@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 param set`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from ros2param.api.arguments import (
+    add_node_name_argument,
+    add_param_arguments,
+    add_parameter_name_argument,
+)
+from ros2param.verb import VerbExtension
+
+
+class SetVerb(VerbExtension):
+    """Set parameter."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the node, the parameter and its value."""
+        add_param_arguments(parser)
+        add_node_name_argument(parser)
+        add_parameter_name_argument(parser)
+        parser.add_argument('value', help='Value of the parameter, in YAML')
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print what the node says; a refusal is no error, but is told on stderr."""
+        from ros2param.api import set_parameter
+        from ros2param.api.refusal import refusal_hint
+        from ros2param.api.remote import remote_node
+        from ros2param.api.values import parse_value
+
+        value = parse_value(args.value)
+        with remote_node(args) as (node, name):
+            result = set_parameter(node, name, args.parameter_name, value)
+            reason = f': {result.reason}' if result.reason else ''
+            if result.successful:
+                print(f'Set parameter successful{reason}')
+                return None
+            hint = refusal_hint(node, name, args, value, reason)
+        print(f'Setting parameter failed{reason}\n{hint}'.rstrip(), file=sys.stderr)
+        return None

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Call a service and show the request and the response."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from ros2cli.messages.lookup import type_name
+from ros2cli.messages.outgoing import OutgoingMessage
+from ros2cli.node.calls import wait_for_response
+from ros2cli.node.waiting import spin_until, wait_until
+from ros2cli.patience import Patience
+from ros2service.api import service_hint
+
+
+class Caller:
+    """The client of one service."""
+
+    def __init__(self, node: Any, service_type: Any, name: str) -> None:
+        """Create the client; it may connect later."""
+        self._node = node
+        self._client = node.create_client(service_type, name)
+        self._name = name
+        self._type_name = type_name(service_type)
+
+    def wait_for_service(self) -> None:
+        """Wait as long as it takes, and say so if the service is not there at once."""
+        self._node.wait_for_graph(self._client.service_is_ready)
+        if self._client.service_is_ready():
+            return
+        print('waiting for service to become available...')
+        patience = Patience(f"the service '{self._name}'", self._hint)
+        wait_until(self._node, self._client.service_is_ready, patience)
+
+    def call_repeatedly(self, request: OutgoingMessage, rate_hz: float | None) -> None:
+        """Call once, or for ever if there is a rate."""
+        next_s = time.monotonic()
+        while True:
+            self._call(request.stamped(self._node.get_clock().now().to_msg()))
+            if rate_hz is None:
+                return
+            next_s += 1.0 / rate_hz
+            spin_until(self._node, next_s)
+
+    def _call(self, request: Any) -> None:
+        print(f'requester: making request: {request!r}\n')
+        future = self._client.call_async(request)
+        response = wait_for_response(self._node, self._client, future)
+        print(f'response:\n{response!r}\n')
+
+    def _hint(self) -> str:
+        return service_hint(self._node, self._name, self._type_name)

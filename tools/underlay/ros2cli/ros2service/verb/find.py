@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 service find`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2cli.node.arguments import add_strategy_arguments
+from ros2service.verb import VerbExtension
+
+
+class FindVerb(VerbExtension):
+    """Output a list of available services of a given type."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the type and the choice of a mere count."""
+        add_strategy_arguments(parser)
+        parser.add_argument(
+            'service_type',
+            help="Name of the ROS service type to filter for (e.g. 'std_srvs/srv/Empty')",
+        )
+        parser.add_argument(
+            '-c',
+            '--count-services',
+            action='store_true',
+            help='Only display the number of services discovered',
+        )
+        parser.add_argument(
+            '--include-hidden-services',
+            action='store_true',
+            default=argparse.SUPPRESS,
+            help='Consider hidden services as well',
+        )
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print the services of the type, or their number."""
+        from ros2cli.node.strategy import NodeStrategy
+        from ros2service.api import get_service_names_and_types
+
+        with NodeStrategy(args) as node:
+            services = get_service_names_and_types(
+                node=node, include_hidden_services=args.include_hidden_services
+            )
+        names = [name for name, types in services if args.service_type in types]
+        for line in [str(len(names))] if args.count_services else names:
+            print(line)
+        return None

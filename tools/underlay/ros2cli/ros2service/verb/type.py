@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 service type`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2cli.node.arguments import add_strategy_arguments
+from ros2service.verb import VerbExtension
+
+
+class TypeVerb(VerbExtension):
+    """Output a service's type."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the service's name."""
+        add_strategy_arguments(parser)
+        parser.add_argument(
+            'service_name', help="Name of the ROS service to get type (e.g. '/add_two_ints')"
+        )
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print all types of the service; without one the status is 1."""
+        from ros2cli.node.strategy import NodeStrategy
+        from ros2service.api import get_service_types
+
+        with NodeStrategy(args) as node:
+            types = get_service_types(node, args.service_name)
+        for name in types:
+            print(name)
+        return 0 if types else 1

@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Filters of messages: expressions in Python's notation, of which only harmless parts are allowed.
+
+The expression is parsed but never given to Python to run: each allowed part of its syntax tree
+becomes a small function of the names it may use, which are `m`, the message, and the loop
+variables of generator expressions.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+from collections.abc import Callable, Iterator, Mapping
+import operator
+from typing import Any
+
+Names = Mapping[str, Any]
+Part = Callable[[Names], Any]
+
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    'abs': abs,
+    'all': all,
+    'any': any,
+    'len': len,
+    'max': max,
+    'min': min,
+}
+OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.FloorDiv: operator.floordiv,
+    ast.Mod: operator.mod,
+    ast.BitAnd: operator.and_,
+    ast.BitOr: operator.or_,
+    ast.Eq: operator.eq,
+    ast.NotEq: operator.ne,
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
+    ast.Is: operator.is_,
+    ast.IsNot: operator.is_not,
+    ast.In: lambda item, items: item in items,
+    ast.NotIn: lambda item, items: item not in items,
+    ast.Not: operator.not_,
+    ast.USub: operator.neg,
+    ast.UAdd: operator.pos,
+}
+
+
+class MessageFilter:
+    """Tells whether a message fulfils the condition that the user wrote."""
+
+    def __init__(self, text: str) -> None:
+        """Compile the condition; ArgumentTypeError says which part of it is not allowed."""
+        self._text = text
+        try:
+            self._condition = _compile(ast.parse(text.strip(), mode='eval').body, {'m'})
+        except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+            raise argparse.ArgumentTypeError(f'{text!r} is no expression: {error}') from error
+
+    def __call__(self, message: Any) -> bool:
+        """Return whether the condition holds; RuntimeError if it does not fit the message."""
+        try:
+            return bool(self._condition({'m': message}))
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+            raise RuntimeError(f'The filter {self._text!r} does not fit: {error}') from error
+
+
+def _compile(node: ast.AST, known: set[str]) -> Part:
+    kind = type(node).__name__
+    if kind not in COMPILERS:
+        raise argparse.ArgumentTypeError(
+            f'{ast.unparse(node)!r} is not allowed in a filter: it may have comparisons, '
+            'and/or/not, arithmetic, fields, indices, and calls of ' + ', '.join(FUNCTIONS)
+        )
+    return COMPILERS[kind](node, known)
+
+
+def _constant(node: ast.Constant, known: set[str]) -> Part:
+    value = node.value
+    return lambda names: value
+
+
+def _name(node: ast.Name, known: set[str]) -> Part:
+    name = node.id
+    if name not in known:
+        raise argparse.ArgumentTypeError(f"{name!r} is unknown in a filter; the message is 'm'")
+    return lambda names: names[name]
+
+
+def _attribute(node: ast.Attribute, known: set[str]) -> Part:
+    value, name = _compile(node.value, known), node.attr
+    if name.startswith('_'):
+        raise argparse.ArgumentTypeError(f'{ast.unparse(node)!r} is no field of a message')
+    return lambda names: getattr(value(names), name)
+
+
+def _subscript(node: ast.Subscript, known: set[str]) -> Part:
+    value, index = _compile(node.value, known), _compile(node.slice, known)
+    return lambda names: value(names)[index(names)]
+
+
+def _slice(node: ast.Slice, known: set[str]) -> Part:
+    limits = [limit and _compile(limit, known) for limit in (node.lower, node.upper, node.step)]
+    return lambda names: slice(*(limit and limit(names) for limit in limits))
+
+
+def _sequence(node: ast.List | ast.Tuple, known: set[str]) -> Part:
+    items = [_compile(item, known) for item in node.elts]
+    return lambda names: [item(names) for item in items]
+
+
+def _unary(node: ast.UnaryOp, known: set[str]) -> Part:
+    operate, operand = _operator(node, node.op), _compile(node.operand, known)
+    return lambda names: operate(operand(names))
+
+
+def _binary(node: ast.BinOp, known: set[str]) -> Part:
+    operate = _operator(node, node.op)
+    left, right = _compile(node.left, known), _compile(node.right, known)
+    return lambda names: operate(left(names), right(names))
+
+
+def _boolean(node: ast.BoolOp, known: set[str]) -> Part:
+    parts = [_compile(value, known) for value in node.values]
+    combine = all if isinstance(node.op, ast.And) else any
+    return lambda names: combine(part(names) for part in parts)
+
+
+def _compare(node: ast.Compare, known: set[str]) -> Part:
+    operators = [_operator(node, each) for each in node.ops]
+    parts = [_compile(part, known) for part in (node.left, *node.comparators)]
+
+    def compare(names: Names) -> bool:
+        left = parts[0](names)
+        for operate, part in zip(operators, parts[1:]):
+            right = part(names)
+            if not operate(left, right):
+                return False
+            left = right
+        return True
+
+    return compare
+
+
+def _call(node: ast.Call, known: set[str]) -> Part:
+    name = node.func.id if isinstance(node.func, ast.Name) else ''
+    if name not in FUNCTIONS or node.keywords:
+        raise argparse.ArgumentTypeError(
+            f'{ast.unparse(node)!r} is no call that a filter allows: ' + ', '.join(FUNCTIONS)
+        )
+    function, arguments = FUNCTIONS[name], [_compile(each, known) for each in node.args]
+    return lambda names: function(*(argument(names) for argument in arguments))
+
+
+def _generator(node: ast.GeneratorExp, known: set[str]) -> Part:
+    loop = node.generators[0]
+    if len(node.generators) > 1 or not isinstance(loop.target, ast.Name) or loop.is_async:
+        raise argparse.ArgumentTypeError(f'{ast.unparse(node)!r} has more than one simple loop')
+    name, items = loop.target.id, _compile(loop.iter, known)
+    element = _compile(node.elt, {*known, name})
+    conditions = [_compile(each, {*known, name}) for each in loop.ifs]
+
+    def generate(names: Names) -> Iterator[Any]:
+        for item in items(names):
+            inner = {**names, name: item}
+            if all(condition(inner) for condition in conditions):
+                yield element(inner)
+
+    return generate
+
+
+def _operator(node: ast.AST, kind: ast.AST) -> Callable[..., Any]:
+    if type(kind) not in OPERATORS:
+        raise argparse.ArgumentTypeError(
+            f'{ast.unparse(node)!r} has an operator that filters lack'
+        )
+    return OPERATORS[type(kind)]
+
+
+COMPILERS: dict[str, Callable[[Any, set[str]], Part]] = {
+    'Attribute': _attribute,
+    'BinOp': _binary,
+    'BoolOp': _boolean,
+    'Call': _call,
+    'Compare': _compare,
+    'Constant': _constant,
+    'GeneratorExp': _generator,
+    'List': _sequence,
+    'Name': _name,
+    'Slice': _slice,
+    'Subscript': _subscript,
+    'Tuple': _sequence,
+    'UnaryOp': _unary,
+}

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Name the other end when the quality of service keeps two ends of a topic apart."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+from rclpy.qos import qos_check_compatible, QoSCompatibility, QoSProfile
+from ros2cli.node.graph import foreign_publishers, foreign_subscriptions, UNKNOWN_NODE_NAME
+
+
+class Incompatibility:
+    """Tells on stderr which nodes do not connect with a publisher or subscription of ours."""
+
+    def __init__(
+        self, node: Any, topic: str, profile: QoSProfile, *, publishes: bool = False
+    ) -> None:
+        """Remember our end; nothing is looked up before the middleware reports a mismatch."""
+        self._node = node
+        self._topic = topic
+        self._profile = profile
+        self._publishes = publishes
+        self._told: set[bytes] = set()
+        self._is_due = False
+
+    def on_event(self, _: Any) -> None:
+        """Remember that there is a mismatch; the name may not be known yet."""
+        self._is_due = True
+
+    def check(self) -> None:
+        """Name the nodes of a mismatch as soon as they are known."""
+        if not self._is_due:
+            return
+        for info in self._others():
+            reason = self._reason(info)
+            if reason and bytes(info.endpoint_gid) not in self._told:
+                self._told.add(bytes(info.endpoint_gid))
+                self._is_due = False
+                print(self._text(info, reason), file=sys.stderr)
+
+    def _others(self) -> list[Any]:
+        find = foreign_subscriptions if self._publishes else foreign_publishers
+        found = find(self._node, self._topic)
+        return [info for info in found if info.node_name != UNKNOWN_NODE_NAME]
+
+    def _reason(self, info: Any) -> str:
+        pair = (self._profile, info.qos_profile)
+        status, reason = qos_check_compatible(*(pair if self._publishes else reversed(pair)))
+        if status != QoSCompatibility.ERROR:
+            return ''
+        return '; '.join(str(reason).replace('ERROR: ', '').strip(' ;').split(';'))
+
+    def _text(self, info: Any, reason: str) -> str:
+        ends = [f"'/{self._node.get_name()}'", f"'{info.node_namespace.rstrip('/')}/"]
+        ends[1] += f"{info.node_name}'"
+        publisher, subscriber = ends if self._publishes else reversed(ends)
+        cure = 'Change the --qos options' + (
+            '.' if self._publishes else ', or leave them away to follow the publisher.'
+        )
+        return (
+            f'WARNING: no message passes from {publisher} to {subscriber} on '
+            f"'{self._topic}': {reason}. {cure}"
+        )

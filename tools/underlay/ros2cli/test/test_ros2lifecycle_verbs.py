@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of the verbs of `ros2 lifecycle` with a real node."""
+
+from collections.abc import Callable
+from subprocess import CompletedProcess
+
+import pytest
+
+Ros2 = Callable[..., CompletedProcess[str]]
+
+
+def test_nodes(ros2_robot: Ros2) -> None:
+    """Only nodes with a life cycle are listed."""
+    assert ros2_robot('lifecycle', 'nodes').stdout == '/lamp\n'
+    assert ros2_robot('lifecycle', 'nodes', '-c').stdout == '1\n'
+
+
+def test_states_and_transitions(ros2_robot: Ros2) -> None:
+    """A node is configured by label and cleaned up by number; each step shows in its state."""
+    assert ros2_robot('lifecycle', 'get', 'lamp').stdout == 'unconfigured [1]\n'
+    assert ros2_robot('lifecycle', 'list', '/lamp').stdout == (
+        '- configure [1]\n\tStart: unconfigured\n\tGoal: configuring\n'
+        '- shutdown [5]\n\tStart: unconfigured\n\tGoal: shuttingdown\n'
+    )
+    done = ros2_robot('lifecycle', 'set', '/lamp', 'configure')
+    assert (done.returncode, done.stdout, done.stderr) == (0, 'Transitioning successful\n', '')
+    assert ros2_robot('lifecycle', 'get').stdout == '/lamp: inactive [2]\n'
+    back = ros2_robot('lifecycle', 'set', '/lamp', '2')
+    assert back.stdout == 'Transitioning successful\n'
+
+
+def test_all_transitions(ros2_robot: Ros2) -> None:
+    """All transitions of the life cycle are listed when they are asked for."""
+    output = ros2_robot('lifecycle', 'list', '/lamp', '--all').stdout
+    assert '- activate [3]\n\tStart: inactive\n\tGoal: activating\n' in output
+
+
+def test_unknown_transition_lists_available_ones(ros2_robot: Ros2) -> None:
+    """A transition that is not possible is an error with those that are."""
+    result = ros2_robot('lifecycle', 'set', '/lamp', 'configur')
+    assert (result.returncode, result.stdout) == (1, '')
+    assert result.stderr == (
+        'Unknown transition requested, available ones are:\n'
+        "- configure [1]\n- shutdown [5]\nDid you mean 'configure'?\n"
+    )
+
+
+@pytest.mark.parametrize('words', [['get'], ['list'], ['set', 'configure']])
+@pytest.mark.parametrize(
+    ('node', 'hint'),
+    [
+        ('lmp', "Did you mean '/lamp'?"),
+        ('/robot1/arm', "The node '/robot1/arm' has no life cycle"),
+    ],
+)
+def test_unknown_node(words: list[str], node: str, hint: str, ros2_robot: Ros2) -> None:
+    """A node that is not there, or has no life cycle, is not found."""
+    result = ros2_robot('lifecycle', words[0], node, *words[1:])
+    assert (result.returncode, result.stdout) == (1, '')
+    assert result.stderr == f'Node not found\n{hint}\n'

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of ends that do not connect: other policies, other names, impossible arguments."""
+
+from collections.abc import Callable
+import signal
+from subprocess import CompletedProcess
+from typing import Any
+
+import pytest
+
+Ros2 = Callable[..., CompletedProcess[str]]
+Start = Callable[..., Any]
+
+pytestmark = pytest.mark.usefixtures('talker')
+
+
+def test_echo_names_the_publisher(ros2_here: Ros2) -> None:
+    """A publisher that offers too little is named, with the subscription and the cure."""
+    result = ros2_here(
+        'topic', 'echo', '/temperature', '--qos-reliability', 'reliable', '--timeout', '4'
+    )
+    assert (result.returncode, result.stdout) == (0, '')
+    warning = result.stderr.splitlines()[0]
+    assert warning.startswith("WARNING: no message passes from '/talker' to '/_ros2cli_")
+    assert warning.endswith(
+        "on '/temperature': Best effort publisher and reliable subscription. "
+        'Change the --qos options, or leave them away to follow the publisher.'
+    )
+
+
+def test_pub_names_the_subscription(ros2_here: Ros2) -> None:
+    """A subscription that asks for more than is published is named."""
+    result = ros2_here(
+        *('topic', 'pub', '/orders', 'std_msgs/msg/String', '{data: go}'),
+        *('--qos-reliability', 'best_effort', '--once', '--max-wait-time-secs', '3'),
+    )
+    assert result.returncode == 1
+    warning, timeout = result.stderr.splitlines()
+    assert warning.startswith("WARNING: no message passes from '/_ros2cli_")
+    assert " to '/talker' on '/orders': Best effort publisher and reliable" in warning
+    assert timeout.startswith('Timed out waiting for subscribers: Expected 1 subcribers but')
+
+
+def test_misspelt_topic_suggests(ros2_here: Ros2, start_ros2: Start) -> None:
+    """The topic that may be meant is named when one is waited for in vain."""
+    result = ros2_here('topic', 'echo', '/temperatur')
+    assert result.stderr == (
+        "Could not determine the type for the passed topic\nDid you mean '/temperature'?\n"
+    )
+    process = start_ros2('topic', 'hz', '/temperatur')
+    assert process.stderr.readline().endswith("(Ctrl-C to stop) Did you mean '/temperature'?\n")
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=20.0) == 2
+
+
+@pytest.mark.parametrize(
+    ('words', 'status', 'error'),
+    [
+        (['/x y', 'std_msgs/msg/String'], 1, "'/x y' is no name of a topic"),
+        (['/1', 'std_msgs/msg/String'], 1, "'/1' is no name of a topic"),
+        (['/x', 'std_msgs/msg/String', '--qos-depth', '1.5'], 2, "'1.5' is not a whole number"),
+        (['/x', 'std_msgs/msg/String', '--qos-depth', '9' * 20], 2, 'is too long: at most'),
+        (['/x', 'std_msgs/msg/String', '-n', 'a/b'], 2, "'a/b' is no name of a node"),
+        (['/x', 'std_msgs/msg/String', '-w', 'two'], 2, "'two' is not a whole number"),
+    ],
+)
+def test_impossible_arguments_of_pub(
+    words: list[str], status: int, error: str, ros2_here: Ros2
+) -> None:
+    """Names and numbers that cannot be are told before anything is published."""
+    result = ros2_here('topic', 'pub', *words, '--once')
+    assert (result.returncode, result.stdout) == (status, '')
+    assert error in result.stderr
+    assert 'Traceback' not in result.stderr
