@@ -6,6 +6,7 @@ from __future__ import annotations
 from ros2cli.entry import Entry
 
 COMMANDS = {
+    'bag': Entry('ros2bag.command.bag:BagCommand', 'Various rosbag related sub-commands'),
     'launch': Entry('ros2launch.command.launch:LaunchCommand', 'Run a launch file'),
     'node': Entry('ros2node.command.node:NodeCommand', 'Various node related sub-commands'),
     'pkg': Entry('ros2pkg.command.pkg:PkgCommand', 'Various package related sub-commands'),

@@ -86,7 +86,7 @@ class BagWriter:
             self._stop(error)
         topic = self._topics[message.topic]
         if topic.is_latched:
-            self._latched.add(message, len(topic.offered_qos))
+            self._latched.add(message, topic)
 
     def flush_if_due(self) -> None:
         """Write what has waited for long enough."""
@@ -137,7 +137,7 @@ class BagWriter:
         self._file = self._next_file()
         for topic in self._topics.values():
             self._file.add_topic(topic, self._find_definition(topic.type_name))
-        for message in self._latched:
+        for message in self._latched.alive(now_ns):
             self._file.write(*message._replace(log_ns=now_ns))
 
     def _write_metadata(self) -> None:

@@ -7,6 +7,8 @@ from collections import deque
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from ros2bag.storage.metadata import Topic
+
 __all__ = ['LatchedMessages', 'RecordedMessage']
 
 # Of small messages more are kept than there are publishers, for example of /tf_static, where
@@ -31,18 +33,22 @@ class LatchedMessages:
     def __init__(self) -> None:
         """Start without any."""
         self._kept: dict[str, deque[RecordedMessage]] = {}
+        self._lifespans_ns: dict[str, int] = {}
 
-    def add(self, message: RecordedMessage, publishers: int) -> None:
+    def add(self, message: RecordedMessage, topic: Topic) -> None:
         """Keep a message, and of the older ones at least one a publisher."""
-        kept = self._kept.setdefault(message.topic, deque())
+        offered = [qos for qos in topic.offered_qos if qos.is_latched]
+        self._lifespans_ns[topic.name] = max(qos.lifespan_ns for qos in offered)
+        kept = self._kept.setdefault(topic.name, deque())
         kept.append(message)
-        while len(kept) > max(1, publishers) and _is_much(kept):
+        while len(kept) > len(offered) and _is_much(kept):
             kept.popleft()
 
-    def __iter__(self) -> Iterator[RecordedMessage]:
-        """Yield the messages, of each topic the oldest first."""
-        for kept in self._kept.values():
-            yield from kept
+    def alive(self, now_ns: int) -> Iterator[RecordedMessage]:
+        """Yield the messages whose lifespan is not over, of each topic the oldest first."""
+        for topic, kept in self._kept.items():
+            born_ns = now_ns - self._lifespans_ns[topic]
+            yield from (message for message in kept if message.log_ns >= born_ns)
 
 
 def _is_much(kept: deque[RecordedMessage]) -> bool:

@@ -58,7 +58,7 @@ class McapFile:
         self._name = name or os.path.basename(path)
         self._ros_distro = ros_distro
         self._chunk_bytes = chunk_bytes
-        self._writer = Writer(
+        self._writer: Any = Writer(
             cast(Any, self._stream),
             chunk_size=sys.maxsize,
             compression=COMPRESSIONS[compression],

@@ -85,5 +85,7 @@ def topic_of(channel: Channel, type_name: str) -> Topic:
 def _distro(reader: SeekingReader) -> str:
     for record in reader.iter_metadata():
         if record.name == 'rosbag2' and 'serialized_metadata' in record.metadata:
-            return metadata_from_text(record.metadata['serialized_metadata'], 'the file').ros_distro
+            return metadata_from_text(
+                record.metadata['serialized_metadata'], 'the file'
+            ).ros_distro
     return ''
