@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+import errno
 import os
 from typing import NoReturn
 
@@ -50,18 +51,8 @@ class BagWriter:
         self._latched = LatchedMessages()
         self._finished: list[BagMetadata] = []
         self._is_open = True
-        try:
-            os.makedirs(self._folder)
-            self._reserve = Reserve(self._folder)
-            self._file = self._next_file()
-        except FileExistsError as error:
-            raise BagError(
-                f"Output folder '{folder}' already exists: name another one with -o, or delete it"
-            ) from error
-        except OSError as error:
-            raise BagError(
-                f"Output folder '{folder}' cannot be written: {error.strerror}"
-            ) from error
+        self._reserve = self._start(folder)
+        self._file = self._create_file(0)
 
     @property
     def message_count(self) -> int:
@@ -111,8 +102,24 @@ class BagWriter:
             custom_data=self._options.custom_data,
         )
 
-    def _next_file(self) -> McapFile:
-        name = f'{os.path.basename(self._folder)}_{len(self._finished)}.mcap'
+    def _start(self, folder: str) -> Reserve:
+        """Create the folder and reserve some room in it."""
+        try:
+            os.makedirs(self._folder)
+        except FileExistsError as error:
+            raise BagError(
+                f"Output folder '{folder}' already exists: name another one with -o, or delete it"
+            ) from error
+        except OSError as error:
+            raise _not_writable(folder, error) from error
+        try:
+            return Reserve(self._folder)
+        except OSError as error:
+            os.rmdir(self._folder)
+            raise _not_writable(folder, error) from error
+
+    def _create_file(self, number: int) -> McapFile:
+        name = f'{os.path.basename(self._folder)}_{number}.mcap'
         return McapFile(
             os.path.join(self._folder, name),
             compression=self._options.compression,
@@ -132,9 +139,10 @@ class BagWriter:
     def _split(self, now_ns: int) -> None:
         """Start the next file with the topics and what late subscribers would get."""
         self._file.finish()
+        following = self._create_file(len(self._finished) + 1)
         self._file.close()
         self._finished.append(self._file.metadata())
-        self._file = self._next_file()
+        self._file = following
         for topic in self._topics.values():
             self._file.add_topic(topic, self._find_definition(topic.type_name))
         for message in self._latched.alive(now_ns):
@@ -161,11 +169,18 @@ class BagWriter:
         except OSError:
             self._is_open = False
             self._file.close()
-            outcome = (
-                'there was no room for its index. Make room, and then: '
-                f'ros2 bag recover {self._folder}'
-            )
+            outcome = f'its index could not be written: {_advice(error, self._folder)}'
         raise BagError(
             f"'{self._folder}' cannot be written: {error.strerror}. "
             f'The recording ends here; {outcome}'
         ) from error
+
+
+def _advice(error: OSError, folder: str) -> str:
+    if error.errno == errno.EFBIG:
+        return f'ros2 bag recover {folder}, and the next time split the recording with -b BYTES'
+    return f'make room, and then ros2 bag recover {folder}'
+
+
+def _not_writable(folder: str, error: OSError) -> BagError:
+    return BagError(f"Output folder '{folder}' cannot be written: {error.strerror}")

@@ -66,7 +66,7 @@ def _topics(summary: Summary, statistics: Statistics) -> tuple[TopicInformation,
             topic_of(channel, summary.schemas[channel.schema_id].name),
             statistics.channel_message_counts.get(channel.id, 0),
         )
-        for channel in summary.channels.values()
+        for channel in sorted(summary.channels.values(), key=lambda channel: channel.topic)
         if channel.schema_id in summary.schemas
     )
 

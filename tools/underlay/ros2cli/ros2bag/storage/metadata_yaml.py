@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 from ros2bag.storage.errors import BagError
@@ -50,9 +51,10 @@ def metadata_from_text(text: str, where: str) -> BagMetadata:
         version = content['version']
         metadata = _from_dict(content)
     except (yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError) as error:
+        reason = ' '.join(f'{type(error).__name__}: {error}'.split())
         raise BagError(
-            f"'{where}' is no metadata of a recording ({type(error).__name__}: {error}). "
-            'Make it anew from the files: ros2 bag recover FOLDER'
+            f"'{where}' is no metadata of a recording ({reason}). Make it anew from the files: "
+            f'ros2 bag recover {os.path.dirname(where) or "FOLDER"}'
         ) from error
     if version > VERSION:
         raise BagError(

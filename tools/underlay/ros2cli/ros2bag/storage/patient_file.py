@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 import fcntl
 
 __all__ = ['PatientFile', 'is_being_written']
@@ -19,7 +20,9 @@ class PatientFile:
     def __init__(self, path: str) -> None:
         """Create the file, which must not exist, and lock it as long as it is open."""
         self._file = open(path, 'xb', buffering=0)  # noqa: SIM115
-        fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        with suppress(OSError):
+            # Some network file systems have no locks.
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         self._rest = b''
         self._error: OSError | None = None
 
@@ -70,4 +73,6 @@ def is_being_written(path: str) -> bool:
             fcntl.flock(stream, fcntl.LOCK_SH | fcntl.LOCK_NB)
         except BlockingIOError:
             return True
+        except OSError:
+            return False
     return False

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 
 __all__ = ['FILE_NAME', 'Reserve']
@@ -15,10 +16,16 @@ class Reserve:
     """A file without content, which is given up when the disk is full or the work done."""
 
     def __init__(self, folder: str) -> None:
-        """Take the room; OSError tells that there is not so much."""
+        """Take the room; OSError tells that the disk has not so much."""
         self._path = os.path.join(folder, FILE_NAME)
-        with open(self._path, 'xb') as stream:
-            os.posix_fallocate(stream.fileno(), 0, RESERVED_BYTES)
+        try:
+            with open(self._path, 'xb') as stream:
+                os.posix_fallocate(stream.fileno(), 0, RESERVED_BYTES)
+        except OSError as error:
+            self.release()
+            # Other errors are limits on the size of a file, or file systems that cannot do it.
+            if error.errno == errno.ENOSPC:
+                raise
 
     def release(self) -> None:
         """Give the room back; more than once does no harm."""
