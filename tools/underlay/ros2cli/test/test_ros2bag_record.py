@@ -11,7 +11,7 @@ import sys
 import time
 from typing import Any
 
-from bag_samples import texts
+from bag_samples import MS, START_NS, texts, write_bag
 import pytest
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.salvage import Salvage
@@ -178,6 +178,46 @@ def test_split_repeats_latched_messages(
     assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
 
 
+def test_simulated_time_is_recorded(start_ros2: Start, tmp_path: Path) -> None:
+    """With --use-sim-time the messages have the time of /clock; without a clock it waits."""
+    write_bag(tmp_path / 'old', count=6000)
+    folder = tmp_path / 'new'
+    process = start_ros2(
+        'bag', 'record', '--topics', '/ticks', '-o', str(folder), '--use-sim-time'
+    )
+    _expect_line(process, 'Still waiting for the time on /clock')
+    assert not folder.exists()
+    start_ros2('bag', 'play', str(tmp_path / 'old'), '--clock', '100')
+    _wait_for_messages(folder / 'new_0.mcap', 50)
+    assert _stop(process)[0] == 2
+    messages = list(BagReader(str(folder)).messages())
+    numbers = [int(text) for text in texts(messages, '/ticks')]
+    late_ns = [
+        each.log_ns - START_NS - number * 10 * MS for each, number in zip(messages, numbers)
+    ]
+    assert abs(sum(late_ns) / len(late_ns)) < 200 * MS
+
+
+def test_weaker_publisher_is_heard_as_well(start_ros2: Start, tmp_path: Path) -> None:
+    """A best-effort publisher that comes later is recorded together with the reliable one."""
+    folder = tmp_path / 'bag'
+    process = start_ros2('bag', 'record', '--topics', '/mixed', '-o', str(folder), '-q')
+    _publish(start_ros2, 'strong', 'reliable')
+    _wait_for_messages(folder / 'bag_0.mcap', 20)
+    _publish(start_ros2, 'weak', 'best_effort')
+    end = time.monotonic() + TIMEOUT_S
+    while b'weak' not in (folder / 'bag_0.mcap').read_bytes():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+    _wait_for_messages(folder / 'bag_0.mcap', 20, _size_of_messages(folder))
+    assert _stop(process) == (2, '')
+    (topic,) = BagReader(str(folder)).metadata.topics
+    offered = {qos.reliability for qos in topic.topic.offered_qos}
+    assert offered == {'reliable', 'best_effort'}
+    heard = texts(BagReader(str(folder)).messages(), '/mixed')
+    assert set(heard[-20:]) == {'strong', 'weak'}
+
+
 def test_existing_folder_is_refused(ros2_here: Ros2, tmp_path: Path) -> None:
     """A folder that exists is left alone."""
     result = ros2_here('bag', 'record', '-a', '-o', str(tmp_path))
@@ -185,6 +225,11 @@ def test_existing_folder_is_refused(ros2_here: Ros2, tmp_path: Path) -> None:
     assert result.stderr == (
         f"Output folder '{tmp_path}' already exists: name another one with -o, or delete it\n"
     )
+
+
+def _publish(start_ros2: Start, text: str, reliability: str) -> None:
+    words = ['topic', 'pub', '/mixed', 'std_msgs/msg/String', f'{{data: {text}}}', '-r', '50']
+    start_ros2(*words, '--qos-reliability', reliability, '-n', text)
 
 
 def _expect_line(process: Any, text: str) -> None:

@@ -6,7 +6,6 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 from itertools import islice, takewhile
-import time
 from typing import Any
 
 from ros2bag.api.clock_outlet import CLOCK_TOPIC, ClockOutlet
@@ -76,7 +75,7 @@ def _play_all(
     start_ns = reader.metadata.span.start_ns + int(args.start_offset * NS_PER_S)
     limited = args.playback_duration >= 0
     end_ns = start_ns + int(args.playback_duration * NS_PER_S) if limited else FOR_EVER_NS
-    _rest(player, args.delay)
+    _rest(player, start_ns, args.delay)
     while True:
         messages = _messages(reader, outlets.topics, start_ns, end_ns)
         count = player.play(islice(messages, args.num_messages), Pacing(start_ns, args.rate))
@@ -93,6 +92,6 @@ def _messages(
     return takewhile(lambda message: message.log_ns <= end_ns, reader.messages(topics, start_ns))
 
 
-def _rest(player: Player, delay_s: float) -> None:
-    pacing = Pacing(time.time_ns(), 1.0)
-    player.rest_until(pacing.recorded_now_ns + int(delay_s * NS_PER_S), pacing)
+def _rest(player: Player, start_ns: int, delay_s: float) -> None:
+    """Let the time before the first message pass."""
+    player.rest_until(start_ns, Pacing(start_ns - int(delay_s * NS_PER_S), 1.0))

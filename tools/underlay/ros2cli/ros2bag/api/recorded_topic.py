@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from rclpy.event_handler import SubscriptionEventCallbacks
 from ros2bag.api.qos_profiles import offered_by
 from ros2bag.storage.metadata import Topic
 from ros2topic.api.qos import matching_qos
@@ -57,6 +58,8 @@ class RecordedTopic:
     def _subscribe(self, profile: Any) -> None:
         if self._subscription is not None:
             self._node.destroy_subscription(self._subscription)
+        # Without an override nothing stays incompatible: see `update`.
+        events = SubscriptionEventCallbacks(use_default_callbacks=self._override is not None)
         if self._override is None:
             profile.depth = QUEUE_DEPTH
         self._profile = profile
@@ -66,5 +69,6 @@ class RecordedTopic:
             # rclpy looks at how many arguments a callback has.
             lambda data, info: self._receive(data, info),
             profile,
+            event_callbacks=events,
             raw=True,
         )
