@@ -185,6 +185,20 @@ def test_unknown_type_is_left_out(ear: Ear, start_ros2: Start, tmp_path: Path) -
     assert "Topic '/nope' is not played: the package 'nope_msgs'" in errors
 
 
+def test_type_that_has_changed_is_left_out(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
+    """Bytes of an older definition are not published as if they were of the present one."""
+    old = Topic('/old', 'std_msgs/msg/String', f'RIHS01_{"0" * 64}', (OfferedQos(),))
+    writer = start_bag(tmp_path / 'bag', topic('/ticks'), old)
+    writer.write(string('/old', 'x', 0))
+    writer.write(string('/ticks', '0', 0))
+    writer.close()
+    ear.listen('/ticks')
+    ear.listen('/old')
+    errors = ear.spin_with(start_ros2('bag', 'play', str(tmp_path / 'bag')))
+    assert (ear.texts('/ticks'), ear.texts('/old')) == (['0'], [])
+    assert "Topic '/old' is not played: the definition of 'std_msgs/msg/String'" in errors
+
+
 def test_late_subscriber_gets_the_latched_message(
     ear: Ear, start_ros2: Start, tmp_path: Path
 ) -> None:

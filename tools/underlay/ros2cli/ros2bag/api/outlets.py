@@ -18,6 +18,7 @@ __all__ = ['Outlets']
 
 MATCH_S = 2.0
 PERIOD_S = 0.02
+HASH_START = 'RIHS01_'
 
 
 class Outlets:
@@ -34,14 +35,11 @@ class Outlets:
         self._node = node
         self._publishers: dict[str, Any] = {}
         for topic in topics:
-            try:
-                message_type = get_message(topic.type_name)
-            except UnknownType as error:
-                node.get_logger().warning(f"Topic '{topic.name}' is not played: {error}")
-                continue
-            profile = overrides.get(topic.name) or playback_profile(topic)
-            name = names.get(topic.name, topic.name)
-            self._publishers[topic.name] = node.create_publisher(message_type, name, profile)
+            publisher, reason = self._create(topic, names, overrides)
+            if reason:
+                node.get_logger().warning(f"Topic '{topic.name}' is not played: {reason}")
+            else:
+                self._publishers[topic.name] = publisher
 
     @property
     def topics(self) -> list[str]:
@@ -67,6 +65,30 @@ class Outlets:
             while reliability == ReliabilityPolicy.RELIABLE and time.monotonic() < end:
                 if publisher.wait_for_all_acked(Duration(seconds=PERIOD_S)):
                     break
+
+    def _create(
+        self, topic: Topic, names: Mapping[str, str], overrides: Mapping[str, Any]
+    ) -> tuple[Any, str]:
+        """Return the publisher, or why there can be none."""
+        try:
+            message_type = get_message(topic.type_name)
+        except UnknownType as error:
+            return None, str(error)
+        profile = overrides.get(topic.name) or playback_profile(topic)
+        name = names.get(topic.name, topic.name)
+        publisher = self._node.create_publisher(message_type, name, profile)
+        if topic.type_hash.startswith(HASH_START) and topic.type_hash not in self._hashes(name):
+            self._node.destroy_publisher(publisher)
+            return None, f"the definition of '{topic.type_name}' has changed since it was recorded"
+        return publisher, ''
+
+    def _hashes(self, name: str) -> set[str]:
+        """Return the hashes of the types of our own publishers of a topic."""
+        return {
+            str(info.topic_type_hash)
+            for info in self._node.get_publishers_info_by_topic(name)
+            if info.node_name == self._node.get_name()
+        }
 
     def _is_matched(self, publisher: Any) -> bool:
         """Tell if at least one of those who listen to a topic is connected."""

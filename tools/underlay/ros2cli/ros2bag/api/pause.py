@@ -17,7 +17,7 @@ class PauseSwitch:
         self.is_paused = is_paused
         self._say = say
 
-    def set(self, is_paused: bool) -> None:
+    def change_to(self, is_paused: bool) -> None:
         """Pause or resume."""
         if is_paused != self.is_paused:
             self.is_paused = is_paused
@@ -25,7 +25,7 @@ class PauseSwitch:
 
     def toggle(self) -> None:
         """Change to the other."""
-        self.set(not self.is_paused)
+        self.change_to(not self.is_paused)
 
 
 def offer_pause_services(node: Any, switch: PauseSwitch) -> None:
@@ -41,6 +41,6 @@ def offer_pause_services(node: Any, switch: PauseSwitch) -> None:
 
         node.create_service(Trigger, f'~/{name}', serve)
 
-    offer('pause', lambda: switch.set(True))
-    offer('resume', lambda: switch.set(False))
+    offer('pause', lambda: switch.change_to(True))
+    offer('resume', lambda: switch.change_to(False))
     offer('toggle_paused', switch.toggle)

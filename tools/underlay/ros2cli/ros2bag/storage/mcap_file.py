@@ -71,6 +71,7 @@ class McapFile:
         self._channel_ids: dict[str, int] = {}
         self._topics: dict[str, Topic] = {}
         self._counts: Counter[str] = Counter()
+        self._message_count = 0
         self._start_ns, self._end_ns = MessageSpan().start_ns, MessageSpan().end_ns
 
     @property
@@ -81,7 +82,7 @@ class McapFile:
     @property
     def message_count(self) -> int:
         """Return how many messages there are."""
-        return sum(self._counts.values())
+        return self._message_count
 
     @property
     def start_ns(self) -> int:
@@ -117,6 +118,7 @@ class McapFile:
             self._channel_ids[topic], log_ns, data, publish_ns, sequence % SEQUENCES
         )
         self._counts[topic] += 1
+        self._message_count += 1
         self._start_ns = min(self._start_ns, log_ns)
         self._end_ns = max(self._end_ns, log_ns)
         if not self._waiting_bytes:

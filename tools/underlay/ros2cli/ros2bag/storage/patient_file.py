@@ -57,13 +57,12 @@ class PatientFile:
 
     def _write_rest(self) -> None:
         """Write until nothing is left: a disk that becomes full may take a part first."""
-        view = memoryview(self._rest)
         try:
-            while view:
-                view = view[self._file.write(view) :]
+            while self._rest:
+                count = self._file.write(self._rest)
+                self._rest = self._rest[count:]
         except OSError as error:
             self._error = error
-        self._rest = bytes(view)
 
 
 def is_being_written(path: str) -> bool:
