@@ -193,6 +193,18 @@ def test_all_latched_messages_of_several_publishers_are_repeated(tmp_path: Path)
     assert texts(second.messages(), '/static') == ['0', '1', '2', '3', '4']
 
 
+def test_publishers_that_come_later_change_nothing_in_the_files(tmp_path: Path) -> None:
+    """A reader that compares the files with the metadata finds all messages."""
+    writer = start_bag(tmp_path / 'bag', topic('/ticks'), max_duration_ns=30 * MS)
+    for number in range(20):
+        writer.write(string('/ticks', str(number), number * 10 * MS))
+        if number == 7:
+            writer.set_topic(topic('/ticks', qos=LATCHED))
+    writer.close()
+    with AnyReader([tmp_path / 'bag']) as reader:
+        assert len(list(reader.messages())) == reader.message_count > 20
+
+
 def test_existing_folder_is_refused(tmp_path: Path) -> None:
     """Nothing is ever overwritten."""
     with pytest.raises(BagError, match='already exists: name another one'):

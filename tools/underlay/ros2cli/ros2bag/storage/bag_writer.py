@@ -48,6 +48,7 @@ class BagWriter:
         self._options = options
         self._find_definition = find_definition
         self._topics: dict[str, Topic] = {}
+        self._present: dict[str, Topic] = {}
         self._latched = LatchedMessages()
         self._finished: list[BagMetadata] = []
         self._is_open = True
@@ -60,12 +61,16 @@ class BagWriter:
         return self.metadata().span.message_count
 
     def set_topic(self, topic: Topic) -> None:
-        """Make a topic known, or what its publishers offer now."""
-        if topic.name in self._topics:
-            self._file.update_topic(topic)
-        else:
+        """
+        Make a topic known, or what its publishers offer now.
+
+        What is recorded of a topic is what was known first: readers want it to be the same in
+        all files and in `metadata.yaml`. Later publishers count for what is latched.
+        """
+        if topic.name not in self._topics:
+            self._topics[topic.name] = topic
             self._file.add_topic(topic, self._find_definition(topic.type_name))
-        self._topics[topic.name] = topic
+        self._present[topic.name] = topic
 
     def write(self, message: RecordedMessage) -> None:
         """Write a message of a topic that is known."""
@@ -75,7 +80,7 @@ class BagWriter:
             self._file.write(*message)
         except OSError as error:
             self._stop(error)
-        topic = self._topics[message.topic]
+        topic = self._present[message.topic]
         if topic.is_latched:
             self._latched.add(message, topic)
 

@@ -106,10 +106,6 @@ class McapFile:
         )
         self._topics[topic.name] = topic
 
-    def update_topic(self, topic: Topic) -> None:
-        """Note what the publishers of a known topic offer now, for the metadata."""
-        self._topics[topic.name] = topic
-
     def write(
         self, topic: str, data: bytes, log_ns: int, publish_ns: int, sequence: int = 0
     ) -> None:
