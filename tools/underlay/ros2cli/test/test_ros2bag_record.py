@@ -217,6 +217,19 @@ def test_weaker_publisher_is_heard_as_well(start_ros2: Start, tmp_path: Path) ->
     assert set(heard[-20:]) == {'strong', 'weak'}
 
 
+def test_without_discovery_later_topics_are_left_out(
+    start_talker: Callable[[], None], start_ros2: Start, tmp_path: Path
+) -> None:
+    """With --no-discovery only the topics that are there at the start are recorded."""
+    start_talker()
+    folder = tmp_path / 'bag'
+    process = start_ros2('bag', 'record', '-a', '-o', str(folder), '--no-discovery')
+    _wait_for_messages(folder / 'bag_0.mcap', 100)
+    _, errors = _stop(process)
+    assert "'/ticks'" in errors
+    assert "'/later'" not in errors
+
+
 def test_existing_folder_is_refused(ros2_here: Ros2, tmp_path: Path) -> None:
     """A folder that exists is left alone."""
     result = ros2_here('bag', 'record', '-a', '-o', str(tmp_path))

@@ -16,6 +16,7 @@ from ros2bag.api.qos_profiles import read_overrides
 from ros2bag.api.record_arguments import compression_of, filter_of, output_folder
 from ros2bag.api.recorder import Recorder
 from ros2bag.api.stop_signals import StopSignals
+from ros2bag.api.topic_filter import TopicFilter
 from ros2bag.storage.bag_writer import BagWriter, DEFAULT_DISTRO, WriterOptions
 from ros2bag.storage.definitions import Definition, definition_of
 from ros2cli.node.direct import DirectNode
@@ -36,25 +37,37 @@ def record(args: argparse.Namespace) -> None:
         if args.quiet:
             node.get_logger().set_level(LoggingSeverity.WARN)
         _wait_for_clock(node, args.use_sim_time, stop)
-        switch = PauseSwitch(args.start_paused, node.get_logger().info)
-        offer_pause_services(node, switch)
-        folder = output_folder(args)
-        writer = BagWriter(folder, _options(args), find_definition)
-        try:
-            recorder = Recorder(
-                node,
-                writer,
-                topic_filter,
-                switch,
-                use_sim_time=args.use_sim_time,
-                include_unpublished=args.include_unpublished_topics,
-                overrides=overrides,
-            )
-            _run(node, recorder, writer, switch, args, stop)
-        finally:
-            writer.close()
-        node.get_logger().info(f"Recorded {writer.message_count} messages to '{folder}'.")
+        if not stop:
+            _record(node, topic_filter, overrides, args, stop)
     stop.raise_if_any()
+
+
+def _record(
+    node: Any,
+    topic_filter: TopicFilter,
+    overrides: dict[str, Any],
+    args: argparse.Namespace,
+    stop: StopSignals,
+) -> None:
+    """Make the bag, record until a signal comes, and finish the bag whatever happens."""
+    folder = output_folder(args)
+    writer = BagWriter(folder, _options(args), find_definition)
+    switch = PauseSwitch(args.start_paused, node.get_logger().info)
+    offer_pause_services(node, switch)
+    recorder = Recorder(
+        node,
+        writer,
+        topic_filter,
+        switch,
+        use_sim_time=args.use_sim_time,
+        include_unpublished=args.include_unpublished_topics,
+        overrides=overrides,
+    )
+    try:
+        _run(node, recorder, writer, switch, args, stop)
+    finally:
+        writer.close()
+    node.get_logger().info(f"Recorded {writer.message_count} messages to '{folder}'.")
 
 
 def find_definition(type_name: str) -> Definition:
@@ -93,12 +106,16 @@ def _run(
         'Paused: SPACE or the service ~/resume starts.' if args.start_paused else 'Recording...'
     )
     patience = Patience('a topic that is to be recorded')
+    # Without discovery there is one look, when the graph is known.
+    period_s = float('inf') if args.no_discovery else args.polling_interval / 1e3
+    if args.no_discovery:
+        node.wait_for_graph()
     next_look_s = 0.0
     with Keyboard(enabled=not args.disable_keyboard_controls) as keyboard:
         while not stop:
             if time.monotonic() >= next_look_s:
                 recorder.discover()
-                next_look_s = time.monotonic() + args.polling_interval / 1e3
+                next_look_s = time.monotonic() + period_s
             node.spin_once(PERIOD_S)
             writer.flush_if_due()
             if SPACE in keyboard.pressed():
