@@ -19,7 +19,7 @@ setup(
     zip_safe=False,
     maintainer='Humanoid workspace maintainers',
     maintainer_email='maintainers@humanoid-workspace.dev',
-    description='The ros2 command line: launch, nodes, topics, services, actions and parameters.',
+    description='The ros2 command line: bags, launch, nodes, topics, services, actions and more.',
     license='Apache-2.0',
     extras_require={'test': ['pytest']},
 )

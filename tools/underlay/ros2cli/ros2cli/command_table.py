@@ -9,6 +9,7 @@ COMMANDS = {
     'action': Entry(
         'ros2action.command.action:ActionCommand', 'Various action related sub-commands'
     ),
+    'bag': Entry('ros2bag.command.bag:BagCommand', 'Various rosbag related sub-commands'),
     'component': Entry(
         'ros2component.command.component:ComponentCommand',
         'Various component related sub-commands',

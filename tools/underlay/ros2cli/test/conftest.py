@@ -15,6 +15,8 @@ import pytest
 from ros2cli.cli import main
 
 ROOT = Path(__file__).parents[1]
+# For what several test modules share.
+sys.path.insert(0, str(Path(__file__).parent))
 TIMEOUT_S = 30.0
 
 

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Publish the recorded time on /clock."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from ros2bag.api.pacing import Pacing
+
+__all__ = ['CLOCK_TOPIC', 'ClockOutlet']
+
+CLOCK_TOPIC = '/clock'
+NS_PER_S = 1_000_000_000
+
+
+class ClockOutlet:
+    """Publishes the recorded time so many times a second, also during a pause."""
+
+    def __init__(self, node: Any, rate_hz: float) -> None:
+        """Create the publisher."""
+        from rosgraph_msgs.msg import Clock
+
+        self._clock = Clock()
+        self._publisher = node.create_publisher(Clock, CLOCK_TOPIC, 10)
+        self._period_ns = int(NS_PER_S / rate_hz)
+        self._next_ns = 0
+
+    def tick(self, pacing: Pacing) -> int:
+        """Publish if it is time to, and return the nanoseconds until the next time."""
+        now_ns = time.monotonic_ns()
+        if now_ns >= self._next_ns:
+            self.publish(pacing.recorded_now_ns)
+            self._next_ns = max(self._next_ns + self._period_ns, now_ns)
+        return self._next_ns - now_ns
+
+    def publish(self, recorded_ns: int) -> None:
+        """Publish a time."""
+        stamp = self._clock.clock
+        stamp.sec, stamp.nanosec = divmod(max(0, recorded_ns), NS_PER_S)
+        self._publisher.publish(self._clock)

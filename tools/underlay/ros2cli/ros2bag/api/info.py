@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What `ros2 bag info` prints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from datetime import datetime
+import math
+
+from ros2bag.storage.bag_reader import BagReader
+from ros2bag.storage.metadata import BagMetadata, MessageSpan, TopicInformation
+from ros2bag.storage.offered_qos import OfferedQos
+
+__all__ = ['info_text', 'topic_names_text']
+
+COLUMN = 19
+NS_PER_S = 1_000_000_000
+KIB = 1024.0
+UNITS = ('B', 'KiB', 'MiB', 'GiB', 'TiB')
+
+
+def info_text(reader: BagReader, *, verbose: bool = False) -> str:
+    """Return the account of a recording."""
+    rows = [*_rows(reader), ('Topic information', _topics(reader.metadata, verbose))]
+    return '\n'.join(_row(title, lines) for title, lines in rows)
+
+
+def topic_names_text(reader: BagReader) -> str:
+    """Return the names of the topics, one a line."""
+    return '\n'.join(each.topic.name for each in reader.metadata.topics)
+
+
+def human_size(size_bytes: float) -> str:
+    """Return a size in a unit in which it is readable."""
+    if size_bytes < KIB:
+        return f'{size_bytes:.0f} B'
+    exponent = min(len(UNITS) - 1, int(math.log(size_bytes, KIB)))
+    return f'{size_bytes / KIB**exponent:.1f} {UNITS[exponent]}'
+
+
+def _rows(reader: BagReader) -> Iterator[tuple[str, list[str]]]:
+    metadata = reader.metadata
+    span = metadata.span
+    yield 'Files', [file.path for file in metadata.files]
+    yield 'Bag size', [human_size(reader.size_bytes)]
+    yield 'Storage id', [metadata.storage_identifier]
+    yield 'ROS Distro', [metadata.ros_distro or 'unknown']
+    yield 'Duration', [f'{_seconds(span.duration_ns)}s']
+    yield 'Start', [_moment(span, span.start_ns)]
+    yield 'End', [_moment(span, span.end_ns)]
+    yield 'Messages', [str(span.message_count)]
+    if metadata.compression_mode not in ('', 'none'):
+        yield 'Compression', [f'{metadata.compression_format}, by {metadata.compression_mode}']
+    for key, value in metadata.custom_data.items():
+        yield 'Custom data', [f'{key}: {value}']
+
+
+def _row(title: str, lines: list[str]) -> str:
+    heads = [f'{title}:'.ljust(COLUMN), *(' ' * COLUMN for _ in lines[1:])]
+    return '\n'.join(f'{head}{line}'.rstrip() for head, line in zip(heads, lines or ['']))
+
+
+def _topics(metadata: BagMetadata, verbose: bool) -> list[str]:
+    lines = []
+    for each in metadata.topics:
+        lines.append(
+            f'Topic: {each.topic.name} | Type: {each.topic.type_name} | '
+            f'Count: {each.message_count} | '
+            f'Serialization Format: {each.topic.serialization_format}'
+        )
+        if verbose:
+            lines.extend(_details(each, metadata.span))
+    return lines
+
+
+def _details(information: TopicInformation, span: MessageSpan) -> Iterator[str]:
+    if span.duration_ns:
+        yield f'    Average rate: {information.message_count * NS_PER_S / span.duration_ns:.3g} Hz'
+    if information.topic.type_hash:
+        yield f'    Type hash: {information.topic.type_hash}'
+    for qos in information.topic.offered_qos:
+        yield f'    Offered QoS: {_qos(qos)}'
+
+
+def _qos(qos: OfferedQos) -> str:
+    return f'{qos.reliability}, {qos.durability}, {qos.history} (depth {qos.depth})'
+
+
+def _seconds(duration_ns: int) -> str:
+    """Return a duration in seconds to the nanosecond, without zeros at the end."""
+    seconds, rest = divmod(duration_ns, NS_PER_S)
+    return f'{seconds}.{rest:09d}'.rstrip('0').rstrip('.')
+
+
+def _moment(span: MessageSpan, time_ns: int) -> str:
+    """Return a time as people read it and as ROS has it."""
+    if not span.message_count:
+        return 'none'
+    seconds, rest = divmod(time_ns, NS_PER_S)
+    local = datetime.fromtimestamp(seconds).strftime('%b %d %Y %H:%M:%S')
+    return f'{local}.{rest:09d} ({seconds}.{rest:09d})'

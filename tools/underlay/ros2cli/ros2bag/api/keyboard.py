@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Single keys from the terminal, without waiting for them."""
+
+from __future__ import annotations
+
+import os
+import select
+import sys
+import termios
+from types import TracebackType
+from typing import Any
+
+__all__ = ['DOWN', 'RIGHT', 'SPACE', 'UP', 'Keyboard']
+
+SPACE, UP, DOWN, RIGHT = ' ', '\x1b[A', '\x1b[B', '\x1b[C'
+MAX_BYTES = 64
+
+
+class Keyboard:
+    """The keys pressed while in a `with` statement; none if stdin is no terminal of ours."""
+
+    def __init__(self, *, enabled: bool) -> None:
+        """Do nothing before the `with`."""
+        self._is_wanted = enabled
+        self._before: list[Any] | None = None
+
+    def __enter__(self) -> Keyboard:
+        """Let the terminal hand over each key at once; Ctrl-C stays a signal."""
+        if self._is_wanted and _is_in_foreground():
+            self._before = termios.tcgetattr(sys.stdin)
+            raw = termios.tcgetattr(sys.stdin)
+            raw[3] &= ~(termios.ICANON | termios.ECHO)
+            termios.tcsetattr(sys.stdin, termios.TCSADRAIN, raw)
+        return self
+
+    @property
+    def is_active(self) -> bool:
+        """Tell if keys can come."""
+        return self._before is not None
+
+    def pressed(self) -> str:
+        """Return what was pressed since the last call; '' is nothing."""
+        if self._before is None or not select.select([sys.stdin], [], [], 0)[0]:
+            return ''
+        return os.read(sys.stdin.fileno(), MAX_BYTES).decode(errors='ignore')
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Leave the terminal as it was."""
+        if self._before is not None:
+            termios.tcsetattr(sys.stdin, termios.TCSADRAIN, self._before)
+
+
+def _is_in_foreground() -> bool:
+    """Tell if stdin is a terminal that is not somebody else's at the moment."""
+    if sys.stdin is None or not sys.stdin.isatty():
+        return False
+    try:
+        return os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()
+    except OSError:
+        return False

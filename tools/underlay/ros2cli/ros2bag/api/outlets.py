@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The publishers of a recording that is played."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+import time
+from typing import Any
+
+from rclpy.duration import Duration
+from rclpy.qos import ReliabilityPolicy
+from ros2bag.api.qos_profiles import playback_profile
+from ros2bag.storage.metadata import Topic
+from ros2cli.messages.lookup import get_message, UnknownType
+from ros2cli.node.graph import foreign_subscriptions
+
+__all__ = ['Outlets']
+
+MATCH_S = 2.0
+PERIOD_S = 0.02
+HASH_START = 'RIHS01_'
+
+
+class Outlets:
+    """One publisher a topic, under the name that it is to have."""
+
+    def __init__(
+        self,
+        node: Any,
+        topics: Iterable[Topic],
+        names: Mapping[str, str],
+        overrides: Mapping[str, Any],
+    ) -> None:
+        """Create the publishers; a type that is not installed is a warning."""
+        self._node = node
+        self._publishers: dict[str, Any] = {}
+        for topic in topics:
+            publisher, reason = self._create(topic, names, overrides)
+            if reason:
+                node.get_logger().warning(f"Topic '{topic.name}' is not played: {reason}")
+            else:
+                self._publishers[topic.name] = publisher
+
+    @property
+    def topics(self) -> list[str]:
+        """Return the recorded names of the topics that are published."""
+        return list(self._publishers)
+
+    def publish(self, topic: str, data: bytes) -> None:
+        """Publish a serialized message."""
+        self._publishers[topic].publish(data)
+
+    def wait_for_subscribers(self) -> None:
+        """Wait until the subscribers that are there already are connected."""
+        self._node.wait_for_graph()
+        end = time.monotonic() + MATCH_S
+        while time.monotonic() < end and not all(map(self._is_matched, self._publishers.values())):
+            self._node.spin_once(PERIOD_S)
+
+    def wait_until_acked(self, limit_ms: float) -> None:
+        """Wait until reliable subscribers have all messages; zero is without a limit."""
+        end = time.monotonic() + (limit_ms / 1e3 or float('inf'))
+        for publisher in self._publishers.values():
+            reliability = publisher.qos_profile.reliability
+            while reliability == ReliabilityPolicy.RELIABLE and time.monotonic() < end:
+                if publisher.wait_for_all_acked(Duration(seconds=PERIOD_S)):
+                    break
+
+    def _create(
+        self, topic: Topic, names: Mapping[str, str], overrides: Mapping[str, Any]
+    ) -> tuple[Any, str]:
+        """Return the publisher, or why there can be none."""
+        try:
+            message_type = get_message(topic.type_name)
+        except UnknownType as error:
+            return None, str(error)
+        profile = overrides.get(topic.name) or playback_profile(topic)
+        name = names.get(topic.name, topic.name)
+        publisher = self._node.create_publisher(message_type, name, profile)
+        if topic.type_hash.startswith(HASH_START) and topic.type_hash not in self._hashes(name):
+            self._node.destroy_publisher(publisher)
+            return None, f"the definition of '{topic.type_name}' has changed since it was recorded"
+        return publisher, ''
+
+    def _hashes(self, name: str) -> set[str]:
+        """Return the hashes of the types of our own publishers of a topic."""
+        return {
+            str(info.topic_type_hash)
+            for info in self._node.get_publishers_info_by_topic(name)
+            if info.node_name == self._node.get_name()
+        }
+
+    def _is_matched(self, publisher: Any) -> bool:
+        """Tell if at least one of those who listen to a topic is connected."""
+        others = foreign_subscriptions(self._node, publisher.topic_name)
+        return not others or publisher.get_subscription_count() > 0

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What `ros2 bag play` does from beginning to end."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from itertools import islice, takewhile
+from typing import Any
+
+from ros2bag.api.clock_outlet import CLOCK_TOPIC, ClockOutlet
+from ros2bag.api.keyboard import Keyboard
+from ros2bag.api.outlets import Outlets
+from ros2bag.api.pacing import Pacing
+from ros2bag.api.pause import offer_pause_services, PauseSwitch
+from ros2bag.api.play_arguments import filter_of, remaps
+from ros2bag.api.player import Player
+from ros2bag.api.qos_profiles import read_overrides
+from ros2bag.storage.bag_reader import BagReader
+from ros2bag.storage.errors import BagError
+from ros2bag.storage.latched import RecordedMessage
+from ros2bag.storage.metadata import Topic
+from ros2cli.node.direct import DirectNode
+from ros2cli.suggest import did_you_mean
+
+__all__ = ['play']
+
+NODE_NAME = 'rosbag2_player'
+NS_PER_S = 1_000_000_000
+FOR_EVER_NS = 2**63 - 1
+
+
+def play(args: argparse.Namespace) -> None:
+    """Play a recording; RuntimeError says why that is not possible."""
+    reader = BagReader(args.bag_path)
+    reader.check()
+    topics = _chosen_topics(reader, args)
+    names, overrides = remaps(args), read_overrides(args.qos_profile_overrides_path)
+    with (
+        DirectNode(args, node_name=NODE_NAME, wait=False) as node,
+        Keyboard(enabled=not args.disable_keyboard_controls) as keyboard,
+    ):
+        outlets = Outlets(node, topics, names, overrides)
+        clock = ClockOutlet(node, args.clock) if args.clock else None
+        switch = PauseSwitch(args.start_paused, node.get_logger().info)
+        offer_pause_services(node, switch)
+        outlets.wait_for_subscribers()
+        if args.start_paused:
+            node.get_logger().info('Paused: SPACE or the service ~/resume starts.')
+        player = Player(node, outlets, clock, switch, keyboard)
+        _play_all(player, reader, outlets, node, args)
+        outlets.wait_until_acked(args.wait_for_all_acked)
+
+
+def _chosen_topics(reader: BagReader, args: argparse.Namespace) -> list[Topic]:
+    """Return the topics that are played; RuntimeError names one that was not recorded."""
+    known = [each.topic for each in reader.metadata.topics]
+    chosen = filter_of(args)
+    names = [topic.name for topic in known]
+    for name in sorted(chosen.topics.difference(names)):
+        raise BagError(
+            f"'{args.bag_path}' has no topic '{name}'. {did_you_mean(name, names)}".rstrip()
+        )
+    return [
+        topic
+        for topic in known
+        if chosen.wants(topic.name, topic.type_name)
+        and not (args.clock and topic.name == CLOCK_TOPIC)
+    ]
+
+
+def _play_all(
+    player: Player, reader: BagReader, outlets: Outlets, node: Any, args: argparse.Namespace
+) -> None:
+    start_ns = reader.metadata.span.start_ns + int(args.start_offset * NS_PER_S)
+    limited = args.playback_duration >= 0
+    end_ns = start_ns + int(args.playback_duration * NS_PER_S) if limited else FOR_EVER_NS
+    _rest(player, start_ns, args.delay)
+    while True:
+        messages = _messages(reader, outlets.topics, start_ns, end_ns)
+        count = player.play(islice(messages, args.num_messages), Pacing(start_ns, args.rate))
+        if not count:
+            raise BagError(f"'{args.bag_path}' has no messages in what was chosen")
+        if not args.loop:
+            node.get_logger().info(f'Played {count} messages.')
+            return
+
+
+def _messages(
+    reader: BagReader, topics: list[str], start_ns: int, end_ns: int
+) -> Iterator[RecordedMessage]:
+    return takewhile(lambda message: message.log_ns <= end_ns, reader.messages(topics, start_ns))
+
+
+def _rest(player: Player, start_ns: int, delay_s: float) -> None:
+    """Let the time before the first message pass."""
+    player.rest_until(start_ns, Pacing(start_ns - int(delay_s * NS_PER_S), 1.0))

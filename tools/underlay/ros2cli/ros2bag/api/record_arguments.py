@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The options of `ros2 bag record`; importing this does not import rclpy."""
+
+from __future__ import annotations
+
+import argparse
+from datetime import datetime
+
+from ros2bag.api.argument_types import count, not_negative
+from ros2bag.api.topic_filter import regular_expression, TopicFilter
+from ros2cli.argument_types import positive_number
+from ros2cli.names import absolute
+
+__all__ = ['add_record_arguments', 'compression_of', 'filter_of', 'output_folder', 'usage_error']
+
+PRESETS = {'none': 'none', 'fastwrite': 'none', 'zstd_fast': 'zstd', 'zstd_small': 'zstd'}
+
+
+def add_record_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the choice of topics, the output and the way of recording."""
+    _add_choice(parser)
+    _add_output(parser)
+    _add_compression(parser)
+    _add_behaviour(parser)
+
+
+def _add_choice(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group('what is recorded')
+    group.add_argument(
+        'topics_positional', nargs='*', metavar='topic', help='a topic to record, as with --topics'
+    )
+    group.add_argument(
+        '-a', '--all', '--all-topics', action='store_true', help='record all topics'
+    )
+    group.add_argument(
+        '--topics', nargs='+', default=[], metavar='TOPIC', help='record these topics'
+    )
+    group.add_argument(
+        '--topic-types', nargs='+', default=[], metavar='TYPE', help='record topics of these types'
+    )
+    group.add_argument(
+        '-e',
+        '--regex',
+        type=regular_expression,
+        help='record the topics in whose names this regular expression is found',
+    )
+    group.add_argument(
+        '-x',
+        '--exclude-regex',
+        '--exclude',
+        type=regular_expression,
+        help='leave out the topics in whose names this regular expression is found',
+    )
+    group.add_argument(
+        '--exclude-topics', nargs='+', default=[], metavar='TOPIC', help='leave out these topics'
+    )
+    group.add_argument(
+        '--exclude-topic-types',
+        nargs='+',
+        default=[],
+        metavar='TYPE',
+        help='leave out topics of these types',
+    )
+    group.add_argument(
+        '--include-hidden-topics', action='store_true', help='consider hidden topics as well'
+    )
+    group.add_argument(
+        '--include-unpublished-topics',
+        action='store_true',
+        help='keep topics that have subscribers only, in the list of the recorded ones',
+    )
+
+
+def _add_output(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group('output')
+    group.add_argument(
+        '-o',
+        '--output',
+        help='the folder that is made for the bag (default: rosbag2_ with the date and time)',
+    )
+    group.add_argument(
+        '-s', '--storage', choices=['mcap'], default='mcap', help='format of the files'
+    )
+    group.add_argument(
+        '-b',
+        '--max-bag-size',
+        type=count,
+        default=0,
+        metavar='BYTES',
+        help='start a new file when one has this size (default: no limit)',
+    )
+    group.add_argument(
+        '-d',
+        '--max-bag-duration',
+        type=not_negative,
+        default=0,
+        metavar='SECONDS',
+        help='start a new file after this time; each has the latched messages (default: no limit)',
+    )
+    group.add_argument(
+        '--custom-data',
+        nargs='+',
+        default=[],
+        type=_key_and_value,
+        metavar='KEY=VALUE',
+        help='texts that are kept in metadata.yaml',
+    )
+
+
+def _add_compression(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group('compression, of the chunks inside the MCAP files')
+    group.add_argument(
+        '--compression-mode',
+        choices=['none', 'file', 'message'],
+        default=None,
+        help='none, or one of the other two, which mean the same here',
+    )
+    group.add_argument(
+        '--compression-format', choices=['zstd', 'lz4'], help='how chunks are compressed'
+    )
+    group.add_argument(
+        '--storage-preset-profile',
+        choices=sorted(PRESETS),
+        default='none',
+        help='another way to choose the compression',
+    )
+
+
+def _add_behaviour(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group('behaviour')
+    group.add_argument(
+        '--use-sim-time', action='store_true', help='record with the time of the topic /clock'
+    )
+    group.add_argument(
+        '--start-paused',
+        action='store_true',
+        help='record nothing until SPACE is pressed or the service ~/resume called',
+    )
+    group.add_argument(
+        '--no-discovery', action='store_true', help='only topics that are there at the start'
+    )
+    group.add_argument(
+        '-p',
+        '--polling-interval',
+        type=positive_number,
+        default=100,
+        metavar='MS',
+        help='time between looks for new topics, in milliseconds (default: %(default)s)',
+    )
+    group.add_argument(
+        '--qos-profile-overrides-path',
+        metavar='FILE',
+        help='a YAML file with the quality of service of subscriptions, by topic',
+    )
+    group.add_argument(
+        '--node-name', default='rosbag2_recorder', help='name of the node (default: %(default)s)'
+    )
+    group.add_argument(
+        '--disable-keyboard-controls', action='store_true', help='do not listen to SPACE'
+    )
+    group.add_argument('-q', '--quiet', action='store_true', help='print warnings only')
+
+
+def filter_of(args: argparse.Namespace) -> TopicFilter:
+    """Return the choice of topics; RuntimeError for what is no name of a topic."""
+    return TopicFilter(
+        everything=args.all,
+        topics=frozenset(absolute(name) for name in [*args.topics, *args.topics_positional]),
+        types=frozenset(args.topic_types),
+        regex=args.regex,
+        excluded_topics=frozenset(absolute(name) for name in args.exclude_topics),
+        excluded_types=frozenset(args.exclude_topic_types),
+        excluded_regex=args.exclude_regex,
+        include_hidden=args.include_hidden_topics,
+    )
+
+
+def usage_error(args: argparse.Namespace) -> str:
+    """Return what is contradictory or missing in the options, or ''."""
+    chosen = [args.topics_positional, args.topics, args.topic_types, args.regex]
+    if args.all and any(chosen):
+        return 'Name topics, types or a regular expression, or all topics with -a, but not both.'
+    if not args.all and not any(chosen):
+        return 'Nothing is chosen: name topics after --topics, or record all of them with -a.'
+    if args.compression_mode in ('file', 'message') and not args.compression_format:
+        return 'Choose the compression as well: --compression-format zstd or lz4.'
+    return ''
+
+
+def compression_of(args: argparse.Namespace) -> str:
+    """Return the compression of the chunks."""
+    if args.compression_format and args.compression_mode != 'none':
+        return str(args.compression_format)
+    return PRESETS[args.storage_preset_profile]
+
+
+def output_folder(args: argparse.Namespace) -> str:
+    """Return the folder of the recording."""
+    return args.output or datetime.now().strftime('rosbag2_%Y_%m_%d-%H_%M_%S')
+
+
+def _key_and_value(text: str) -> tuple[str, str]:
+    key, separator, value = text.partition('=')
+    if not (key and separator):
+        raise argparse.ArgumentTypeError(f'{text!r} is not of the form KEY=VALUE')
+    return key, value

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The subscription to one topic that is recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.event_handler import SubscriptionEventCallbacks
+from ros2bag.api.qos_profiles import offered_by
+from ros2bag.storage.metadata import Topic
+from ros2topic.api.qos import matching_qos
+
+__all__ = ['RecordedTopic']
+
+
+class RecordedTopic:
+    """
+    Receives the serialized messages of a topic, with what its publishers offer.
+
+    When a publisher appears that offers less than the others, the subscription is made anew so
+    that it hears all of them.
+    """
+
+    def __init__(
+        self,
+        node: Any,
+        name: str,
+        message_type: Any,
+        receive: Callable[[bytes, dict[str, int]], None],
+        override: Any = None,
+    ) -> None:
+        """Prepare the subscription; `update` makes it."""
+        self._node = node
+        self._name = name
+        self._message_type = message_type
+        self._receive = receive
+        self._override = override
+        self._profile: Any = None
+        self._subscription: Any = None
+
+    def update(self, type_name: str, publishers: list[Any]) -> Topic:
+        """Subscribe so that all publishers are heard, and describe the topic."""
+        profile = self._override or matching_qos(publishers)[0]
+        if self._subscription is None or self._is_weaker(profile):
+            self._subscribe(profile)
+        hashes = (str(info.topic_type_hash) for info in publishers)
+        return Topic(self._name, type_name, next(hashes, ''), offered_by(publishers))
+
+    def _is_weaker(self, profile: Any) -> bool:
+        """Tell if a publisher now offers less than what the subscription asks for."""
+        return bool(
+            profile.reliability > self._profile.reliability
+            or profile.durability > self._profile.durability
+        )
+
+    def _subscribe(self, profile: Any) -> None:
+        if self._subscription is not None:
+            self._node.destroy_subscription(self._subscription)
+        # Without an override nothing stays incompatible: see `update`.
+        events = SubscriptionEventCallbacks(use_default_callbacks=self._override is not None)
+        self._profile = profile
+        self._subscription = self._node.create_subscription(
+            self._message_type,
+            self._name,
+            # rclpy looks at how many arguments a callback has.
+            lambda data, info: self._receive(data, info),
+            profile,
+            event_callbacks=events,
+            raw=True,
+        )

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Record topics: find them, subscribe, and hand their messages to the writer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import time
+from typing import Any
+
+from ros2bag.api.pause import PauseSwitch
+from ros2bag.api.recorded_topic import RecordedTopic
+from ros2bag.api.topic_filter import TopicFilter
+from ros2bag.storage.bag_writer import BagWriter
+from ros2bag.storage.latched import RecordedMessage
+from ros2bag.storage.metadata import Topic
+from ros2cli.messages.lookup import get_message, UnknownType
+from ros2cli.node.graph import foreign_publishers
+from ros2topic.api import get_topic_names_and_types
+
+__all__ = ['Recorder']
+
+
+class Recorder:
+    """Everything that is received while it runs goes to a writer."""
+
+    def __init__(
+        self,
+        node: Any,
+        writer: BagWriter,
+        topic_filter: TopicFilter,
+        switch: PauseSwitch,
+        *,
+        use_sim_time: bool = False,
+        include_unpublished: bool = False,
+        overrides: dict[str, Any] | None = None,
+    ) -> None:
+        """Subscribe to nothing yet."""
+        self._node = node
+        self._writer = writer
+        self._filter = topic_filter
+        self._switch = switch
+        self._use_sim_time = use_sim_time
+        self._include_unpublished = include_unpublished
+        self._overrides = overrides or {}
+        self._topics: dict[str, RecordedTopic | None] = {}
+        self._latched: set[str] = set()
+        self._publisher_counts: dict[str, int] = {}
+        self._held: list[RecordedMessage] = []
+
+    @property
+    def topic_count(self) -> int:
+        """Return how many topics are subscribed to."""
+        return sum(topic is not None for topic in self._topics.values())
+
+    def discover(self) -> None:
+        """Subscribe to topics that have appeared, and follow their publishers."""
+        for name, types in get_topic_names_and_types(node=self._node, include_hidden_topics=True):
+            if self._filter.wants(name, types[0]) and self._has_changed(name):
+                self._follow(name, types)
+
+    def release_held(self) -> None:
+        """Record the latched messages that came during a pause, which is over."""
+        held, self._held = self._held, []
+        for message in held:
+            self._writer.write(message._replace(log_ns=self._now_ns()))
+
+    def _has_changed(self, name: str) -> bool:
+        """Tell if a topic has other publishers than at the last look."""
+        count = self._node.count_publishers(name)
+        if count == self._publisher_counts.get(name, 0) and not (
+            self._include_unpublished and name not in self._topics
+        ):
+            return False
+        self._publisher_counts[name] = count
+        return True
+
+    def _follow(self, name: str, types: list[str]) -> None:
+        publishers = foreign_publishers(self._node, name)
+        if name not in self._topics and (publishers or self._include_unpublished):
+            self._topics[name] = self._create(name, types)
+        topic = self._topics.get(name)
+        if topic is not None and (publishers or self._include_unpublished):
+            self._note(topic.update(types[0], publishers))
+
+    def _note(self, topic: Topic) -> None:
+        self._writer.set_topic(topic)
+        if topic.is_latched:
+            self._latched.add(topic.name)
+
+    def _create(self, name: str, types: list[str]) -> RecordedTopic | None:
+        """Return the subscription, or say why this topic cannot be recorded."""
+        logger = self._node.get_logger()
+        if len(types) > 1:
+            logger.warning(f"Topic '{name}' is not recorded: it has types {', '.join(types)}")
+            return None
+        try:
+            message_type = get_message(types[0])
+        except UnknownType as error:
+            logger.warning(f"Topic '{name}' is not recorded: {error}")
+            return None
+        logger.info(f"Subscribed to topic '{name}'")
+        return RecordedTopic(
+            self._node, name, message_type, self._receiver(name), self._overrides.get(name)
+        )
+
+    def _receiver(self, name: str) -> Callable[[bytes, dict[str, int]], None]:
+        def receive(data: bytes, info: dict[str, int]) -> None:
+            log_ns = self._now_ns() if self._use_sim_time else info['received_timestamp']
+            sequence = info['publication_sequence_number'] or 0
+            message = RecordedMessage(name, data, log_ns, info['source_timestamp'], sequence)
+            if not self._switch.is_paused:
+                self._writer.write(message)
+            elif name in self._latched:
+                self._held.append(message)
+
+        return receive
+
+    def _now_ns(self) -> int:
+        if self._use_sim_time:
+            return int(self._node.get_clock().now().nanoseconds)
+        return time.time_ns()

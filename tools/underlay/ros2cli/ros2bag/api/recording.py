@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What `ros2 bag record` does from beginning to end."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import time
+from typing import Any
+
+from ament_index_python.packages import get_package_share_directory
+from rclpy.logging import LoggingSeverity
+from ros2bag.api.keyboard import Keyboard, SPACE
+from ros2bag.api.pause import offer_pause_services, PauseSwitch
+from ros2bag.api.qos_profiles import read_overrides
+from ros2bag.api.record_arguments import compression_of, filter_of, output_folder
+from ros2bag.api.recorder import Recorder
+from ros2bag.api.stop_signals import StopSignals
+from ros2bag.api.topic_filter import TopicFilter
+from ros2bag.storage.bag_writer import BagWriter, DEFAULT_DISTRO, WriterOptions
+from ros2bag.storage.definitions import Definition, definition_of
+from ros2cli.node.direct import DirectNode
+from ros2cli.patience import Patience
+
+__all__ = ['record']
+
+PERIOD_S = 0.02
+NS_PER_S = 1_000_000_000
+
+
+def record(args: argparse.Namespace) -> None:
+    """Record until a signal comes; RuntimeError says why nothing, or no more, can be recorded."""
+    topic_filter = filter_of(args)
+    overrides = read_overrides(args.qos_profile_overrides_path)
+    stop = StopSignals()
+    with DirectNode(args, node_name=args.node_name, wait=False) as node, stop:
+        if args.quiet:
+            node.get_logger().set_level(LoggingSeverity.WARN)
+        _wait_for_clock(node, args.use_sim_time, stop)
+        if not stop:
+            _record(node, topic_filter, overrides, args, stop)
+    stop.raise_if_any()
+
+
+def _record(
+    node: Any,
+    topic_filter: TopicFilter,
+    overrides: dict[str, Any],
+    args: argparse.Namespace,
+    stop: StopSignals,
+) -> None:
+    """Make the bag, record until a signal comes, and finish the bag whatever happens."""
+    folder = output_folder(args)
+    writer = BagWriter(folder, _options(args), find_definition)
+    switch = PauseSwitch(args.start_paused, node.get_logger().info)
+    offer_pause_services(node, switch)
+    recorder = Recorder(
+        node,
+        writer,
+        topic_filter,
+        switch,
+        use_sim_time=args.use_sim_time,
+        include_unpublished=args.include_unpublished_topics,
+        overrides=overrides,
+    )
+    try:
+        _run(node, recorder, writer, switch, args, stop)
+    finally:
+        writer.close()
+    node.get_logger().info(f"Recorded {writer.message_count} messages to '{folder}'.")
+
+
+def find_definition(type_name: str) -> Definition:
+    """Return the definition of a type that is installed."""
+    return definition_of(type_name, get_package_share_directory)
+
+
+def _options(args: argparse.Namespace) -> WriterOptions:
+    return WriterOptions(
+        compression=compression_of(args),
+        max_bytes=args.max_bag_size,
+        max_duration_ns=int(args.max_bag_duration * NS_PER_S),
+        ros_distro=os.environ.get('ROS_DISTRO', DEFAULT_DISTRO),
+        custom_data=dict(args.custom_data),
+    )
+
+
+def _wait_for_clock(node: Any, use_sim_time: bool, stop: StopSignals) -> None:
+    """Wait for the simulated time; what came before it could not be given a time."""
+    patience = Patience('the time on /clock')
+    while use_sim_time and not stop and not node.get_clock().now().nanoseconds:
+        node.spin_once(PERIOD_S)
+        patience.check()
+
+
+def _run(
+    node: Any,
+    recorder: Recorder,
+    writer: BagWriter,
+    switch: PauseSwitch,
+    args: argparse.Namespace,
+    stop: StopSignals,
+) -> None:
+    logger = node.get_logger()
+    logger.info(
+        'Paused: SPACE or the service ~/resume starts.' if args.start_paused else 'Recording...'
+    )
+    patience = Patience('a topic that is to be recorded')
+    # Without discovery there is one look, when the graph is known.
+    period_s = float('inf') if args.no_discovery else args.polling_interval / 1e3
+    if args.no_discovery:
+        node.wait_for_graph()
+    next_look_s = 0.0
+    with Keyboard(enabled=not args.disable_keyboard_controls) as keyboard:
+        while not stop:
+            if time.monotonic() >= next_look_s:
+                recorder.discover()
+                next_look_s = time.monotonic() + period_s
+            node.spin_once(PERIOD_S)
+            writer.flush_if_due()
+            if SPACE in keyboard.pressed():
+                switch.toggle()
+            if not switch.is_paused:
+                recorder.release_held()
+            if not recorder.topic_count:
+                patience.check()

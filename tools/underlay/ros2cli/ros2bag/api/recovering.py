@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What `ros2 bag recover` prints while it works."""
+
+from __future__ import annotations
+
+import sys
+import time
+
+from ros2bag.storage.recovery import BROKEN_SUFFIX, recover, RecoveredFile
+
+__all__ = ['recover_and_report']
+
+PERIOD_S = 2.0
+
+
+def recover_and_report(folder: str) -> None:
+    """Recover a recording and say what became of its files."""
+    outcomes = recover(folder, _Progress())
+    for each in outcomes:
+        print(_outcome_text(each))
+    total = sum(each.message_count for each in outcomes)
+    print(f'{folder}: {total} messages; metadata.yaml is written')
+
+
+def _outcome_text(outcome: RecoveredFile) -> str:
+    if not outcome.was_broken:
+        return f'{outcome.path}: whole, {outcome.message_count} messages'
+    damage = f', {outcome.damaged_chunks} damaged parts left out' if outcome.damaged_chunks else ''
+    return (
+        f'{outcome.path}: recovered {outcome.message_count} messages{damage}; what it was is '
+        f'in {outcome.path}{BROKEN_SUFFIX}, which can be deleted'
+    )
+
+
+class _Progress:
+    """Says from time to time how far the work is."""
+
+    def __init__(self) -> None:
+        self._next_s = time.monotonic() + PERIOD_S
+
+    def __call__(self, path: str, share: float) -> None:
+        if time.monotonic() >= self._next_s:
+            self._next_s = time.monotonic() + PERIOD_S
+            print(f'{path}: {share:.0%} read', file=sys.stderr)

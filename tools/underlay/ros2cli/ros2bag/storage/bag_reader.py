@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Read a recording: its metadata and its messages in the order of their times."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+import os
+
+from ros2bag.storage.errors import BagError
+from ros2bag.storage.latched import RecordedMessage
+from ros2bag.storage.metadata import BagMetadata
+from ros2bag.storage.metadata_yaml import FILE_NAME, metadata_from_text
+
+__all__ = ['BagReader']
+
+
+class BagReader:
+    """A recording: the folder of one, or a single MCAP file."""
+
+    def __init__(self, path: str) -> None:
+        """Read the metadata; BagError says why that is not possible."""
+        self.path = path
+        if os.path.isdir(path):
+            self._folder = path
+            self.metadata = _read_metadata(path)
+        elif os.path.isfile(path):
+            from ros2bag.storage.mcap_summary import describe_file
+
+            self._folder = os.path.dirname(path)
+            self.metadata = describe_file(path)
+        else:
+            raise BagError(_missing_text(path))
+
+    @property
+    def size_bytes(self) -> int:
+        """Return how large the files are that exist."""
+        return sum(os.path.getsize(path) for path in self._paths() if os.path.exists(path))
+
+    def check(self) -> None:
+        """Raise BagError if the messages cannot be read from all files."""
+        metadata = self.metadata
+        if metadata.storage_identifier != 'mcap' or metadata.compression_mode not in ('', 'none'):
+            raise BagError(_foreign_text(self.path, metadata))
+        from ros2bag.storage.mcap_summary import describe_file
+
+        for path in self._paths():
+            describe_file(path)
+
+    def messages(
+        self, topics: Collection[str] | None = None, start_ns: int = 0
+    ) -> Iterator[RecordedMessage]:
+        """Yield the messages of these topics, or of all, from a time on."""
+        from mcap.reader import SeekingReader
+
+        for path in self._paths():
+            with open(path, 'rb') as stream:
+                reader = SeekingReader(stream)
+                for _, channel, message in reader.iter_messages(topics, starting_at=start_ns):
+                    yield RecordedMessage(
+                        channel.topic,
+                        message.data,
+                        message.log_time,
+                        message.publish_time,
+                        message.sequence,
+                    )
+
+    def _paths(self) -> list[str]:
+        return [os.path.join(self._folder, file.path) for file in self.metadata.files]
+
+
+def _read_metadata(folder: str) -> BagMetadata:
+    path = os.path.join(folder, FILE_NAME)
+    try:
+        with open(path, encoding='utf-8') as stream:
+            return metadata_from_text(stream.read(), path)
+    except FileNotFoundError as error:
+        raise BagError(_no_metadata_text(folder)) from error
+
+
+def _no_metadata_text(folder: str) -> str:
+    if any(name.endswith('.mcap') for name in os.listdir(folder)):
+        return (
+            f"'{folder}' has no {FILE_NAME}: its recording is still running or was not finished. "
+            f'What it has can be saved: ros2 bag recover {folder}'
+        )
+    return f"'{folder}' is not the folder of a recording: it has no {FILE_NAME}"
+
+
+def _missing_text(path: str) -> str:
+    from ros2cli.suggest import did_you_mean
+
+    folder, name = os.path.split(os.path.abspath(path))
+    known = os.listdir(folder) if os.path.isdir(folder) else []
+    return f"Bag path '{path}' does not exist! {did_you_mean(name, known)}".rstrip()
+
+
+def _foreign_text(path: str, metadata: BagMetadata) -> str:
+    what = (
+        f'compressed ({metadata.compression_format}, by {metadata.compression_mode})'
+        if metadata.storage_identifier == 'mcap'
+        else f"in the format '{metadata.storage_identifier}'"
+    )
+    return (
+        f"'{path}' is {what}, and only plain MCAP is read here. Convert it first: "
+        f'pip install rosbags; rosbags-convert --src {path} --dst {path.rstrip("/")}_mcap '
+        '--dst-storage mcap'
+    )

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Write a recording: a folder with files, split by size or time, and `metadata.yaml`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+import errno
+import os
+from typing import NoReturn
+
+from ros2bag.storage.definitions import Definition
+from ros2bag.storage.errors import BagError
+from ros2bag.storage.latched import LatchedMessages, RecordedMessage
+from ros2bag.storage.mcap_file import McapFile
+from ros2bag.storage.metadata import BagMetadata, Topic
+from ros2bag.storage.metadata_yaml import FILE_NAME, metadata_to_text
+from ros2bag.storage.reserve import Reserve
+from ros2bag.storage.summary import merged
+
+__all__ = ['BagWriter', 'WriterOptions']
+
+DEFAULT_DISTRO = 'jazzy'
+
+
+@dataclass(frozen=True)
+class WriterOptions:
+    """How a recording is written; zero means no limit."""
+
+    compression: str = 'none'
+    max_bytes: int = 0
+    max_duration_ns: int = 0
+    ros_distro: str = DEFAULT_DISTRO
+    custom_data: Mapping[str, str] = field(default_factory=dict)
+
+
+class BagWriter:
+    """A recording that is being written; BagError tells that it had to end."""
+
+    def __init__(
+        self,
+        folder: str,
+        options: WriterOptions,
+        find_definition: Callable[[str], Definition],
+    ) -> None:
+        """Create the folder, which must not exist, and its first file."""
+        self._folder = os.path.abspath(folder)
+        self._options = options
+        self._find_definition = find_definition
+        self._topics: dict[str, Topic] = {}
+        self._present: dict[str, Topic] = {}
+        self._latched = LatchedMessages()
+        self._finished: list[BagMetadata] = []
+        self._is_open = True
+        self._reserve = self._start(folder)
+        self._file = self._create_file(0)
+
+    @property
+    def message_count(self) -> int:
+        """Return how many messages have been written to all files."""
+        return self.metadata().span.message_count
+
+    def set_topic(self, topic: Topic) -> None:
+        """
+        Make a topic known, or what its publishers offer now.
+
+        What is recorded of a topic is what was known first: readers want it to be the same in
+        all files and in `metadata.yaml`. Later publishers count for what is latched.
+        """
+        if topic.name not in self._topics:
+            self._topics[topic.name] = topic
+            self._file.add_topic(topic, self._find_definition(topic.type_name))
+        self._present[topic.name] = topic
+
+    def write(self, message: RecordedMessage) -> None:
+        """Write a message of a topic that is known."""
+        try:
+            if self._is_full(message.log_ns):
+                self._split(message.log_ns)
+            self._file.write(*message)
+        except OSError as error:
+            self._stop(error)
+        topic = self._present[message.topic]
+        if topic.is_latched:
+            self._latched.add(message, topic)
+
+    def flush_if_due(self) -> None:
+        """Write what has waited for long enough."""
+        try:
+            self._file.flush_if_due()
+        except OSError as error:
+            self._stop(error)
+
+    def close(self) -> None:
+        """Finish the last file and write `metadata.yaml`."""
+        if self._is_open:
+            self._reserve.release()
+            try:
+                self._finish()
+            except OSError as error:
+                self._stop(error)
+
+    def metadata(self) -> BagMetadata:
+        """Return what there is to say about all files."""
+        return replace(
+            merged([*self._finished, self._file.metadata()]),
+            custom_data=self._options.custom_data,
+        )
+
+    def _start(self, folder: str) -> Reserve:
+        """Create the folder and reserve some room in it."""
+        try:
+            os.makedirs(self._folder)
+        except FileExistsError as error:
+            raise BagError(
+                f"Output folder '{folder}' already exists: name another one with -o, or delete it"
+            ) from error
+        except OSError as error:
+            raise _not_writable(folder, error) from error
+        try:
+            return Reserve(self._folder)
+        except OSError as error:
+            os.rmdir(self._folder)
+            raise _not_writable(folder, error) from error
+
+    def _create_file(self, number: int) -> McapFile:
+        name = f'{os.path.basename(self._folder)}_{number}.mcap'
+        return McapFile(
+            os.path.join(self._folder, name),
+            compression=self._options.compression,
+            ros_distro=self._options.ros_distro,
+        )
+
+    def _is_full(self, now_ns: int) -> bool:
+        options = self._options
+        if not self._file.message_count:
+            return False
+        too_large = options.max_bytes and self._file.size_bytes >= options.max_bytes
+        too_long = (
+            options.max_duration_ns and now_ns - self._file.start_ns >= options.max_duration_ns
+        )
+        return bool(too_large or too_long)
+
+    def _split(self, now_ns: int) -> None:
+        """Start the next file with the topics and what late subscribers would get."""
+        self._file.finish()
+        following = self._create_file(len(self._finished) + 1)
+        self._file.close()
+        self._finished.append(self._file.metadata())
+        self._file = following
+        for topic in self._topics.values():
+            self._file.add_topic(topic, self._find_definition(topic.type_name))
+        for message in self._latched.alive(now_ns):
+            self._file.write(*message._replace(log_ns=now_ns))
+
+    def _write_metadata(self) -> None:
+        path = os.path.join(self._folder, FILE_NAME)
+        with open(path, 'w', encoding='utf-8') as stream:
+            stream.write(metadata_to_text(self.metadata()))
+
+    def _finish(self) -> None:
+        self._file.retry()
+        self._file.finish()
+        self._file.close()
+        self._write_metadata()
+        self._is_open = False
+
+    def _stop(self, error: OSError) -> NoReturn:
+        """Finish the recording with the room that was kept for that."""
+        self._reserve.release()
+        try:
+            self._finish()
+            outcome = f'its {self.message_count} messages are complete.'
+        except OSError:
+            self._is_open = False
+            self._file.close()
+            outcome = f'its index could not be written: {_advice(error, self._folder)}'
+        raise BagError(
+            f"'{self._folder}' cannot be written: {error.strerror}. "
+            f'The recording ends here; {outcome}'
+        ) from error
+
+
+def _advice(error: OSError, folder: str) -> str:
+    if error.errno == errno.EFBIG:
+        return f'ros2 bag recover {folder}, and the next time split the recording with -b BYTES'
+    return f'make room, and then ros2 bag recover {folder}'
+
+
+def _not_writable(folder: str, error: OSError) -> BagError:
+    return BagError(f"Output folder '{folder}' cannot be written: {error.strerror}")

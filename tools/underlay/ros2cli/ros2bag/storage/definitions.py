@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The definition of a message with all that it consists of, from the installed files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+import os
+import re
+from typing import NamedTuple
+
+__all__ = ['Definition', 'definition_of']
+
+SEPARATOR = '=' * 80
+PRIMITIVES = frozenset(
+    'bool byte char float32 float64 int8 uint8 int16 uint16 int32 uint32 int64 uint64 '
+    'string wstring'.split()
+)
+FIELD_TYPE = re.compile(r'\s*([A-Za-z][A-Za-z0-9_/]*)')
+
+
+class Definition(NamedTuple):
+    """The text of a definition and how it is written; both empty if it is unknown."""
+
+    encoding: str = ''
+    text: str = ''
+
+
+def definition_of(type_name: str, find_share: Callable[[str], str]) -> Definition:
+    """
+    Return the definition of a type in the form 'ros2msg', with nested ones appended.
+
+    `find_share` returns the share folder of a package, and raises LookupError if it is not
+    installed. Without all the files the definition is empty.
+    """
+    try:
+        return Definition('ros2msg', f'\n{SEPARATOR}\n'.join(_sections(type_name, find_share)))
+    except (LookupError, OSError, ValueError):
+        return Definition()
+
+
+def _sections(type_name: str, find_share: Callable[[str], str]) -> Iterator[str]:
+    waiting = [_package_and_name(type_name)]
+    seen = set(waiting)
+    for index, (package, name) in enumerate(waiting):
+        text = _read(find_share(package), name)
+        yield f'MSG: {package}/{name}\n{text}' if index else text
+        for dependency in _dependencies(text, package):
+            if dependency not in seen:
+                seen.add(dependency)
+                waiting.append(dependency)
+
+
+def _read(share: str, name: str) -> str:
+    with open(os.path.join(share, 'msg', f'{name}.msg'), encoding='utf-8') as stream:
+        return stream.read()
+
+
+def _dependencies(text: str, package: str) -> Iterator[tuple[str, str]]:
+    """Yield the types of the fields that are messages themselves."""
+    for line in text.splitlines():
+        match = FIELD_TYPE.match(line)
+        if match and match[1] not in PRIMITIVES:
+            name = match[1]
+            yield _package_and_name(name) if '/' in name else (package, name)
+
+
+def _package_and_name(type_name: str) -> tuple[str, str]:
+    """Return the parts of `package/msg/Name` or `package/Name`; other types have no .msg file."""
+    package, *kind, name = type_name.split('/')
+    if kind not in ([], ['msg']):
+        raise ValueError(type_name)
+    return package, name

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The messages that a late subscriber would still get, for the head of a new file."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from ros2bag.storage.metadata import Topic
+
+__all__ = ['LatchedMessages', 'RecordedMessage']
+
+# Of small messages more are kept than there are publishers, for example of /tf_static, where
+# nobody knows which message replaces which.
+KEPT_BYTES = 256 * 1024
+KEPT_COUNT = 100
+
+
+class RecordedMessage(NamedTuple):
+    """A serialized message, when it arrived and when it was published."""
+
+    topic: str
+    data: bytes
+    log_ns: int
+    publish_ns: int
+    sequence: int = 0
+
+
+class LatchedMessages:
+    """The last messages of each latched topic."""
+
+    def __init__(self) -> None:
+        """Start without any."""
+        self._kept: dict[str, deque[RecordedMessage]] = {}
+        self._lifespans_ns: dict[str, int] = {}
+
+    def add(self, message: RecordedMessage, topic: Topic) -> None:
+        """Keep a message, and of the older ones at least one a publisher."""
+        offered = [qos for qos in topic.offered_qos if qos.is_latched]
+        self._lifespans_ns[topic.name] = max(qos.lifespan_ns for qos in offered)
+        kept = self._kept.setdefault(topic.name, deque())
+        kept.append(message)
+        while len(kept) > len(offered) and _is_much(kept):
+            kept.popleft()
+
+    def alive(self, now_ns: int) -> Iterator[RecordedMessage]:
+        """Yield the messages whose lifespan is not over, of each topic the oldest first."""
+        for topic, kept in self._kept.items():
+            born_ns = now_ns - self._lifespans_ns[topic]
+            yield from (message for message in kept if message.log_ns >= born_ns)
+
+
+def _is_much(kept: deque[RecordedMessage]) -> bool:
+    return len(kept) > KEPT_COUNT or sum(len(each.data) for each in kept) > KEPT_BYTES

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Write one MCAP file as rosbag2 does, in chunks that are soon on the disk."""
+
+from __future__ import annotations
+
+from collections import Counter
+import os
+import sys
+import time
+from typing import Any, cast
+
+from mcap.writer import CompressionType, Writer
+from ros2bag.storage.definitions import Definition
+from ros2bag.storage.metadata import (
+    BagMetadata,
+    FileInformation,
+    MessageSpan,
+    Topic,
+    TopicInformation,
+)
+from ros2bag.storage.metadata_yaml import metadata_to_text
+from ros2bag.storage.offered_qos import qos_to_text
+from ros2bag.storage.patient_file import PatientFile
+
+__all__ = ['McapFile']
+
+COMPRESSIONS = {
+    'none': CompressionType.NONE,
+    'lz4': CompressionType.LZ4,
+    'zstd': CompressionType.ZSTD,
+}
+# A killed process loses what is in the chunk that it collects: at most this long or so much.
+CHUNK_TIME_S = 0.1
+CHUNK_BYTES = 256 * 1024
+RECORD_BYTES = 31
+SEQUENCES = 2**32
+
+
+class McapFile:
+    """
+    One file of a recording that is being written.
+
+    After an OSError everything is kept in memory: `retry` and `finish` can be called when
+    there is room again.
+    """
+
+    def __init__(
+        self,
+        path: str,
+        *,
+        name: str = '',
+        compression: str = 'none',
+        ros_distro: str = '',
+        chunk_bytes: int = CHUNK_BYTES,
+    ) -> None:
+        """Create the file; it is called `name` when it is done, if that is not its name now."""
+        self._stream = PatientFile(path)
+        self._name = name or os.path.basename(path)
+        self._ros_distro = ros_distro
+        self._chunk_bytes = chunk_bytes
+        self._writer: Any = Writer(
+            cast(Any, self._stream),
+            chunk_size=sys.maxsize,
+            compression=COMPRESSIONS[compression],
+        )
+        self._writer.start(profile='ros2', library='ros2bag')
+        self._is_finished = False
+        self._waiting_bytes = 0
+        self._waiting_since_s = float('inf')
+        self._schema_ids: dict[str, int] = {}
+        self._channel_ids: dict[str, int] = {}
+        self._topics: dict[str, Topic] = {}
+        self._counts: Counter[str] = Counter()
+        self._message_count = 0
+        self._start_ns, self._end_ns = MessageSpan().start_ns, MessageSpan().end_ns
+
+    @property
+    def size_bytes(self) -> int:
+        """Return how large the file is, with what still waits to be written."""
+        return self._stream.tell() + self._waiting_bytes
+
+    @property
+    def message_count(self) -> int:
+        """Return how many messages there are."""
+        return self._message_count
+
+    @property
+    def start_ns(self) -> int:
+        """Return the time of the first message."""
+        return self._start_ns
+
+    def add_topic(self, topic: Topic, definition: Definition) -> None:
+        """Make a topic known, before its first message."""
+        if topic.type_name not in self._schema_ids:
+            self._schema_ids[topic.type_name] = self._writer.register_schema(
+                topic.type_name, definition.encoding, definition.text.encode()
+            )
+        self._channel_ids[topic.name] = self._writer.register_channel(
+            topic.name,
+            topic.serialization_format,
+            self._schema_ids[topic.type_name],
+            {
+                'offered_qos_profiles': qos_to_text(topic.offered_qos),
+                'topic_type_hash': topic.type_hash,
+            },
+        )
+        self._topics[topic.name] = topic
+
+    def write(
+        self, topic: str, data: bytes, log_ns: int, publish_ns: int, sequence: int = 0
+    ) -> None:
+        """Add a message of a topic that is known."""
+        self._writer.add_message(
+            self._channel_ids[topic], log_ns, data, publish_ns, sequence % SEQUENCES
+        )
+        self._counts[topic] += 1
+        self._message_count += 1
+        self._start_ns = min(self._start_ns, log_ns)
+        self._end_ns = max(self._end_ns, log_ns)
+        if not self._waiting_bytes:
+            self._waiting_since_s = time.monotonic()
+        self._waiting_bytes += len(data) + RECORD_BYTES
+        if self._waiting_bytes >= self._chunk_bytes:
+            self._flush()
+
+    def flush_if_due(self) -> None:
+        """Write what has waited for long enough."""
+        if time.monotonic() - self._waiting_since_s >= CHUNK_TIME_S:
+            self._flush()
+
+    def retry(self) -> None:
+        """Write what could not be written before."""
+        self._stream.retry()
+
+    def finish(self) -> None:
+        """Write what is left, the index and the metadata; a second call only waits for room."""
+        if not self._is_finished:
+            self._is_finished = True
+            self._write_end()
+        self._stream.check()
+
+    def close(self) -> None:
+        """Close the file as it is."""
+        self._stream.close()
+
+    def metadata(self) -> BagMetadata:
+        """Return what there is to say about a recording of just this file."""
+        span = MessageSpan(self.message_count, self._start_ns, self._end_ns)
+        topics = tuple(
+            TopicInformation(topic, self._counts[name]) for name, topic in self._topics.items()
+        )
+        return BagMetadata((FileInformation(self._name, span),), topics, self._ros_distro)
+
+    def _write_end(self) -> None:
+        self._writer.add_metadata(
+            'rosbag2', {'serialized_metadata': metadata_to_text(self.metadata())}
+        )
+        self._writer.finish()
+
+    def _flush(self) -> None:
+        self._writer.flush()
+        self._waiting_bytes = 0
+        self._waiting_since_s = float('inf')
+        self._stream.check()

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`metadata.yaml`, version 9."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from ros2bag.storage.errors import BagError
+from ros2bag.storage.metadata import (
+    BagMetadata,
+    FileInformation,
+    MessageSpan,
+    Topic,
+    TopicInformation,
+    VERSION,
+)
+from ros2bag.storage.offered_qos import qos_from_text
+import yaml
+
+__all__ = ['FILE_NAME', 'metadata_from_text', 'metadata_to_text']
+
+FILE_NAME = 'metadata.yaml'
+ROOT = 'rosbag2_bagfile_information'
+
+
+def metadata_to_text(metadata: BagMetadata) -> str:
+    """Return the content of `metadata.yaml`."""
+    span = metadata.span
+    content = {
+        'version': VERSION,
+        'storage_identifier': metadata.storage_identifier,
+        'duration': {'nanoseconds': span.duration_ns},
+        'starting_time': {'nanoseconds_since_epoch': span.start_ns},
+        'message_count': span.message_count,
+        'topics_with_message_count': [_topic_to_dict(each) for each in metadata.topics],
+        'compression_format': metadata.compression_format,
+        'compression_mode': metadata.compression_mode,
+        'relative_file_paths': [each.path for each in metadata.files],
+        'files': [_file_to_dict(each) for each in metadata.files],
+        'custom_data': dict(metadata.custom_data) or None,
+        'ros_distro': metadata.ros_distro,
+    }
+    return yaml.dump({ROOT: content}, Dumper=_NoAliases, sort_keys=False)
+
+
+def metadata_from_text(text: str, where: str) -> BagMetadata:
+    """Return what a `metadata.yaml` says; BagError tells what is wrong with it."""
+    try:
+        content = yaml.safe_load(text)[ROOT]
+        version = content['version']
+        metadata = _from_dict(content)
+    except (yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError) as error:
+        reason = ' '.join(f'{type(error).__name__}: {error}'.split())
+        raise BagError(
+            f"'{where}' is no metadata of a recording ({reason}). Make it anew from the files: "
+            f'ros2 bag recover {os.path.dirname(where) or "FOLDER"}'
+        ) from error
+    if version > VERSION:
+        raise BagError(
+            f"'{where}' has version {version}; versions up to {VERSION} (ROS 2 Jazzy) are known"
+        )
+    return metadata
+
+
+class _NoAliases(yaml.SafeDumper):
+    """Writes what is shared as often as it is used; other readers know no aliases."""
+
+    def ignore_aliases(self, data: Any) -> bool:
+        return True
+
+
+def _topic_to_dict(information: TopicInformation) -> dict[str, Any]:
+    topic = information.topic
+    return {
+        'topic_metadata': {
+            'name': topic.name,
+            'type': topic.type_name,
+            'serialization_format': topic.serialization_format,
+            'offered_qos_profiles': [qos.to_dict() for qos in topic.offered_qos],
+            'type_description_hash': topic.type_hash,
+        },
+        'message_count': information.message_count,
+    }
+
+
+def _file_to_dict(information: FileInformation) -> dict[str, Any]:
+    return {
+        'path': information.path,
+        'starting_time': {'nanoseconds_since_epoch': information.span.start_ns},
+        'duration': {'nanoseconds': information.span.duration_ns},
+        'message_count': information.span.message_count,
+    }
+
+
+def _from_dict(content: dict[str, Any]) -> BagMetadata:
+    return BagMetadata(
+        files=_files(content),
+        topics=tuple(_topic(each) for each in content['topics_with_message_count']),
+        ros_distro=content.get('ros_distro') or '',
+        storage_identifier=content['storage_identifier'],
+        compression_format=content.get('compression_format') or '',
+        compression_mode=(content.get('compression_mode') or '').lower(),
+        custom_data=content.get('custom_data') or {},
+    )
+
+
+def _files(content: dict[str, Any]) -> tuple[FileInformation, ...]:
+    """Return the files; before version 5 only their paths were listed."""
+    if content.get('files'):
+        return tuple(FileInformation(each['path'], _span(each)) for each in content['files'])
+    paths = content['relative_file_paths']
+    spans = [_span(content), *(MessageSpan() for _ in paths[1:])]
+    return tuple(FileInformation(path, span) for path, span in zip(paths, spans))
+
+
+def _span(content: dict[str, Any]) -> MessageSpan:
+    start_ns = content['starting_time']['nanoseconds_since_epoch']
+    count = content['message_count']
+    end_ns = start_ns + content['duration']['nanoseconds']
+    return MessageSpan(count, start_ns, end_ns) if count else MessageSpan()
+
+
+def _topic(content: dict[str, Any]) -> TopicInformation:
+    values = content['topic_metadata']
+    topic = Topic(
+        name=values['name'],
+        type_name=values['type'],
+        type_hash=values.get('type_description_hash') or '',
+        offered_qos=qos_from_text(values.get('offered_qos_profiles') or []),
+        serialization_format=values['serialization_format'],
+    )
+    return TopicInformation(topic, content['message_count'])

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The quality of service that a publisher offered, as a recording keeps it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import yaml
+
+__all__ = ['INFINITE_NS', 'OfferedQos', 'qos_from_text', 'qos_to_text']
+
+INFINITE_NS = 2**63 - 1
+NS_PER_S = 10**9
+# What rosbag2 wrote as numbers before version 9.
+HISTORIES = ('system_default', 'keep_last', 'keep_all', 'unknown')
+RELIABILITIES = ('system_default', 'reliable', 'best_effort', 'unknown', 'best_available')
+DURABILITIES = ('system_default', 'transient_local', 'volatile', 'unknown', 'best_available')
+LIVELINESSES = (
+    'system_default',
+    'automatic',
+    'unknown',
+    'manual_by_topic',
+    'unknown',
+    'best_available',
+)
+
+
+@dataclass(frozen=True)
+class OfferedQos:
+    """One publisher's quality of service; policies are named as in rosbag2."""
+
+    history: str = 'unknown'
+    depth: int = 0
+    reliability: str = 'reliable'
+    durability: str = 'volatile'
+    deadline_ns: int = INFINITE_NS
+    lifespan_ns: int = INFINITE_NS
+    liveliness: str = 'automatic'
+    liveliness_lease_duration_ns: int = INFINITE_NS
+    avoid_ros_namespace_conventions: bool = False
+
+    @property
+    def is_latched(self) -> bool:
+        """Tell if late subscribers get the last messages."""
+        return self.durability == 'transient_local'
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the mapping that stands in `metadata.yaml`."""
+        return {
+            'history': self.history,
+            'depth': self.depth,
+            'reliability': self.reliability,
+            'durability': self.durability,
+            'deadline': _duration_to_dict(self.deadline_ns),
+            'lifespan': _duration_to_dict(self.lifespan_ns),
+            'liveliness': self.liveliness,
+            'liveliness_lease_duration': _duration_to_dict(self.liveliness_lease_duration_ns),
+            'avoid_ros_namespace_conventions': self.avoid_ros_namespace_conventions,
+        }
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> OfferedQos:
+        """Return the quality of service of a mapping; what is left out has the default."""
+        default = cls()
+        return cls(
+            history=_policy(values.get('history', default.history), HISTORIES),
+            depth=int(values.get('depth', default.depth)),
+            reliability=_policy(values.get('reliability', default.reliability), RELIABILITIES),
+            durability=_policy(values.get('durability', default.durability), DURABILITIES),
+            deadline_ns=_duration_from(values.get('deadline')),
+            lifespan_ns=_duration_from(values.get('lifespan')),
+            liveliness=_policy(values.get('liveliness', default.liveliness), LIVELINESSES),
+            liveliness_lease_duration_ns=_duration_from(values.get('liveliness_lease_duration')),
+            avoid_ros_namespace_conventions=bool(
+                values.get('avoid_ros_namespace_conventions', False)
+            ),
+        )
+
+
+def qos_to_text(profiles: Iterable[OfferedQos]) -> str:
+    """Return the text that the channel of an MCAP file has."""
+    return yaml.safe_dump([each.to_dict() for each in profiles], sort_keys=False)
+
+
+def qos_from_text(text: str | list[Any]) -> tuple[OfferedQos, ...]:
+    """Return the profiles of a channel or of `metadata.yaml`, where older ones are texts."""
+    profiles = yaml.safe_load(text) if isinstance(text, str) else text
+    return tuple(OfferedQos.from_dict(each) for each in profiles or ())
+
+
+def _policy(value: str | int, names: tuple[str, ...]) -> str:
+    if isinstance(value, str):
+        return value.lower()
+    return names[value] if 0 <= value < len(names) else 'unknown'
+
+
+def _duration_to_dict(duration_ns: int) -> dict[str, int]:
+    seconds, rest = divmod(duration_ns, NS_PER_S)
+    return {'sec': seconds, 'nsec': rest}
+
+
+def _duration_from(value: Mapping[str, int] | None) -> int:
+    """Return nanoseconds; zero stood for infinity in older recordings."""
+    if not value:
+        return INFINITE_NS
+    return min(value['sec'] * NS_PER_S + value['nsec'], INFINITE_NS) or INFINITE_NS

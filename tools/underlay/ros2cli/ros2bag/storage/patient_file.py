@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A file that keeps in memory what a full disk does not take, so that nothing is half written."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+import fcntl
+
+__all__ = ['PatientFile', 'is_being_written']
+
+
+class PatientFile:
+    """
+    A new file without a buffer: what was written is there, whatever becomes of the process.
+
+    A write never fails and is never partial. What could not be written is kept, `check` tells why,
+    and `retry` writes it when there is room again.
+    """
+
+    def __init__(self, path: str) -> None:
+        """Create the file, which must not exist, and lock it as long as it is open."""
+        self._file = open(path, 'xb', buffering=0)  # noqa: SIM115
+        with suppress(OSError):
+            # Some network file systems have no locks.
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        self._rest = b''
+        self._error: OSError | None = None
+
+    def write(self, data: bytes) -> int:
+        """Write all of the data, now or later."""
+        self._rest += data
+        if self._error is None:
+            self._write_rest()
+        return len(data)
+
+    def tell(self) -> int:
+        """Return how many bytes the file has, when everything is written."""
+        return self._file.tell() + len(self._rest)
+
+    def flush(self) -> None:
+        """Do nothing: there is no buffer."""
+
+    def check(self) -> None:
+        """Raise the error because of which something is not written yet, if there is one."""
+        if self._error is not None:
+            raise self._error
+
+    def retry(self) -> None:
+        """Write what was kept; the error is raised if that fails again."""
+        self._error = None
+        self._write_rest()
+        self.check()
+
+    def close(self) -> None:
+        """Close the file, which also unlocks it."""
+        self._file.close()
+
+    def _write_rest(self) -> None:
+        """Write until nothing is left: a disk that becomes full may take a part first."""
+        try:
+            while self._rest:
+                count = self._file.write(self._rest)
+                self._rest = self._rest[count:]
+        except OSError as error:
+            self._error = error
+
+
+def is_being_written(path: str) -> bool:
+    """Tell if a process is writing this file through a `PatientFile`."""
+    with open(path, 'rb') as stream:
+        try:
+            fcntl.flock(stream, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return True
+        except OSError:
+            return False
+    return False

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 bag convert`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2bag.verb import VerbExtension
+
+ADVICE = (
+    'Bags are not converted here. The program rosbags-convert does it, between ROS 1, sqlite3 '
+    'and MCAP:\n  pip install rosbags\n  rosbags-convert --src OLD --dst NEW --dst-storage mcap'
+)
+
+
+class ConvertVerb(VerbExtension):
+    """Say how a bag is turned into another format."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Accept what users of rosbag2 write."""
+        parser.add_argument('-i', '--input', nargs='+', action='append', help='the bags')
+        parser.add_argument('-o', '--output-options', help='the file with options')
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Name the program that does it."""
+        return ADVICE

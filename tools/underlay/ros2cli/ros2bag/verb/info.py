@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 bag info`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2bag.api.play_arguments import add_bag_argument
+from ros2bag.verb import VerbExtension
+
+
+class InfoVerb(VerbExtension):
+    """Print information about a bag."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the bag and the choice of details."""
+        add_bag_argument(parser)
+        parser.add_argument(
+            '-t', '--topic-name', action='store_true', help='print only the names of the topics'
+        )
+        parser.add_argument(
+            '-v',
+            '--verbose',
+            action='store_true',
+            help='print for each topic its average rate, type hash and quality of service as well',
+        )
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print what the metadata says."""
+        from ros2bag.api.info import info_text, topic_names_text
+        from ros2bag.storage.bag_reader import BagReader
+
+        reader = BagReader(args.bag_path)
+        print(
+            topic_names_text(reader)
+            if args.topic_name
+            else info_text(reader, verbose=args.verbose)
+        )
+        return None

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 bag list`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2bag.verb import VerbExtension
+
+KNOWN = {
+    'storage': {'mcap': 'read and written, in the layout of rosbag2 (metadata.yaml version 9)'},
+    'converter': {'cdr': 'messages are kept as they are sent'},
+    'compressor': {'lz4': 'chunks of MCAP files', 'zstd': 'chunks of MCAP files'},
+    'decompressor': {'lz4': 'chunks of MCAP files', 'zstd': 'chunks of MCAP files'},
+}
+
+
+class ListVerb(VerbExtension):
+    """Print the formats that are known."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the kind of format."""
+        parser.add_argument('plugin_type', choices=list(KNOWN), help='what is listed')
+        parser.add_argument(
+            '-v', '--verbose', action='store_true', help='say what is done with each'
+        )
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print the names of one kind."""
+        for name, purpose in KNOWN[args.plugin_type].items():
+            print(f'{name}: {purpose}' if args.verbose else name)
+        return None

@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of `ros2 bag play` with real subscribers."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+import signal
+import statistics
+from subprocess import CompletedProcess
+import time
+from typing import Any
+
+from bag_samples import LATCHED, MS, start_bag, START_NS, string, topic, write_bag
+import pytest
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from ros2bag.storage.metadata import Topic
+from ros2bag.storage.offered_qos import OfferedQos
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import String
+
+Start = Callable[..., Any]
+Ros2 = Callable[..., CompletedProcess[str]]
+
+TIMEOUT_S = 60.0
+ATTEMPTS = 5
+PERIOD_MS = 10.0
+
+
+class Ear:
+    """A node that keeps what it hears and when."""
+
+    def __init__(self, node: Any, executor: Any) -> None:
+        self._node = node
+        self._executor = executor
+        self.heard: list[tuple[str, Any, float]] = []
+
+    def listen(self, name: str, message_type: Any = String, *, latched: bool = False) -> None:
+        """Subscribe to a topic."""
+        durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
+        self._node.create_subscription(
+            message_type,
+            name,
+            lambda message: self.heard.append((name, message, time.monotonic())),
+            QoSProfile(depth=1000, durability=durability),
+        )
+
+    def texts(self, name: str) -> list[str]:
+        """Return the texts heard on a topic."""
+        return [message.data for heard, message, _ in self.heard if heard == name]
+
+    def times_s(self, name: str) -> list[float]:
+        """Return when messages of a topic were heard."""
+        return [at_s for heard, _, at_s in self.heard if heard == name]
+
+    def spin_until(self, is_done: Callable[[], object]) -> None:
+        """Hear until there is enough."""
+        end = time.monotonic() + TIMEOUT_S
+        while not is_done():
+            assert time.monotonic() < end, f'heard only {len(self.heard)} messages'
+            self._executor.spin_once(timeout_sec=0.05)
+
+    def spin_with(self, process: Any) -> str:
+        """Hear until a process ends well, and return what it wrote on stderr."""
+        self.spin_until(lambda: process.poll() is not None)
+        self._executor.spin_once(timeout_sec=0.05)
+        errors = process.communicate()[1]
+        assert process.returncode == 0, errors
+        return str(errors)
+
+
+@pytest.fixture
+def ear(
+    ros_environment_variables: dict[str, str], monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Ear]:
+    """Return a listener in the domain of the tests."""
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=int(ros_environment_variables['ROS_DOMAIN_ID']))
+    node = rclpy.create_node('ear', context=context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    yield Ear(node, executor)
+    executor.shutdown()
+    node.destroy_node()
+    rclpy.shutdown(context=context)
+
+
+def test_play_is_complete_and_in_order(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
+    """A subscriber that is there gets all messages, from the first on, and the latched one."""
+    write_bag(tmp_path / 'bag', count=50)
+    ear.listen('/ticks')
+    ear.listen('/description', latched=True)
+    errors = ear.spin_with(start_ros2('bag', 'play', str(tmp_path / 'bag')))
+    assert ear.texts('/ticks') == [str(number) for number in range(50)]
+    assert ear.texts('/description') == ['<robot/>']
+    assert 'Played 51 messages.' in errors
+
+
+@pytest.mark.parametrize('rate', [1.0, 2.0])
+def test_times_between_messages(ear: Ear, start_ros2: Start, tmp_path: Path, rate: float) -> None:
+    """Times between messages are right within 2 ms on average; on a busy machine, in some run."""
+    write_bag(tmp_path / 'bag', count=300, period_ns=int(PERIOD_MS * MS))
+    ear.listen('/ticks')
+    errors_ms = []
+    for _ in range(ATTEMPTS):
+        ear.heard.clear()
+        ear.spin_with(start_ros2('bag', 'play', str(tmp_path / 'bag'), '-r', str(rate)))
+        times_s = ear.times_s('/ticks')
+        assert len(times_s) == 300
+        periods_ms = [(b - a) * 1e3 for a, b in zip(times_s, times_s[1:])]
+        errors_ms.append(statistics.mean(abs(each - PERIOD_MS / rate) for each in periods_ms))
+        if errors_ms[-1] < 2.0:
+            return
+    pytest.fail(f'average errors of {errors_ms} ms')
+
+
+def test_part_of_the_topics_and_of_the_time(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
+    """Offset, duration, choice and new names of topics."""
+    write_bag(tmp_path / 'bag', count=100)
+    ear.listen('/copy')
+    ear.listen('/ticks')
+    ear.listen('/description', latched=True)
+    process = start_ros2(
+        'bag', 'play', str(tmp_path / 'bag'), '--topics', 'ticks', '--remap', 'ticks:=copy',
+        '--start-offset', '0.5', '--playback-duration', '0.2',
+    )  # fmt: skip
+    ear.spin_with(process)
+    assert ear.texts('/copy') == [str(number) for number in range(50, 71)]
+    assert len(ear.heard) == 21
+
+
+def test_loop_until_interrupted(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
+    """The end is followed by the beginning, until Ctrl-C ends it."""
+    write_bag(tmp_path / 'bag', count=10)
+    ear.listen('/ticks')
+    process = start_ros2('bag', 'play', str(tmp_path / 'bag'), '--loop')
+    ear.spin_until(lambda: len(ear.heard) >= 25)
+    assert ear.texts('/ticks')[:25] == [str(number % 10) for number in range(25)]
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=TIMEOUT_S)
+    assert (process.returncode, 'Traceback' in errors) == (2, False)
+
+
+def test_clock_shows_recorded_time(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
+    """With --clock the recorded time is published, at about the wanted rate, and only that."""
+    writer = start_bag(tmp_path / 'bag', topic('/ticks'))
+    for number in range(100):
+        writer.write(string('/ticks', str(number), number * 10 * MS))
+    writer.close()
+    ear.listen('/clock', Clock)
+    ear.spin_with(start_ros2('bag', 'play', str(tmp_path / 'bag'), '--clock', '50'))
+    stamps = [m.clock.sec * 10**9 + m.clock.nanosec - START_NS for _, m, _ in ear.heard]
+    assert stamps == sorted(stamps)
+    assert 0 <= stamps[0] < 200 * MS
+    assert 700 * MS < stamps[-1] <= 1000 * MS
+    assert 20 < len(stamps) < 60
+
+
+def test_paused_player_waits_for_its_service(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
+    """Nothing is played before the service says so."""
+    from std_srvs.srv import Trigger
+
+    write_bag(tmp_path / 'bag', count=10)
+    ear.listen('/ticks')
+    process = start_ros2('bag', 'play', str(tmp_path / 'bag'), '--start-paused')
+    client = ear._node.create_client(Trigger, '/rosbag2_player/resume')
+    ear.spin_until(client.service_is_ready)
+    assert ear.heard == []
+    client.call_async(Trigger.Request())
+    ear.spin_with(process)
+    assert len(ear.heard) == 10
+
+
+def test_unknown_type_is_left_out(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
+    """A topic whose package is missing is named, and the rest is played."""
+    nope = Topic('/nope', 'nope_msgs/msg/Nope', '', (OfferedQos(),))
+    writer = start_bag(tmp_path / 'bag', topic('/ticks'), nope)
+    writer.write(string('/nope', 'x', 0))
+    writer.write(string('/ticks', '0', 0))
+    writer.close()
+    ear.listen('/ticks')
+    errors = ear.spin_with(start_ros2('bag', 'play', str(tmp_path / 'bag')))
+    assert ear.texts('/ticks') == ['0']
+    assert "Topic '/nope' is not played: the package 'nope_msgs'" in errors
+
+
+def test_type_that_has_changed_is_left_out(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
+    """Bytes of an older definition are not published as if they were of the present one."""
+    old = Topic('/old', 'std_msgs/msg/String', f'RIHS01_{"0" * 64}', (OfferedQos(),))
+    writer = start_bag(tmp_path / 'bag', topic('/ticks'), old)
+    writer.write(string('/old', 'x', 0))
+    writer.write(string('/ticks', '0', 0))
+    writer.close()
+    ear.listen('/ticks')
+    ear.listen('/old')
+    errors = ear.spin_with(start_ros2('bag', 'play', str(tmp_path / 'bag')))
+    assert (ear.texts('/ticks'), ear.texts('/old')) == (['0'], [])
+    assert "Topic '/old' is not played: the definition of 'std_msgs/msg/String'" in errors
+
+
+def test_late_subscriber_gets_the_latched_message(
+    ear: Ear, start_ros2: Start, tmp_path: Path
+) -> None:
+    """The publishers latch as those that were recorded."""
+    writer = start_bag(tmp_path / 'bag', topic('/ticks'), topic('/description', qos=LATCHED))
+    writer.write(string('/description', '<robot/>', 0))
+    for number in range(2000):
+        writer.write(string('/ticks', str(number), number * 10 * MS))
+    writer.close()
+    ear.listen('/ticks')
+    process = start_ros2('bag', 'play', str(tmp_path / 'bag'))
+    ear.spin_until(lambda: len(ear.heard) > 20)
+    ear.listen('/description', latched=True)
+    ear.spin_until(lambda: ear.texts('/description'))
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(timeout=TIMEOUT_S) == 15
+
+
+def test_burst_does_not_wait(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
+    """An hour of recording is published at once, as far as it is asked for."""
+    write_bag(tmp_path / 'bag', count=20, period_ns=180_000 * MS)
+    ear.listen('/ticks')
+    ear.spin_with(start_ros2('bag', 'burst', str(tmp_path / 'bag'), '-n', '11'))
+    assert ear.texts('/ticks') == [str(number) for number in range(10)]
+
+
+def test_topic_that_was_not_recorded_is_named(ros2_here: Ros2, tmp_path: Path) -> None:
+    """A misspelt topic is an error, and so is a choice without messages."""
+    write_bag(tmp_path / 'bag')
+    path = str(tmp_path / 'bag')
+    result = ros2_here('bag', 'play', path, '--topics', '/tick')
+    expected = f"'{path}' has no topic '/tick'. Did you mean '/ticks'?\n"
+    assert (result.returncode, result.stderr) == (1, expected)
+    result = ros2_here('bag', 'play', path, '--start-offset', '99')
+    assert (result.returncode, 'has no messages in what was chosen' in result.stderr) == (1, True)
