@@ -21,13 +21,17 @@ def handled_signals(
     before: dict[signal.Signals, Any] = {
         number: signal.getsignal(number) for number in _WATCHED if _is_wanted(number)
     }
+
+    def on_signal(number: int, frame: object) -> None:
+        """Wake up the loop, which waits for files only, and let it react."""
+        loop.call_soon_threadsafe(react, signal.Signals(number))
+
     for number in before:
-        loop.add_signal_handler(number, react, number)
+        signal.signal(number, on_signal)
     try:
         yield
     finally:
         for number, handler in before.items():
-            loop.remove_signal_handler(number)
             signal.signal(number, signal.SIG_DFL if handler is None else handler)
 
 

@@ -27,7 +27,10 @@ def add_lazy_subparsers(
     entries = _with_extension(entries, group, name)
     metavar = f'Call `{cli_name} <{kind}> -h` for more detailed usage.'
     subparsers = parser.add_subparsers(
-        title=f'{kind.capitalize()}s', description=_listing(entries), metavar=metavar
+        prog=parser.prog,  # argparse would format its usage to find that out
+        title=f'{kind.capitalize()}s',
+        description=_listing(entries),
+        metavar=metavar,
     )
     for entry_name, entry in entries.items():
         subparser = subparsers.add_parser(

@@ -6,7 +6,6 @@ from __future__ import annotations
 import os
 from typing import ClassVar
 
-from ament_index_python.packages import get_package_prefix, PackageNotFoundError
 from launch.launch_context import LaunchContext
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
@@ -15,17 +14,6 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
     normalize_to_list_of_substitutions,
 )
 from launch.utilities.perform_substitutions_impl import perform_substitutions
-
-
-class _ExplainedPackageNotFoundError(PackageNotFoundError):
-    """A package was not found; the text says why, as far as it is known."""
-
-    def __init__(self, error: KeyError, explanation: str) -> None:
-        super().__init__(*error.args)
-        self._text = '\n'.join(filter(None, [str(error), explanation]))
-
-    def __str__(self) -> str:
-        return self._text
 
 
 class FindPackage(PathOperator):
@@ -63,10 +51,9 @@ class FindPackagePrefix(FindPackage):
 
     def find(self, package_name: str) -> str:
         """Return the folder."""
-        try:
-            return str(get_package_prefix(package_name))
-        except PackageNotFoundError as error:
-            raise _ExplainedPackageNotFoundError(error, _explain(package_name)) from None
+        from launch_ros.substitutions._installed_package import prefix_of
+
+        return prefix_of(package_name)
 
 
 class FindPackageShare(FindPackagePrefix):
@@ -76,12 +63,3 @@ class FindPackageShare(FindPackagePrefix):
         """Return the folder."""
         prefix: str = super().find(package_name)
         return os.path.join(prefix, 'share', package_name)
-
-
-def _explain(package_name: str) -> str:
-    """Return what the workspace around the current folder tells about a package."""
-    try:
-        from ros_environment.workspace import explain_missing_package
-    except ImportError:
-        return ''
-    return str(explain_missing_package(package_name))
