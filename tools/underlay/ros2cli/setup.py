@@ -13,13 +13,14 @@ setup(
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
         ('share/' + package_name, ['package.xml']),
+        ('share/' + package_name + '/completion', ['completion/ros2.bash', 'completion/ros2.zsh']),
     ],
     scripts=['scripts/ros2'],
     install_requires=['setuptools'],
     zip_safe=False,
     maintainer='Humanoid workspace maintainers',
     maintainer_email='maintainers@humanoid-workspace.dev',
-    description='The ros2 command line: launch, node, pkg, run and topic.',
+    description='The ros2 command line: doctor, launch, node, pkg, run and topic.',
     license='Apache-2.0',
     extras_require={'test': ['pytest']},
 )
