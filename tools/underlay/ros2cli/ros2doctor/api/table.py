@@ -17,6 +17,7 @@ CHECKS = {
     WORKSPACE: Entry('ros2doctor.check.workspace:WorkspaceCheck', ''),
     'network': Entry('ros2doctor.check.network:NetworkCheck', ''),
     'graphics': Entry('ros2doctor.check.graphics:GraphicsCheck', ''),
+    'rclpy': Entry('ros2doctor.check.client_library:ClientLibraryCheck', ''),
     'qos': Entry('ros2doctor.check.qos:QosCheck', ''),
     'nodes': Entry('ros2doctor.check.nodes:NodesCheck', ''),
     'frames': Entry('ros2doctor.check.frames:FramesCheck', ''),

@@ -43,6 +43,7 @@ def environment_findings(facts: Environment) -> Iterator[Finding]:
     yield from _distribution(facts)
     yield from _two_installations(facts)
     yield from _vanished_folders(facts)
+    yield from _other_python(facts)
     yield from _client_library(facts)
     yield from _build_tool(facts)
 
@@ -105,15 +106,19 @@ def _vanished_folders(facts: Environment) -> Iterator[Finding]:
                 )
 
 
-def _client_library(facts: Environment) -> Iterator[Finding]:
-    if facts.rclpy is None:
+def _other_python(facts: Environment) -> Iterator[Finding]:
+    if facts.other_python:
         yield Finding(
             Severity.ERROR,
-            f'Python in {facts.prefix} has no rclpy',
-            'no Python node can start, nor can commands that look at running nodes',
-            'make setup',
+            f"`python3` is '{facts.other_python}', outside of '{facts.prefix}'",
+            'that Python does not have the wheels; something has changed PATH since the '
+            'environment was sourced (conda and pyenv do that)',
+            f'conda deactivate, or {NEW_TERMINAL}{facts.set_up}',
         )
-    elif not _is_below(facts.rclpy, facts.prefix):
+
+
+def _client_library(facts: Environment) -> Iterator[Finding]:
+    if facts.rclpy is not None and not _is_below(facts.rclpy, facts.prefix):
         yield Finding(
             Severity.ERROR,
             f"rclpy would be imported from '{facts.rclpy}', outside of '{facts.prefix}'",

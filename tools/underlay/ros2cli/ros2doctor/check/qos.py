@@ -23,7 +23,7 @@ class QosCheck(GraphCheck):
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
         """Yield the pairs between which no message passes."""
-        yield from pair_findings(graph.endpoints, why_incompatible)
+        yield from dict.fromkeys(pair_findings(graph.endpoints, why_incompatible))
 
 
 def why_incompatible(offered: Any, requested: Any) -> str:
@@ -31,7 +31,9 @@ def why_incompatible(offered: Any, requested: Any) -> str:
     from rclpy.qos import qos_check_compatible, QoSCompatibility
 
     compatibility, reason = qos_check_compatible(offered, requested)
-    return str(reason).rstrip(';. ') if compatibility == QoSCompatibility.ERROR else ''
+    if compatibility != QoSCompatibility.ERROR:
+        return ''
+    return str(reason).removeprefix('ERROR: ').rstrip(';. ')
 
 
 def pair_findings(
@@ -48,7 +50,7 @@ def pair_findings(
 
 
 def pairs(endpoints: Iterable[Endpoint]) -> Iterator[Pair]:
-    """Yield each publisher with each subscription of its topic; the same two nodes only once."""
+    """Yield each publisher with each subscription of its topic."""
     by_topic: dict[str, tuple[list[Endpoint], list[Endpoint]]] = defaultdict(lambda: ([], []))
     for endpoint in endpoints:
         by_topic[endpoint.topic][not endpoint.is_publisher].append(endpoint)

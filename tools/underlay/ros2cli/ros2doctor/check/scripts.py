@@ -29,7 +29,8 @@ def script_findings(scripts: Iterable[Script], set_up: str) -> Iterator[Finding]
     """Yield one finding an interpreter that is missing or belongs to another environment."""
     wrong: dict[str, list[Script]] = defaultdict(list)
     for script in scripts:
-        if not script.exists or (script.is_python and not script.is_own):
+        is_wrong = not script.exists or (script.is_python and not script.is_own)
+        if is_wrong and script.is_fixed:
             wrong[script.interpreter].append(script)
     mend = f'delete the folders build and install, then, after `{set_up}`: colcon build'
     for interpreter, found in sorted(wrong.items()):

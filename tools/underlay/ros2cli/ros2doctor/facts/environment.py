@@ -11,7 +11,7 @@ from pathlib import Path
 import shutil
 import sys
 
-from ros2doctor.facts.scripts import read_script, Script
+from ros2doctor.facts.scripts import is_own, read_script, Script
 
 PATH_VARIABLES = ('AMENT_PREFIX_PATH', 'CMAKE_PREFIX_PATH', 'COLCON_PREFIX_PATH', 'PYTHONPATH')
 
@@ -24,6 +24,7 @@ class Environment:
     :param python_version: major and minor version of the running Python
     :param prefix: the virtual environment of the running Python
     :param rclpy: where rclpy would be imported from, if anywhere
+    :param other_python: what `python3` stands for, if it is not the running one
     :param colcon: the program that `colcon` stands for, if any
     :param set_up: a command that sources what is near, or that makes it
     """
@@ -32,6 +33,7 @@ class Environment:
     python_version: tuple[int, int]
     prefix: str
     rclpy: str | None
+    other_python: str | None
     colcon: Script | None
     set_up: str
 
@@ -44,11 +46,13 @@ def read_environment() -> Environment:
     """Return the environment of this process."""
     spec = find_spec('rclpy')
     colcon = shutil.which('colcon')
+    python = shutil.which('python3')
     return Environment(
         variables=dict(os.environ),
         python_version=sys.version_info[:2],
         prefix=sys.prefix,
         rclpy=spec.origin if spec else None,
+        other_python=python if python and not is_own(python) else None,
         colcon=read_script(Path(colcon)) if colcon else None,
         set_up=set_up_command(),
     )

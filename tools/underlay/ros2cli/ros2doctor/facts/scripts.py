@@ -18,6 +18,7 @@ class Script:
     """
     A program that names an interpreter in its first line.
 
+    :param is_fixed: whether it is named by its path, and not looked up in PATH
     :param exists: whether there is such an interpreter
     :param is_python: whether it is a Python
     :param is_own: whether it is the one of this environment
@@ -25,6 +26,7 @@ class Script:
 
     path: str
     interpreter: str
+    is_fixed: bool
     exists: bool
     is_python: bool
     is_own: bool
@@ -45,15 +47,24 @@ def read_script(path: Path) -> Script | None:
     words = line[2:].split() if line.startswith('#!') else []
     if not words:
         return None
-    program = words[0]
-    if os.path.basename(program) == 'env' and len(words) > 1:
-        program = shutil.which(words[-1]) or words[-1]
-    is_python = os.path.basename(program).startswith('python')
-    return Script(str(path), program, os.path.exists(program), is_python, _is_own(program))
+    is_fixed = os.path.basename(words[0]) != 'env'
+    program = words[0] if is_fixed else shutil.which(words[-1]) or words[-1]
+    return Script(
+        path=str(path),
+        interpreter=program,
+        is_fixed=is_fixed,
+        exists=os.path.exists(program),
+        is_python=os.path.basename(program).startswith('python'),
+        is_own=is_own(program),
+    )
 
 
-def _is_own(program: str) -> bool:
-    """Compare folders, because the Python of an environment is a link to that of the system."""
+def is_own(program: str) -> bool:
+    """
+    Tell whether a Python is that of this environment.
+
+    Folders are compared, because the Python of an environment is a link to that of the system.
+    """
     return os.path.realpath(os.path.dirname(program)) == os.path.realpath(
         os.path.dirname(sys.executable)
     )
@@ -61,8 +72,9 @@ def _is_own(program: str) -> bool:
 
 def _paths() -> Iterator[Path]:
     from ros2pkg.api import get_executable_paths, get_package_names
+    from ros_environment.installed import prefixes
 
     for name in ('ros2', 'colcon', 'pytest'):
         yield Path(sys.executable).with_name(name)
-    for package in get_package_names():
+    for package in get_package_names() if prefixes() else ():
         yield from map(Path, get_executable_paths(package_name=package))

@@ -5,21 +5,23 @@ from __future__ import annotations
 
 from ros2doctor.api.extension import DoctorReport
 from ros2doctor.api.report import Report
+from ros2doctor.facts.client_library import why_rclpy_does_not_start
 from ros2doctor.facts.graph import Graph, read_graph
 
 
 class GraphReport(DoctorReport):
-    """A report of the graph; without rclpy it says why there is none."""
+    """A report of the graph; where rclpy does not start it says why."""
 
     TITLE = ''
 
     def report(self) -> Report:
         """Return the section."""
         report = Report(self.TITLE)
-        try:
+        why_not = why_rclpy_does_not_start()
+        if why_not:
+            report.add_to_report('not available', why_not)
+        else:
             self.fill(report, read_graph())
-        except (ImportError, RuntimeError) as error:
-            report.add_to_report('not available', error)
         return report
 
     def fill(self, report: Report, graph: Graph) -> None:
