@@ -20,7 +20,7 @@ setup(
     zip_safe=False,
     maintainer='Humanoid workspace maintainers',
     maintainer_email='maintainers@humanoid-workspace.dev',
-    description='The ros2 command line: doctor, launch, node, pkg, run and topic.',
+    description='The ros2 command line: launch, node, pkg, run and topic.',
     license='Apache-2.0',
     extras_require={'test': ['pytest']},
 )

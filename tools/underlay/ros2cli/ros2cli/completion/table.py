@@ -25,6 +25,7 @@ OF_ARGUMENT = {
     'action_type': 'interfaces:actions',
     'argv': 'files:files',
     'bag_path': 'files:files',
+    'container_node_name': 'graph:nodes',
     'dependencies': 'packages:packages',
     'destination_directory': 'files:folders',
     'exclude_topic_types': 'interfaces:messages',
@@ -47,9 +48,17 @@ OF_ARGUMENT = {
     'topic_types': 'interfaces:messages',
     'topics': 'graph:topics',
     'topics_positional': 'graph:topics',
+    'transition': 'words:transitions',
     'type': 'interfaces:interfaces',
 }
-NEVER = {('ros2 pkg create', 'package_name'), ('ros2 topic pub', 'node_name')}
+NEVER = {  # what is named there is new
+    ('ros2 bag record', 'node_name'),
+    ('ros2 component load', 'node_name'),
+    ('ros2 component standalone', 'node_name'),
+    ('ros2 pkg create', 'node_name'),
+    ('ros2 pkg create', 'package_name'),
+    ('ros2 topic pub', 'node_name'),
+}
 
 
 def find_completer(command: str, argument: str) -> Completer | None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from importlib import import_module
 from typing import Any, NamedTuple
 
 TRANSFORM_TYPE = 'tf2_msgs/msg/TFMessage'
@@ -43,10 +44,10 @@ class TransformListener:
         if not topics:
             return
         try:
-            from tf2_msgs.msg import TFMessage
+            message_type = import_module('tf2_msgs.msg').TFMessage
         except ImportError:
             return
-        self._subscriptions = [self._subscribe(TFMessage, topic) for topic in topics]
+        self._subscriptions = [self._subscribe(message_type, topic) for topic in topics]
 
     def _subscribe(self, message_type: Any, topic: str) -> Any:
         from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
