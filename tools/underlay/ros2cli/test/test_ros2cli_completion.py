@@ -147,3 +147,30 @@ def test_names_of_the_graph(complete: Complete) -> None:
     assert complete('ros2 topic echo /robot1/_') == ['/robot1/_secret ']
     assert complete('ros2 node info /ta') == ['/talker ']
     assert complete('ros2 topic pub /joint_commands ') == ['sensor_msgs/msg/JointState ']
+
+
+def test_memory_is_short(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is remembered is forgotten with time, and when processes come or go."""
+    from ros2cli.completion import memory
+
+    neighbours = 1
+    monkeypatch.setenv('ROS_HOME', str(tmp_path))
+    monkeypatch.setattr(memory, 'count_neighbours', lambda domain: neighbours)
+    assert memory.recall('/a/b') is None
+    memory.remember('/a/b', ['rate_hz'])
+    assert memory.recall('/a/b') == ['rate_hz']
+    neighbours = 2
+    assert memory.recall('/a/b') is None
+    neighbours = 1
+    monkeypatch.setattr(memory, 'REMEMBERED_S', -1.0)
+    assert memory.recall('/a/b') is None
+
+
+def test_home_that_cannot_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where nothing can be written nothing is remembered, and that is all."""
+    from ros2cli.completion import memory
+
+    (tmp_path / 'file').touch()
+    monkeypatch.setenv('ROS_HOME', str(tmp_path / 'file'))
+    memory.remember('graph', [])
+    assert memory.recall('graph') is None

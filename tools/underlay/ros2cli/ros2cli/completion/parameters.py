@@ -5,15 +5,26 @@ from __future__ import annotations
 
 import argparse
 
-TIMEOUT_S = 1.0
+from ros2cli.completion.memory import recall, remember
+
+TIMEOUT_S = 1.5
 
 
 def parameters(prefix: str, args: argparse.Namespace) -> list[str]:
     """Return the names of the parameters of the node that the command line names."""
+    service = f'/{args.node_name.lstrip("/")}/list_parameters'
+    names: list[str] | None = recall(service)
+    if names is None:
+        names = _ask(service)
+        if names:
+            remember(service, names)
+    return names
+
+
+def _ask(service: str) -> list[str]:
     from rcl_interfaces.srv import ListParameters
     from ros2cli.node.direct import DirectNode
 
-    service = f'/{args.node_name.lstrip("/")}/list_parameters'
     with DirectNode(None, wait=False) as node:
         client = node.create_client(ListParameters, service)
         if not client.wait_for_service(timeout_sec=TIMEOUT_S):
