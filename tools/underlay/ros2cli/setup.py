@@ -13,6 +13,7 @@ setup(
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
         ('share/' + package_name, ['package.xml']),
+        ('share/' + package_name + '/completion', ['completion/ros2.bash', 'completion/ros2.zsh']),
     ],
     scripts=['scripts/ros2'],
     install_requires=['setuptools'],

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 import io
+import os
 import sys
 
 from ros2cli.command_table import COMMANDS
@@ -13,12 +14,21 @@ from ros2cli.exit_status import run_to_status
 from ros2cli.subparsers import add_lazy_subparsers
 
 COMMAND_GROUP = 'ros2cli.command'
+COMPLETION_VARIABLE = '_ARGCOMPLETE'
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one `ros2` command and return its exit status."""
     words = list(sys.argv[1:] if argv is None else argv)
+    if COMPLETION_VARIABLE in os.environ:
+        return run_to_status(_complete)
     return run_to_status(lambda: _run_command(words))
+
+
+def _complete() -> None:
+    from ros2cli.completion import answer
+
+    answer(create_parser)
 
 
 def _run_command(argv: list[str]) -> int | str | None:

@@ -17,6 +17,9 @@ COMMANDS = {
     'daemon': Entry(
         'ros2daemon.command.daemon:DaemonCommand', 'Various daemon related sub-commands'
     ),
+    'doctor': Entry(
+        'ros2doctor.command.doctor:DoctorCommand', 'Check ROS setup and other potential issues'
+    ),
     'interface': Entry(
         'ros2interface.command.interface:InterfaceCommand', 'Show information about ROS interfaces'
     ),
@@ -37,4 +40,5 @@ COMMANDS = {
         'ros2service.command.service:ServiceCommand', 'Various service related sub-commands'
     ),
     'topic': Entry('ros2topic.command.topic:TopicCommand', 'Various topic related sub-commands'),
+    'wtf': Entry('ros2doctor.command.doctor:WtfCommand', 'Use `wtf` as alias to `doctor`'),
 }

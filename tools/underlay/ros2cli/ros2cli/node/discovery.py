@@ -37,6 +37,7 @@ def wait_until_stable(
     is_done: Callable[[], object] = bool,
     now_s: Callable[[], float] = time.monotonic,
     sleep: Callable[[float], None] = time.sleep,
+    quiet_looks: int = QUIET_LOOKS,
 ) -> bool:
     """
     Wait until the graph is complete and quiet for a short while, or `is_done()`.
@@ -47,7 +48,7 @@ def wait_until_stable(
     start = now_s()
     last, unchanged = take(), 0
     while not is_done() and now_s() - start < PATIENCE * spin_time_s:
-        if unchanged >= QUIET_LOOKS and (
+        if unchanged >= quiet_looks and (
             last.is_complete or _is_over(last, now_s() - start, spin_time_s)
         ):
             break

@@ -59,10 +59,10 @@ def _is_complete(node: Any, endpoints: list[Any]) -> bool | None:
     seen = len({bytes(info.endpoint_gid[:PARTICIPANT_BYTES]) for info in endpoints})
     if existing is not None and seen < existing:
         return False
-    return None if existing is None or not _is_local_only() else True
+    return None if existing is None or not is_local_only() else True
 
 
-def _is_local_only() -> bool:
+def is_local_only() -> bool:
     """Tell if discovery is confined to this machine, where all participants are countable."""
     return os.environ.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '').upper() == 'LOCALHOST' and (
         not os.environ.get('ROS_STATIC_PEERS')

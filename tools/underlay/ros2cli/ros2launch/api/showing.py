@@ -12,7 +12,7 @@ FOOTNOTE = '* argument(s) which are only used if specific conditions occur'
 
 def print_arguments_of_launch_file(*, launch_file_path: str) -> None:
     """Load a launch file and print its arguments, and those of the files that it includes."""
-    description = _load(launch_file_path)
+    description = load_launch_file(launch_file_path)
     print('\n'.join(argument_lines(description.get_launch_arguments())))
 
 
@@ -20,10 +20,11 @@ def print_a_launch_file(*, launch_file_path: str) -> None:
     """Load a launch file and print its description as a tree."""
     from launch import LaunchIntrospector
 
-    print(LaunchIntrospector().format_launch_description(_load(launch_file_path)))
+    print(LaunchIntrospector().format_launch_description(load_launch_file(launch_file_path)))
 
 
-def _load(path: str) -> Any:
+def load_launch_file(path: str) -> Any:
+    """Load a launch file and return its description, without visiting it."""
     from launch import LaunchContext
     from launch.launch_description_sources import AnyLaunchDescriptionSource
 

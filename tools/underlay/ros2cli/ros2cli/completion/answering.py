@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Answer a shell which asks how a command line may go on.
+
+argcomplete does the reading and the quoting. The parser is the lazy one of the command line, so
+that only the verb that is being completed is imported.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterable, Sequence
+import faulthandler
+import os
+from typing import Any
+
+from ros2cli.completion.table import find_completer
+
+DEADLINE_S = 4.0
+
+
+def answer(create_parser: Callable[[Sequence[str]], argparse.ArgumentParser]) -> None:
+    """Write the possible words where the shell waits for them, and end the process."""
+    _end_before_it_annoys()
+    import argcomplete
+    from argcomplete.lexers import split_line
+
+    line = os.environ['COMP_LINE']
+    *_, words, _ = split_line(line, int(os.environ.get('COMP_POINT', len(line))))
+    argcomplete.autocomplete(
+        create_parser(words[1:]),
+        always_complete_options=False,
+        default_completer=_complete,
+    )
+
+
+def _end_before_it_annoys() -> None:
+    """End this process after some seconds whatever it does, even inside a library."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    faulthandler.dump_traceback_later(DEADLINE_S, exit=True, file=nowhere)
+
+
+def _complete(
+    *, prefix: str, action: Any, parser: argparse.ArgumentParser, parsed_args: argparse.Namespace
+) -> Iterable[str]:
+    """Return the words for one argument; those of the table, or none."""
+    completer = find_completer(parser.prog, action.dest)
+    return () if completer is None else completer(prefix, parsed_args)

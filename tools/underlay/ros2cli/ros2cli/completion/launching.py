@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Complete launch files and their arguments."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from functools import lru_cache
+import os
+from pathlib import Path
+from typing import Any
+
+from ament_index_python.packages import get_packages_with_prefixes
+from ros2launch.api.arguments import SEPARATOR
+from ros_environment.installed import launch_files, LAUNCH_SUFFIXES
+
+FILE_SUFFIXES = ('launch', 'py', 'xml', 'yaml', 'yml')
+TRUTHS = ('true', 'false')
+
+
+def packages_or_files(prefix: str, args: argparse.Namespace) -> list[str]:
+    """Return the packages with launch files, or launch files if the word looks like a path."""
+    if os.sep in prefix or prefix.startswith(('.', '~')):
+        from ros2cli.completion.files import files_of_kind
+
+        return files_of_kind(prefix, FILE_SUFFIXES)
+    found = get_packages_with_prefixes()
+    names = sorted(name for name in found if name.startswith(prefix))
+    return [name for name in names if _has_launch_files(found[name], name)] or names
+
+
+def launch_files_of_package(prefix: str, args: argparse.Namespace) -> list[str]:
+    """Return the launch files of a package; none if the word in its place is a file itself."""
+    folder = get_packages_with_prefixes().get(args.package_name)
+    return launch_files(Path(folder, 'share', args.package_name)) if folder else []
+
+
+def arguments(prefix: str, args: argparse.Namespace) -> list[str]:
+    """Return the arguments of a launch file that have no value yet, or one's values."""
+    if args.launch_file_name is None and not os.path.isfile(args.package_name):
+        return []
+    name, separator, value = prefix.partition(SEPARATOR)
+    declared = _declared(args.package_name, args.launch_file_name)
+    if separator:
+        values = [text for each in declared if each.name == name for text in _values(each)]
+        return [f'{name}{separator}{text}' for text in values or _paths(value)]
+    given = {text.partition(SEPARATOR)[0] for text in _given(args)}
+    names = dict.fromkeys(each.name for each in declared if each.name not in given)
+    return [f'{each}{SEPARATOR}' for each in names]
+
+
+def _has_launch_files(prefix: str, package: str) -> bool:
+    """Look where launch files usually are, which is quick for a hundred packages."""
+    share = os.path.join(prefix, 'share', package)
+    return any(
+        name.endswith(LAUNCH_SUFFIXES)
+        for folder in (share, os.path.join(share, 'launch'))
+        for name in _names_in(folder)
+    )
+
+
+def _names_in(folder: str) -> list[str]:
+    return os.listdir(folder) if os.path.isdir(folder) else []
+
+
+@lru_cache(maxsize=1)
+def _declared(package_or_path: str, file_name: str | None) -> list[Any]:
+    """Load a launch file, once even if asked twice, and return the arguments it declares."""
+    from ros2launch.api.showing import load_launch_file
+    from ros2launch.command.target import find_target
+
+    path, _ = find_target(package_or_path, file_name, [])
+    found: list[Any] = load_launch_file(path).get_launch_arguments()
+    return found
+
+
+def _given(args: argparse.Namespace) -> Iterator[str]:
+    yield from (args.launch_file_name or '', *(args.launch_arguments or ()))
+
+
+def _values(argument: Any) -> list[str]:
+    """Return the values that an argument can have, if they are known."""
+    if argument.choices:
+        return list(argument.choices)
+    default = argument.default_value or ()
+    texts = [getattr(part, 'text', '') for part in default]
+    return list(TRUTHS) if ''.join(texts).lower() in TRUTHS else []
+
+
+def _paths(prefix: str) -> list[str]:
+    from ros2cli.completion.files import files
+
+    return files(prefix)

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+What was found in the graph is remembered for some seconds.
+
+Who presses TAB often presses it again, to see the choices or after one more letter.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+import json
+import os
+from pathlib import Path
+import re
+import time
+from typing import Any
+
+from ros2cli.node.graph import is_local_only
+from ros2cli.node.neighbours import count_neighbours
+
+REMEMBERED_S = 8.0
+
+
+def domain_id() -> int:
+    """Return the domain of this shell."""
+    text = os.environ.get('ROS_DOMAIN_ID', '')
+    return int(text) if text.isdigit() else 0
+
+
+def recall(subject: str) -> Any:
+    """Return what is known about a subject; None if that is nothing, or too old."""
+    path = _path(subject)
+    try:
+        if time.time() - path.stat().st_mtime > REMEMBERED_S:
+            return None
+        neighbours, data = json.loads(path.read_text(encoding='utf-8'))
+    except (OSError, ValueError):
+        return None
+    return data if neighbours == count_neighbours(domain_id()) else None
+
+
+def remember(subject: str, data: Any) -> None:
+    """Write what is known, in one step, so that a second shell never reads half of it."""
+    path = _path(subject)
+    new = path.with_name(f'{path.name}.{os.getpid()}')
+    with suppress(OSError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        new.write_text(json.dumps([count_neighbours(domain_id()), data]), encoding='utf-8')
+        new.replace(path)
+        return
+    with suppress(OSError):
+        new.unlink()
+
+
+def _path(subject: str) -> Path:
+    """Return the file for a subject, as seen from this shell."""
+    folder = Path(os.environ.get('ROS_HOME') or '~/.ros').expanduser()
+    reach = 'local' if is_local_only() else 'network'
+    name = re.sub(r'\W', '_', subject)
+    return folder / 'completion' / f'{domain_id()}_{reach}_{name}.json'

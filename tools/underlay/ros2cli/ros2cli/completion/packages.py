@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Complete the names of packages and executables."""
+
+from __future__ import annotations
+
+import argparse
+import os
+
+from ament_index_python.packages import get_packages_with_prefixes, PackageNotFoundError
+
+
+def packages(prefix: str, args: argparse.Namespace) -> list[str]:
+    """Return the names of all packages."""
+    return sorted(get_packages_with_prefixes())
+
+
+def packages_with_executables(prefix: str, args: argparse.Namespace) -> list[str]:
+    """Return the names of the packages that have something to run."""
+    return sorted(
+        name
+        for name, folder in get_packages_with_prefixes().items()
+        if os.path.isdir(os.path.join(folder, 'lib', name))
+    )
+
+
+def executables(prefix: str, args: argparse.Namespace) -> list[str]:
+    """Return the names of a package's executables."""
+    from ros2pkg.api import get_executable_paths
+
+    try:
+        paths = get_executable_paths(package_name=args.package_name)
+    except PackageNotFoundError:
+        return []
+    return sorted(map(os.path.basename, paths))

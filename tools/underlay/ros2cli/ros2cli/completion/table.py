@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+What completes which argument, by its name in the parser (`dest`).
+
+A verb gets its completion from the names of its arguments, so it need not know of completion at
+all. An argument that is not here can have an attribute `completer`, as argcomplete defines it.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterable
+from importlib import import_module
+from typing import Any
+
+Completer = Callable[[str, argparse.Namespace], Iterable[str]]
+
+OF_COMMAND = {
+    ('ros2 interface package', 'package_name'): 'interfaces:packages',
+    ('ros2 launch', 'package_name'): 'launching:packages_or_files',
+    ('ros2 run', 'package_name'): 'packages:packages_with_executables',
+}
+OF_ARGUMENT = {
+    'action_name': 'graph:actions',
+    'action_type': 'interfaces:actions',
+    'argv': 'files:files',
+    'bag_path': 'files:files',
+    'container_node_name': 'graph:nodes',
+    'dependencies': 'packages:packages',
+    'destination_directory': 'files:folders',
+    'exclude_topic_types': 'interfaces:messages',
+    'exclude_topics': 'graph:topics',
+    'executable_name': 'packages:executables',
+    'input': 'files:files',
+    'launch_arguments': 'launching:arguments',
+    'launch_file_name': 'launching:launch_files_of_package',
+    'message_type': 'interfaces:messages_of_topic',
+    'node_name': 'graph:nodes',
+    'output': 'files:files',
+    'output_options': 'files:files',
+    'package_name': 'packages:packages',
+    'parameter_file': 'files:files',
+    'parameter_name': 'parameters:parameters',
+    'parameter_names': 'parameters:parameters',
+    'qos_profile_overrides_path': 'files:files',
+    'service_name': 'graph:services',
+    'service_type': 'interfaces:services_of_name',
+    'topic_name': 'graph:topics',
+    'topic_type': 'interfaces:messages',
+    'topic_types': 'interfaces:messages',
+    'topics': 'graph:topics',
+    'topics_positional': 'graph:topics',
+    'transition': 'words:transitions',
+    'type': 'interfaces:interfaces',
+}
+NEVER = {  # what is named there is new
+    ('ros2 bag record', 'node_name'),
+    ('ros2 component load', 'node_name'),
+    ('ros2 component standalone', 'node_name'),
+    ('ros2 pkg create', 'node_name'),
+    ('ros2 pkg create', 'package_name'),
+    ('ros2 topic pub', 'node_name'),
+}
+
+
+def find_completer(command: str, argument: str) -> Completer | None:
+    """Return what completes an argument of a command such as `ros2 topic echo`, or None."""
+    if (command, argument) in NEVER:
+        return None
+    target = OF_COMMAND.get((command, argument)) or OF_ARGUMENT.get(argument)
+    if target is None:
+        return None
+    module, _, name = target.partition(':')
+    found: Any = getattr(import_module(f'ros2cli.completion.{module}'), name)
+    return found  # type: ignore[no-any-return]

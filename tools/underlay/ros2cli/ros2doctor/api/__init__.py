@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Checks and reports.
+
+A package adds its own by the entry-point groups `ros2doctor.checks` and `ros2doctor.report`, with
+a class derived from DoctorCheck or DoctorReport.
+"""
+
+from ros2doctor.api.examining import generate_reports, run_checks
+from ros2doctor.api.extension import DoctorCheck, DoctorReport
+from ros2doctor.api.finding import Finding, Result, Severity
+from ros2doctor.api.report import Report
+
+__all__ = [
+    'DoctorCheck',
+    'DoctorReport',
+    'Finding',
+    'Report',
+    'Result',
+    'Severity',
+    'generate_reports',
+    'run_checks',
+]

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run all checks, and make all reports."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any
+
+from ros2cli.entry import Entry
+from ros2cli.entry_points import entries_of_group
+from ros2doctor.api.finding import Result
+from ros2doctor.api.format import doctor_warn, finding_text, format_print
+from ros2doctor.api.report import Report
+from ros2doctor.api.table import CHECK_GROUP, CHECKS, REPORT_GROUP, REPORTS, WORKSPACE
+
+
+def examine(*, include_warnings: bool, exclude_packages: bool) -> set[str]:
+    """Run the checks and print what they find and their sum; return the failed categories."""
+    failed, failures, total = run_checks(
+        include_warnings=include_warnings, exclude_packages=exclude_packages
+    )
+    if failures:
+        print(f'\n{failures}/{total} check(s) failed')
+        print('\nFailed modules:', *sorted(failed), end='\n\n')
+    else:
+        print(f'\nAll {total} checks passed', end='\n\n')
+    return failed
+
+
+def run_checks(
+    *, include_warnings: bool = False, exclude_packages: bool = False
+) -> tuple[set[str], int, int]:
+    """Run the checks; return the failed categories, the failures and the number of checks."""
+    failed: set[str] = set()
+    failures = total = 0
+    for check in _load(CHECKS, CHECK_GROUP, exclude_packages):
+        category, result = check.category(), check.check()
+        _print_findings(category, result)
+        total += 1
+        if result.error or (include_warnings and result.warning):
+            failed.add(category)
+            failures += 1
+    return failed, failures, total
+
+
+def print_reports(
+    *, categories: Collection[str] | None = None, exclude_packages: bool = False
+) -> None:
+    """Print the reports of some categories; without a choice all, with what the checks find."""
+    for report in generate_reports(categories=categories, exclude_packages=exclude_packages):
+        format_print(report)
+    if categories is None:
+        print('\n   FINDINGS', flush=True)
+        examine(include_warnings=False, exclude_packages=exclude_packages)
+
+
+def generate_reports(
+    *, categories: Collection[str] | None = None, exclude_packages: bool = False
+) -> Iterator[Report]:
+    """Yield the reports of some categories, or all."""
+    for report in _load(REPORTS, REPORT_GROUP, exclude_packages):
+        if categories is None or report.category() in categories:
+            yield report.report()
+
+
+def _load(entries: Mapping[str, Entry], group: str, exclude_packages: bool) -> Iterator[Any]:
+    """Yield an instance of each class of a table and a group; warn of what cannot be loaded."""
+    for name, entry in {**entries_of_group(group), **entries}.items():
+        if exclude_packages and name == WORKSPACE:
+            continue
+        try:
+            yield entry.create()
+        except (ImportError, AttributeError) as error:
+            doctor_warn(f"'{name}' of {group} cannot be loaded: {error}")
+
+
+def _print_findings(category: str, result: Result) -> None:
+    for finding in getattr(result, 'findings', ()):
+        print('\n' + finding_text(category, finding), flush=True)

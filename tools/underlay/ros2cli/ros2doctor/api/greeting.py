@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Greet other hosts by a topic and by multicast, and count who is heard."""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from collections.abc import Callable, Iterator
+import os
+import socket
+import struct
+import time
+from typing import Any
+
+GROUP, PORT = '225.0.0.1', 49150
+LONGEST_GREETING = 256
+SPIN_S = 0.02
+
+Sources = Counter[str]
+
+
+def greet(node: Any, args: argparse.Namespace) -> None:
+    """Greet for ever, or until one table is printed; each period prints who was heard in it."""
+    name = f'{socket.gethostname()}/{os.getpid()}'
+    by_topic: Sources = Counter()
+    by_multicast: Sources = Counter()
+    publish = _join_topic(node, args.topic, name, by_topic)
+    with MulticastGroup(args.ttl) as group:
+        while True:
+            for _ in _periods(args.print_period, args.emit_period):
+                publish()
+                group.send(name)
+                _receive(node, group, args.emit_period, by_multicast)
+            print(table(args.topic, by_topic, by_multicast, name))
+            if args.once:
+                return
+            by_topic.clear()
+            by_multicast.clear()
+
+
+def table(topic: str, by_topic: Sources, by_multicast: Sources, own: str) -> str:
+    """Return how many greetings of each process came by both ways; the own ones are marked."""
+    names = sorted({own, *by_topic, *by_multicast})
+    width = max(map(len, names)) + len(' (this process)')
+    way = f'{GROUP}:{PORT}'
+    lines = ['MULTIMACHINE COMMUNICATION SUMMARY', f'{"heard from":<{width}} {topic} {way}']
+    for name in names:
+        label = f'{name} (this process)' if name == own else name
+        counts = f'{by_topic[name]:>{len(topic)}} {by_multicast[name]:>{len(way)}}'
+        lines.append(f'{label:<{width}} {counts}')
+    return '\n'.join([*lines, ''])
+
+
+class MulticastGroup:
+    """The group that all hosts greet, in a `with` statement."""
+
+    def __init__(self, ttl: int) -> None:
+        """Join the group; OSError if this machine has no multicast."""
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        set_option = self._socket.setsockopt
+        set_option(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        set_option(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+        set_option(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, ttl)
+        self._socket.bind(('', PORT))
+        self._socket.setblocking(False)
+        try:
+            membership = socket.inet_aton(GROUP) + struct.pack('I', socket.INADDR_ANY)
+            set_option(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
+        except OSError as error:
+            self.error: OSError | None = error
+        else:
+            self.error = None
+
+    def __enter__(self) -> MulticastGroup:
+        """Say if nothing can be heard here."""
+        if self.error:
+            print(f'multicast does not work on this machine: {self.error.strerror}')
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """Leave the group."""
+        self._socket.close()
+
+    def send(self, name: str) -> None:
+        """Greet all hosts; without a network nobody hears it."""
+        try:
+            self._socket.sendto(name.encode(), (GROUP, PORT))
+        except OSError as error:
+            self.error = error
+
+    def received(self) -> Iterator[str]:
+        """Yield the greetings that have come since."""
+        while True:
+            try:
+                yield self._socket.recv(LONGEST_GREETING).decode(errors='replace')
+            except OSError:
+                return
+
+
+def _join_topic(node: Any, topic: str, name: str, heard: Sources) -> Callable[[], None]:
+    """Count the greetings on a topic; return the function that publishes one."""
+    from std_msgs.msg import String
+
+    def count(message: Any) -> None:
+        heard[message.data] += 1
+
+    node.create_subscription(String, topic, count, 10)
+    publisher = node.create_publisher(String, topic, 10)
+    return lambda: publisher.publish(String(data=name))
+
+
+def _periods(whole_s: float, part_s: float) -> range:
+    return range(max(1, round(whole_s / part_s)))
+
+
+def _receive(node: Any, group: MulticastGroup, duration_s: float, heard: Sources) -> None:
+    end = time.monotonic() + duration_s
+    while time.monotonic() < end:
+        node.spin_once(min(SPIN_S, duration_s))
+        heard.update(group.received())

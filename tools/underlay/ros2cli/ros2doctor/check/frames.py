@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check that all frames hang together."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+
+from ros2doctor.api.finding import Finding, Severity
+from ros2doctor.check.graph_check import GraphCheck
+from ros2doctor.facts.graph import Graph
+from ros2doctor.facts.transforms import Transform
+
+Parents = dict[str, set[str]]
+
+
+class FramesCheck(GraphCheck):
+    """The check of the trees of transforms."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'frames'
+
+    def findings(self, graph: Graph) -> Iterator[Finding]:
+        """Yield what keeps transforms from being looked up."""
+        yield from frame_findings(graph.transforms)
+
+
+def frame_findings(transforms: Iterable[Transform]) -> Iterator[Finding]:
+    """Yield what is wrong with the trees that some transforms make."""
+    trees: dict[str, Parents] = defaultdict(lambda: defaultdict(set))
+    for transform in transforms:
+        trees[transform.tree][transform.child].add(transform.parent)
+    for topic, parents in sorted(trees.items()):
+        yield from _two_parents(topic, parents)
+        found = roots(parents)
+        if len(found) > 1:
+            yield _two_roots(topic, found)
+        elif not found:
+            yield _loop(topic, parents)
+
+
+def roots(parents: Parents) -> list[str]:
+    """Return the frames that have no parent, sorted."""
+    above = {parent for each in parents.values() for parent in each}
+    return sorted(above - set(parents))
+
+
+def _two_parents(topic: str, parents: Parents) -> Iterator[Finding]:
+    for child, above in sorted(parents.items()):
+        if len(above) > 1:
+            yield Finding(
+                Severity.ERROR,
+                f"on '{topic}', the frame '{child}' has {len(above)} parents: "
+                f'{", ".join(sorted(above))}',
+                'it jumps between them, because each new transform replaces the other',
+                'stop one of the nodes that publish it; to see which there are: '
+                f'ros2 topic info --verbose {topic}',
+            )
+
+
+def _two_roots(topic: str, found: list[str]) -> Finding:
+    return Finding(
+        Severity.WARNING,
+        f"on '{topic}' there are {len(found)} trees of frames, with the roots {', '.join(found)}",
+        'there is no transform between frames of different trees',
+        'start the node that publishes what is missing, or publish it once by hand with a static '
+        f'transform from {found[0]} to {found[1]}',
+    )
+
+
+def _loop(topic: str, parents: Parents) -> Finding:
+    return Finding(
+        Severity.ERROR,
+        f"on '{topic}', the frames go round in a circle: {', '.join(sorted(parents))}",
+        'no transform between them can be looked up',
+        f'stop one of the nodes that publish them: ros2 topic info --verbose {topic}',
+    )

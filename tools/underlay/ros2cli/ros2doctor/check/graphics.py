@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check that a simulator can render camera images and windows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2doctor.api.extension import DoctorCheck
+from ros2doctor.api.finding import Finding, Result, Severity
+from ros2doctor.facts.graphics import Graphics, read_graphics
+
+BACKENDS = {'egl': 'EGL', 'glfw': 'GL', 'osmesa': 'OSMesa'}
+PACKAGES = {
+    'EGL': 'libegl1 libegl-mesa0 libgl1-mesa-dri',
+    'GL': 'libgl1 libgl1-mesa-dri',
+    'OSMesa': 'libosmesa6',
+}
+
+
+class GraphicsCheck(DoctorCheck):
+    """The check of what a simulator draws with."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'graphics'
+
+    def check(self) -> Result:
+        """Return what keeps a simulator from drawing."""
+        return Result(graphics_findings(read_graphics()))
+
+
+def graphics_findings(facts: Graphics) -> Iterator[Finding]:
+    """Yield what keeps a simulator from drawing."""
+    if not any(facts.libraries.values()):
+        yield Finding(
+            Severity.WARNING,
+            'there is no OpenGL library: neither libGL nor libEGL nor libOSMesa',
+            'simulated cameras render nothing; physics, sensors and control work without',
+            _install('EGL'),
+        )
+    else:
+        yield from _backend(facts)
+    for device, is_accessible in facts.devices.items():
+        if not is_accessible:
+            yield Finding(
+                Severity.WARNING,
+                f"this user may not use the graphics card '{device}'",
+                'the processor draws instead, several times slower',
+                'sudo usermod -aG render,video "$USER", then log in again',
+            )
+
+
+def _backend(facts: Graphics) -> Iterator[Finding]:
+    name = facts.variables.get('MUJOCO_GL', '').lower()
+    if not name:
+        return
+    library = BACKENDS.get(name)
+    if library is None:
+        yield Finding(
+            Severity.WARNING,
+            f"MUJOCO_GL is '{name}', which is none of {', '.join(BACKENDS)}",
+            'the simulator does not start, or renders nothing',
+            'export MUJOCO_GL=egl',
+        )
+    elif not facts.libraries.get(library):
+        yield Finding(
+            Severity.WARNING,
+            f'MUJOCO_GL is {name}, but there is no lib{library}',
+            'simulated cameras render nothing',
+            _install(library),
+        )
+    elif name == 'glfw' and not _has_display(facts):
+        yield Finding(
+            Severity.WARNING,
+            'MUJOCO_GL is glfw, which needs a display, but there is none',
+            'the simulator ends with an error when it opens its window',
+            'export MUJOCO_GL=egl',
+        )
+
+
+def _has_display(facts: Graphics) -> bool:
+    return any(facts.variables.get(name) for name in ('DISPLAY', 'WAYLAND_DISPLAY'))
+
+
+def _install(library: str) -> str:
+    return f'sudo apt install {PACKAGES[library]}'

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check that nodes can find each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import os
+
+from ros2doctor.api.extension import DoctorCheck
+from ros2doctor.api.finding import Finding, Result, Severity
+from ros2doctor.facts.network import Network, read_network
+
+RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')
+LAST_DOMAIN = 232
+PORT_BASE = 7400
+PORTS_PER_DOMAIN = 250
+PROFILES_VARIABLE = 'FASTRTPS_DEFAULT_PROFILES_FILE'
+ENOUGH_SHARED_MEMORY = 64 * 1000 * 1000
+
+
+class NetworkCheck(DoctorCheck):
+    """The check of the network."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'network'
+
+    def check(self) -> Result:
+        """Return what keeps nodes from finding each other."""
+        return Result(network_findings(read_network()))
+
+
+def network_findings(facts: Network) -> Iterator[Finding]:
+    """Yield what keeps nodes from finding each other."""
+    yield from _range(facts)
+    yield from _domain(facts)
+    yield from _interfaces(facts)
+    yield from _profiles(facts)
+    yield from _shared_memory(facts)
+
+
+def discovery_range(facts: Network) -> str:
+    """Return how far nodes look for others."""
+    return facts.variables.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '').upper() or 'SUBNET'
+
+
+def _range(facts: Network) -> Iterator[Finding]:
+    found = discovery_range(facts)
+    if found not in RANGES:
+        yield Finding(
+            Severity.ERROR,
+            f"ROS_AUTOMATIC_DISCOVERY_RANGE is '{found}', which is none of {', '.join(RANGES)}",
+            'nodes ignore it and look for others in the whole subnet',
+            'export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST',
+        )
+    elif found == 'OFF':
+        yield Finding(
+            Severity.WARNING,
+            'ROS_AUTOMATIC_DISCOVERY_RANGE is OFF',
+            'nodes find no others, not even on this machine',
+            'export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST',
+        )
+    if facts.variables.get('ROS_LOCALHOST_ONLY', '0') not in ('', '0'):
+        yield Finding(
+            Severity.WARNING,
+            'ROS_LOCALHOST_ONLY is set, which is deprecated',
+            'it overrides ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_STATIC_PEERS',
+            'unset ROS_LOCALHOST_ONLY; export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST',
+        )
+
+
+def _domain(facts: Network) -> Iterator[Finding]:
+    text = facts.variables.get('ROS_DOMAIN_ID') or '0'
+    if not text.isdigit() or int(text) > LAST_DOMAIN:
+        yield Finding(
+            Severity.ERROR,
+            f"ROS_DOMAIN_ID is '{text}', which is no whole number from 0 to {LAST_DOMAIN}",
+            'no node can start',
+            'export ROS_DOMAIN_ID=0',
+        )
+        return
+    first, last = facts.ephemeral_ports
+    port = PORT_BASE + PORTS_PER_DOMAIN * int(text)
+    if first <= port + PORTS_PER_DOMAIN and port <= last:
+        safe = (first - PORT_BASE) // PORTS_PER_DOMAIN - 1
+        yield Finding(
+            Severity.WARNING,
+            f'the ports of domain {text} begin at {port}, among those that the kernel gives to '
+            f'any program ({first} to {last})',
+            'now and then a node cannot start, or is not found, because its port is taken',
+            f'export ROS_DOMAIN_ID={min(int(text) % 100, safe)}',
+        )
+
+
+def _interfaces(facts: Network) -> Iterator[Finding]:
+    loopback = [each for each in facts.interfaces if each.is_loopback and each.is_up]
+    if not loopback:
+        yield Finding(
+            Severity.ERROR,
+            'the loopback interface is down',
+            'nodes on this machine do not find each other',
+            'sudo ip link set lo up',
+        )
+    if discovery_range(facts) == 'LOCALHOST':
+        return
+    others = [each for each in facts.interfaces if each.name in facts.multicast]
+    for each in others:
+        if not facts.multicast[each.name]:
+            yield Finding(
+                Severity.WARNING,
+                f"multicast does not work on the interface '{each.name}' ({each.address})",
+                'nodes announce themselves by multicast, so those behind it are not found',
+                f'sudo ip link set {each.name} multicast on, allow UDP in the firewall (sudo ufw '
+                'allow in proto udp to 224.0.0.0/4), or name the other machine: '
+                'export ROS_STATIC_PEERS=ADDRESS',
+            )
+
+
+def _profiles(facts: Network) -> Iterator[Finding]:
+    path = facts.variables.get(PROFILES_VARIABLE, '')
+    if path and not os.path.isfile(path):
+        yield Finding(
+            Severity.WARNING,
+            f"{PROFILES_VARIABLE} names '{path}', which does not exist",
+            'nodes run with the defaults of DDS, with which camera images get lost',
+            f'unset {PROFILES_VARIABLE}, then source the environment again',
+        )
+
+
+def _shared_memory(facts: Network) -> Iterator[Finding]:
+    free = facts.shared_memory_bytes
+    if free is None or free < ENOUGH_SHARED_MEMORY:
+        state = 'is missing or cannot be written'
+        if free is not None:
+            state = f'has {free // 10**6} MB left'
+        yield Finding(
+            Severity.WARNING,
+            f'/dev/shm {state}',
+            'messages between processes of this machine go through it, several MB a node: nodes '
+            'fail to start, or large messages get lost',
+            'end old nodes and delete what they left (rm /dev/shm/fastrtps_* while no node runs); '
+            'in a container: docker run --shm-size=1g',
+        )

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check that all subscriptions get the messages of all publishers of their topic."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+from ros2doctor.api.finding import Finding, Severity
+from ros2doctor.check.graph_check import GraphCheck
+from ros2doctor.facts.graph import Endpoint, Graph
+
+Pair = tuple[Endpoint, Endpoint]
+
+
+class QosCheck(GraphCheck):
+    """The check of every pair of a publisher and a subscription."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'qos'
+
+    def findings(self, graph: Graph) -> Iterator[Finding]:
+        """Yield the pairs between which no message passes."""
+        yield from dict.fromkeys(pair_findings(graph.endpoints, why_incompatible))
+
+
+def why_incompatible(offered: Any, requested: Any) -> str:
+    """Return why a subscription gets nothing from a publisher, or '' if it does."""
+    from rclpy.qos import qos_check_compatible, QoSCompatibility
+
+    compatibility, reason = qos_check_compatible(offered, requested)
+    if compatibility != QoSCompatibility.ERROR:
+        return ''
+    return str(reason).removeprefix('ERROR: ').rstrip(';. ')
+
+
+def pair_findings(
+    endpoints: Iterable[Endpoint], why_not: Callable[[Any, Any], str]
+) -> Iterator[Finding]:
+    """Yield the pairs of some endpoints between which no message passes."""
+    for publisher, subscription in pairs(endpoints):
+        if publisher.type_name != subscription.type_name:
+            yield _other_type(publisher, subscription)
+        else:
+            reason = why_not(publisher.qos, subscription.qos)
+            if reason:
+                yield _other_qos(publisher, subscription, reason)
+
+
+def pairs(endpoints: Iterable[Endpoint]) -> Iterator[Pair]:
+    """Yield each publisher with each subscription of its topic."""
+    by_topic: dict[str, tuple[list[Endpoint], list[Endpoint]]] = defaultdict(lambda: ([], []))
+    for endpoint in endpoints:
+        by_topic[endpoint.topic][not endpoint.is_publisher].append(endpoint)
+    for _, (publishers, subscriptions) in sorted(by_topic.items()):
+        for publisher in publishers:
+            yield from ((publisher, subscription) for subscription in subscriptions)
+
+
+def _other_type(publisher: Endpoint, subscription: Endpoint) -> Finding:
+    return Finding(
+        Severity.ERROR,
+        f"on '{publisher.topic}', '{publisher.node}' publishes {publisher.type_name}, but "
+        f"'{subscription.node}' subscribes to {subscription.type_name}",
+        f"'{subscription.node}' receives nothing of it, without any message",
+        'use one type in both nodes, or remap one of the topics: --ros-args -r '
+        f'{publisher.topic}:=/another_name',
+    )
+
+
+def _other_qos(publisher: Endpoint, subscription: Endpoint, reason: str) -> Finding:
+    return Finding(
+        Severity.ERROR,
+        f"on '{publisher.topic}', what '{publisher.node}' offers is not what "
+        f"'{subscription.node}' asks for ({reason})",
+        f"'{subscription.node}' receives nothing from '{publisher.node}', without any message",
+        "give both the same QoS profile: the subscription may ask for less ('best effort', "
+        "'volatile'), or the publisher offer more. To see both: "
+        f'ros2 topic info --verbose {publisher.topic}',
+    )

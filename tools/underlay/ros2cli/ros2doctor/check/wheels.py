@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check that the installed wheels belong together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import shlex
+
+from ros2doctor.api.extension import DoctorCheck
+from ros2doctor.api.finding import Finding, Result, Severity
+from ros2doctor.facts.wheels import read_wheels, Wheels
+from ros_environment.advice import listing
+
+ROS_PREFIX = 'ros-'
+LAST_SETUPTOOLS = 79
+
+
+class WheelsCheck(DoctorCheck):
+    """The check of the versions of the wheels."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'wheels'
+
+    def check(self) -> Result:
+        """Return which wheels are missing, or of a version that was not tested."""
+        return Result(wheel_findings(read_wheels()))
+
+
+def wheel_findings(facts: Wheels) -> Iterator[Finding]:
+    """Compare the installed wheels with the pinned ones."""
+    missing = sorted(set(facts.pinned) - set(facts.installed))
+    if missing:
+        yield Finding(
+            Severity.ERROR,
+            f'wheels are missing: {listing(missing)}',
+            'what needs them ends with an ImportError',
+            _install_again(facts),
+        )
+    yield from _other_versions(facts)
+    if not facts.pinned:
+        yield from _setuptools(facts)
+
+
+def _other_versions(facts: Wheels) -> Iterator[Finding]:
+    others = {
+        name: f'{name} {facts.installed[name]} instead of {version}'
+        for name, version in sorted(facts.pinned.items())
+        if facts.installed.get(name, version) != version
+    }
+    ros = [text for name, text in others.items() if name.startswith(ROS_PREFIX)]
+    if ros:
+        yield Finding(
+            Severity.ERROR,
+            f'wheels of ROS have versions that do not belong together: {listing(ros)}',
+            'their libraries were compiled for each other: others crash or do not load',
+            _install_again(facts),
+        )
+    rest = [text for name, text in others.items() if not name.startswith(ROS_PREFIX)]
+    if rest:
+        yield Finding(
+            Severity.WARNING,
+            f'wheels have other versions than the tested ones: {listing(rest)}',
+            'builds and programs may behave differently from those of other people',
+            _install_again(facts),
+        )
+
+
+def _setuptools(facts: Wheels) -> Iterator[Finding]:
+    """Judge the one version that matters in every workspace, where none are pinned."""
+    version = facts.installed.get('setuptools', '0')
+    if int(version.partition('.')[0]) > LAST_SETUPTOOLS:
+        yield Finding(
+            Severity.WARNING,
+            f'setuptools is {version}',
+            'from version 80 on, `colcon build --symlink-install` fails',
+            "python3 -m pip install 'setuptools<80'",
+        )
+
+
+def _install_again(facts: Wheels) -> str:
+    """Return the command that installs the pins anew, also where the set-up seems complete."""
+    folder = shlex.quote(str(facts.root))
+    return f'cd {folder} && rm -f .venv/stamp/wheels .venv/stamp/underlay && make setup'

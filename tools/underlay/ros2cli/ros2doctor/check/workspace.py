@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check that the workspace is built, sourced, and as new as its sources."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+import shlex
+
+from ros2doctor.api.extension import DoctorCheck
+from ros2doctor.api.finding import Finding, Result, Severity
+from ros2doctor.facts.workspace import PackageState, read_workspaces, Workspace
+from ros_environment.advice import build_command, listing, source_command
+
+
+class WorkspaceCheck(DoctorCheck):
+    """The check of the workspaces at hand."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'workspace'
+
+    def check(self) -> Result:
+        """Return what has to be built or sourced."""
+        return Result(workspace_findings(read_workspaces()))
+
+
+def workspace_findings(facts: Iterable[Workspace]) -> Iterator[Finding]:
+    """Yield what has to be built or sourced in some workspaces."""
+    for workspace in facts:
+        built = [package for package in workspace.packages if package.is_built]
+        if not built:
+            yield _not_built(workspace.folder)
+            continue
+        if not any(package.is_known for package in built):
+            yield _not_sourced(workspace.folder)
+        for package in workspace.packages:
+            yield from _package_findings(workspace.folder, package)
+
+
+def _package_findings(folder: Path, package: PackageState) -> Iterator[Finding]:
+    if not package.is_built:
+        yield Finding(
+            Severity.WARNING,
+            f"the package '{package.name}' in '{package.folder}' is not built",
+            '`ros2 run` and `ros2 launch` do not find it',
+            build_command(folder, package.name),
+        )
+    elif package.changed:
+        yield Finding(
+            Severity.WARNING,
+            f"'{package.name}' is older than its sources: {listing(list(package.changed))}",
+            'what runs is the state before these changes',
+            build_command(folder, package.name),
+        )
+
+
+def _not_built(folder: Path) -> Finding:
+    return Finding(
+        Severity.ERROR,
+        f"the workspace '{folder}' is not built",
+        'none of its packages can be run or launched',
+        f'cd {shlex.quote(str(folder))} && colcon build && source install/setup.bash',
+    )
+
+
+def _not_sourced(folder: Path) -> Finding:
+    return Finding(
+        Severity.ERROR,
+        f"the workspace '{folder}' is built, but not sourced in this terminal",
+        '`ros2 run` and `ros2 launch` do not find its packages',
+        source_command(folder),
+    )

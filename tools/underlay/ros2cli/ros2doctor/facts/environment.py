@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The variables and programs of the shell."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.util import find_spec
+import os
+from pathlib import Path
+import shutil
+import sys
+
+from ros2doctor.facts.scripts import is_own, read_script, Script
+
+PATH_VARIABLES = ('AMENT_PREFIX_PATH', 'CMAKE_PREFIX_PATH', 'COLCON_PREFIX_PATH', 'PYTHONPATH')
+
+
+@dataclass(frozen=True)
+class Environment:
+    """
+    What a shell passes on to the programs that it starts.
+
+    :param python_version: major and minor version of the running Python
+    :param prefix: the virtual environment of the running Python
+    :param rclpy: where rclpy would be imported from, if anywhere
+    :param other_python: what `python3` stands for, if it is not the running one
+    :param colcon: the program that `colcon` stands for, if any
+    :param set_up: a command that sources what is near, or that makes it
+    """
+
+    variables: Mapping[str, str]
+    python_version: tuple[int, int]
+    prefix: str
+    rclpy: str | None
+    other_python: str | None
+    colcon: Script | None
+    set_up: str
+
+    def folders(self, variable: str) -> list[str]:
+        """Return the folders that a variable lists."""
+        return [text for text in self.variables.get(variable, '').split(os.pathsep) if text]
+
+
+def read_environment() -> Environment:
+    """Return the environment of this process."""
+    spec = find_spec('rclpy')
+    colcon = shutil.which('colcon')
+    python = shutil.which('python3')
+    return Environment(
+        variables=dict(os.environ),
+        python_version=sys.version_info[:2],
+        prefix=sys.prefix,
+        rclpy=spec.origin if spec else None,
+        other_python=python if python and not is_own(python) else None,
+        colcon=read_script(Path(colcon)) if colcon else None,
+        set_up=set_up_command(),
+    )
+
+
+def set_up_command() -> str:
+    """Return the command that gives a shell its environment, from what is there."""
+    from ros_environment.advice import source_command
+    from ros_environment.workspace import workspaces
+
+    for workspace in workspaces():
+        if (workspace / 'install' / 'setup.bash').is_file():
+            return source_command(workspace)
+        if (workspace / 'tools' / 'setup').is_dir():
+            return f'cd {workspace} && make build && source install/setup.bash'
+    return 'source install/setup.bash in the folder of your workspace'

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a simulator can draw with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from ctypes.util import find_library
+from dataclasses import dataclass
+import os
+from pathlib import Path
+
+LIBRARIES = ('GL', 'EGL', 'OSMesa')
+
+
+@dataclass(frozen=True)
+class Graphics:
+    """
+    Libraries and devices for OpenGL.
+
+    :param libraries: file of each library, '' if it is missing
+    :param devices: devices of graphics cards, and whether they may be used
+    """
+
+    variables: Mapping[str, str]
+    libraries: Mapping[str, str]
+    devices: Mapping[str, bool]
+
+
+def read_graphics() -> Graphics:
+    """Return what this machine can draw with."""
+    devices = [*Path('/dev/dri').glob('renderD*'), *Path('/dev').glob('nvidia[0-9]*')]
+    return Graphics(
+        variables=dict(os.environ),
+        libraries={name: find_library(name) or '' for name in LIBRARIES},
+        devices={str(path): os.access(path, os.R_OK | os.W_OK) for path in sorted(devices)},
+    )

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Try multicast on one interface; nothing leaves this machine."""
+
+from __future__ import annotations
+
+import os
+import socket
+
+DDS_GROUP = '239.255.0.1'
+TIMEOUT_S = 0.5
+STAYS_HERE = 0
+
+
+def is_delivered(address: str) -> bool:
+    """Tell whether a packet to the group of DDS comes back on the interface of an address."""
+    try:
+        with _receiver(address) as receiver, _sender(address) as sender:
+            token = os.urandom(8)
+            sender.sendto(token, (DDS_GROUP, receiver.getsockname()[1]))
+            return receiver.recv(len(token)) == token
+    except OSError:
+        return False
+
+
+def _receiver(address: str) -> socket.socket:
+    receiver = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    try:
+        receiver.bind(('', 0))
+        receiver.settimeout(TIMEOUT_S)
+        membership = socket.inet_aton(DDS_GROUP) + socket.inet_aton(address)
+        receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
+    except OSError:
+        receiver.close()
+        raise
+    return receiver
+
+
+def _sender(address: str) -> socket.socket:
+    sender = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    try:
+        interface = socket.inet_aton(address)
+        sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, interface)
+        sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, STAYS_HERE)
+        sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_LOOP, 1)
+    except OSError:
+        sender.close()
+        raise
+    return sender

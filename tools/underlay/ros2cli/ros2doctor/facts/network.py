@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The network as DDS sees it: variables, interfaces, multicast, shared memory."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+import os
+from pathlib import Path
+import shutil
+
+from ros2doctor.facts.interfaces import Interface, read_interfaces
+from ros2doctor.facts.multicast import is_delivered
+
+SHARED_MEMORY = '/dev/shm'
+PORT_RANGE = Path('/proc/sys/net/ipv4/ip_local_port_range')
+USUAL_PORT_RANGE = (32768, 60999)
+
+
+@dataclass(frozen=True)
+class Network:
+    """
+    What nodes need to find each other.
+
+    :param multicast: whether multicast is delivered, by name of interface
+    :param ephemeral_ports: the ports that the kernel gives to whoever asks for any
+    :param shared_memory_bytes: the room left for messages on this machine; None without any
+    """
+
+    variables: Mapping[str, str]
+    interfaces: tuple[Interface, ...]
+    multicast: Mapping[str, bool]
+    ephemeral_ports: tuple[int, int]
+    shared_memory_bytes: int | None
+
+
+def read_network() -> Network:
+    """Return the network of this process."""
+    interfaces = tuple(read_interfaces())
+    return Network(
+        variables=dict(os.environ),
+        interfaces=interfaces,
+        multicast={
+            each.name: is_delivered(each.address)
+            for each in interfaces
+            if each.is_up and each.address
+        },
+        ephemeral_ports=_ephemeral_ports(),
+        shared_memory_bytes=_shared_memory_bytes(),
+    )
+
+
+def _ephemeral_ports() -> tuple[int, int]:
+    try:
+        first, last = PORT_RANGE.read_text(encoding='ascii').split()
+    except (OSError, ValueError):
+        return USUAL_PORT_RANGE
+    return int(first), int(last)
+
+
+def _shared_memory_bytes() -> int | None:
+    if not os.access(SHARED_MEMORY, os.W_OK):
+        return None
+    return shutil.disk_usage(SHARED_MEMORY).free

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The interpreters that installed scripts name in their first line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+import os
+from pathlib import Path
+import shutil
+import sys
+
+LONGEST_LINE = 512
+
+
+@dataclass(frozen=True)
+class Script:
+    """
+    A program that names an interpreter in its first line.
+
+    :param is_fixed: whether it is named by its path, and not looked up in PATH
+    :param exists: whether there is such an interpreter
+    :param is_python: whether it is a Python
+    :param is_own: whether it is the one of this environment
+    """
+
+    path: str
+    interpreter: str
+    is_fixed: bool
+    exists: bool
+    is_python: bool
+    is_own: bool
+
+
+def read_scripts() -> list[Script]:
+    """Return the scripts among the executables of all packages, and the commands themselves."""
+    return [script for path in _paths() if (script := read_script(path))]
+
+
+def read_script(path: Path) -> Script | None:
+    """Return what the first line of a file says, or None if it is no script."""
+    try:
+        with path.open('rb') as stream:
+            line = os.fsdecode(stream.readline(LONGEST_LINE)).strip()
+    except OSError:
+        return None
+    words = line[2:].split() if line.startswith('#!') else []
+    if not words:
+        return None
+    is_fixed = os.path.basename(words[0]) != 'env'
+    program = words[0] if is_fixed else shutil.which(words[-1]) or words[-1]
+    return Script(
+        path=str(path),
+        interpreter=program,
+        is_fixed=is_fixed,
+        exists=os.path.exists(program),
+        is_python=os.path.basename(program).startswith('python'),
+        is_own=is_own(program),
+    )
+
+
+def is_own(program: str) -> bool:
+    """
+    Tell whether a Python is that of this environment.
+
+    Folders are compared, because the Python of an environment is a link to that of the system.
+    """
+    return os.path.realpath(os.path.dirname(program)) == os.path.realpath(
+        os.path.dirname(sys.executable)
+    )
+
+
+def _paths() -> Iterator[Path]:
+    from ros2pkg.api import get_executable_paths, get_package_names
+    from ros_environment.installed import prefixes
+
+    for name in ('ros2', 'colcon', 'pytest'):
+        yield Path(sys.executable).with_name(name)
+    for package in get_package_names() if prefixes() else ():
+        yield from map(Path, get_executable_paths(package_name=package))

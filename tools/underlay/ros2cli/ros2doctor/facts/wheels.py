@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The distributions that are installed, and those that a workspace pins."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from importlib.metadata import distributions
+from pathlib import Path
+import re
+import sys
+
+PIN = re.compile(r'^([A-Za-z0-9._-]+)==([^ ;]+)(?: *; *(.*))?$')
+
+
+@dataclass(frozen=True)
+class Wheels:
+    """
+    Versions by name of distribution.
+
+    :param root: the workspace whose requirements.txt has the pins; None if there is none
+    """
+
+    installed: Mapping[str, str]
+    pinned: Mapping[str, str]
+    root: Path | None
+
+
+def read_wheels() -> Wheels:
+    """Return what this environment has, and what the workspace that made it pins."""
+    root = _root()
+    text = (root / 'requirements.txt').read_text(encoding='utf-8') if root else ''
+    installed = {
+        normal_name(item.metadata['Name']): item.version
+        for item in reversed(list(distributions()))
+        if item.metadata['Name']
+    }
+    return Wheels(installed, pins(text), root)
+
+
+def pins(requirements: str) -> dict[str, str]:
+    """Return the versions of a requirements file that are meant for this Python."""
+    found = (match.groups() for match in map(PIN.match, requirements.splitlines()) if match)
+    return {normal_name(name): version for name, version, marker in found if _applies(marker)}
+
+
+def normal_name(name: str) -> str:
+    """Return the one form of a distribution's name that pip compares."""
+    return re.sub(r'[-_.]+', '-', name).lower()
+
+
+def _applies(marker: str | None) -> bool:
+    if not marker:
+        return True
+    try:
+        from packaging.markers import Marker
+    except ImportError:
+        return False
+    return Marker(marker).evaluate()
+
+
+def _root() -> Path | None:
+    """Return the workspace with the pins: the one that made the environment, or a near one."""
+    return next((root for root in _candidates() if (root / 'requirements.txt').is_file()), None)
+
+
+def _candidates() -> Iterator[Path]:
+    home = Path(sys.prefix, 'stamp', 'home')
+    if home.is_file():
+        yield Path(home.read_text(encoding='utf-8').split('\n')[0])
+    yield Path(sys.prefix).parent

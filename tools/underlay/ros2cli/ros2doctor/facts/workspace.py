@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The packages of the workspaces at hand: in the source tree, built, and known to the shell."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+import filecmp
+import os
+from pathlib import Path
+
+from ros_environment.installed import is_installed_in, known_packages
+from ros_environment.source_tree import source_packages, SourcePackage
+from ros_environment.workspace import workspaces
+
+NEVER_INSTALLED = ('test', 'tests', '__pycache__')
+COMPILED = ('.c', '.cc', '.cpp', '.h', '.hpp', '.msg', '.srv', '.action', '.idl')
+BUILD_FILES = ('CMakeLists.txt', 'package.xml', 'setup.py', 'setup.cfg')
+
+
+@dataclass(frozen=True)
+class PackageState:
+    """
+    A package of a source tree.
+
+    :param is_built: whether the install folder has it
+    :param is_known: whether this shell finds it
+    :param changed: files that are newer than what was built from them, and differ from it
+    """
+
+    name: str
+    folder: Path
+    is_built: bool
+    is_known: bool
+    changed: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """A colcon workspace."""
+
+    folder: Path
+    packages: tuple[PackageState, ...]
+
+
+def read_workspaces() -> list[Workspace]:
+    """Return the workspace around the current folder, and those that are sourced."""
+    known = known_packages()
+    return [_read_workspace(folder, known) for folder in workspaces()]
+
+
+def _read_workspace(folder: Path, known: set[str]) -> Workspace:
+    packages = source_packages(folder).values()
+    return Workspace(
+        folder, tuple(_read_package(folder / 'install', each, known) for each in packages)
+    )
+
+
+def _read_package(install: Path, source: SourcePackage, known: set[str]) -> PackageState:
+    prefix = install / source.name
+    return PackageState(
+        name=source.name,
+        folder=source.folder,
+        is_built=is_installed_in(install, source.name),
+        is_known=source.name in known,
+        changed=tuple(changed_files(source, prefix if prefix.is_dir() else install)),
+    )
+
+
+def changed_files(source: SourcePackage, prefix: Path) -> Iterator[str]:
+    """Yield the files of a package that were changed after it was built, relative to it."""
+    marker = prefix / 'share' / 'colcon-core' / 'packages' / source.name
+    if not marker.is_file():
+        return
+    built_ns = marker.stat().st_mtime_ns
+    copies = _folders_of_copies(prefix, source.name)
+    for path in _source_files(source.folder):
+        if path.stat().st_mtime_ns > built_ns:
+            relative = path.relative_to(source.folder)
+            if _differs(path, [folder / relative for folder in copies]):
+                yield relative.as_posix()
+
+
+def _folders_of_copies(prefix: Path, package: str) -> list[Path]:
+    """Return where files of a package are copied to; with symbolic links there is no copy."""
+    modules = [path.parent for path in prefix.glob(f'lib/python3*/site-packages/{package}')]
+    return [prefix / 'share' / package, *modules]
+
+
+def _source_files(folder: Path) -> Iterator[Path]:
+    for root, folders, names in os.walk(folder):
+        folders[:] = [
+            name for name in folders if name not in NEVER_INSTALLED and not name.startswith('.')
+        ]
+        yield from (Path(root, name) for name in names if Path(root, name).is_file())
+
+
+def _differs(source: Path, copies: list[Path]) -> bool:
+    """Compare a file with its copies; one without copies counts if others are made from it."""
+    existing = [copy for copy in copies if copy.is_file()]
+    if not existing:
+        return source.suffix in COMPILED or source.name in BUILD_FILES
+    return not any(filecmp.cmp(source, copy, shallow=False) for copy in existing)

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The trees of frames."""
+
+from __future__ import annotations
+
+from ros2doctor.api.report import Report
+from ros2doctor.facts.graph import Graph
+from ros2doctor.report.graph_report import GraphReport
+
+
+class FramesReport(GraphReport):
+    """The report of the transforms."""
+
+    TITLE = 'TRANSFORMS'
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'frames'
+
+    def fill(self, report: Report, graph: Graph) -> None:
+        """Add each transform."""
+        for tree, parent, child in sorted(graph.transforms):
+            report.add_to_report(tree, f'{parent} -> {child}')

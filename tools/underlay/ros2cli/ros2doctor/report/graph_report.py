@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the reports of the running nodes have in common."""
+
+from __future__ import annotations
+
+from ros2doctor.api.extension import DoctorReport
+from ros2doctor.api.report import Report
+from ros2doctor.facts.client_library import why_rclpy_does_not_start
+from ros2doctor.facts.graph import Graph, read_graph
+
+
+class GraphReport(DoctorReport):
+    """A report of the graph; where rclpy does not start it says why."""
+
+    TITLE = ''
+
+    def report(self) -> Report:
+        """Return the section."""
+        report = Report(self.TITLE)
+        why_not = why_rclpy_does_not_start()
+        if why_not:
+            report.add_to_report('not available', why_not)
+        else:
+            self.fill(report, read_graph())
+        return report
+
+    def fill(self, report: Report, graph: Graph) -> None:
+        """Add what there is to say about a graph."""
+        raise NotImplementedError(f'{type(self).__name__} does not implement fill()')

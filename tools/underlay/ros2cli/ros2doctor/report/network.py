@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The network."""
+
+from __future__ import annotations
+
+from ros2doctor.api.extension import DoctorReport
+from ros2doctor.api.report import Report
+from ros2doctor.check.network import discovery_range
+from ros2doctor.facts.interfaces import Interface
+from ros2doctor.facts.network import Network, read_network
+
+
+class NetworkReport(DoctorReport):
+    """The report of interfaces and discovery."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'network'
+
+    def report(self) -> Report:
+        """Return the section."""
+        facts = read_network()
+        report = Report('NETWORK CONFIGURATION')
+        variables = facts.variables
+        report.add_to_report('discovery range', discovery_range(facts))
+        report.add_to_report('domain', variables.get('ROS_DOMAIN_ID') or '0')
+        report.add_to_report('static peers', variables.get('ROS_STATIC_PEERS', ''))
+        report.add_to_report('middleware', variables.get('RMW_IMPLEMENTATION', ''))
+        report.add_to_report('bytes free in /dev/shm', facts.shared_memory_bytes)
+        for interface in facts.interfaces:
+            report.add_to_report(interface.name, _state(facts, interface))
+        return report
+
+
+def _state(facts: Network, interface: Interface) -> str:
+    words = [interface.address or 'no IPv4 address', 'up' if interface.is_up else 'down']
+    if interface.name in facts.multicast:
+        works = 'works' if facts.multicast[interface.name] else 'does not work'
+        words.append(f'multicast {works}')
+    return ', '.join(words)

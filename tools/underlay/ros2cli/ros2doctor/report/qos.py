@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every pair of a publisher and a subscription."""
+
+from __future__ import annotations
+
+from ros2doctor.api.report import Report
+from ros2doctor.check.qos import pairs, why_incompatible
+from ros2doctor.facts.graph import Graph
+from ros2doctor.report.graph_report import GraphReport
+
+
+class QosReport(GraphReport):
+    """The report of which subscriptions get the messages of which publishers."""
+
+    TITLE = 'QOS COMPATIBILITY LIST'
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'qos'
+
+    def fill(self, report: Report, graph: Graph) -> None:
+        """Add each pair."""
+        for publisher, subscription in pairs(graph.endpoints):
+            reason = why_incompatible(publisher.qos, subscription.qos)
+            report.add_to_report(
+                publisher.topic,
+                f'{publisher.node} -> {subscription.node}: {reason or "compatible"}',
+            )

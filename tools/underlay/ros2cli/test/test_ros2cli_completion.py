@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of what a command line can go on to, without a shell."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+import os
+from pathlib import Path
+import subprocess
+import sys
+
+import pytest
+from ros2cli.completion.table import find_completer, OF_ARGUMENT, OF_COMMAND
+
+BASH_WORDBREAKS = ' \t\n"\'><=;|&(:'
+LAUNCH_FILE = """\
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+
+print('loaded')
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument('rate_hz', default_value='50'),
+        DeclareLaunchArgument('robot', default_value='nao', choices=['nao', 'wolfgang']),
+        DeclareLaunchArgument('use_rviz', default_value='false'),
+    ])
+"""
+
+Complete = Callable[..., list[str]]
+
+
+@pytest.fixture
+def prefix(tmp_path: Path) -> Path:
+    """Make a folder of installed packages with one that has a launch file and a program."""
+    for folder in ('share/ament_index/resource_index/packages', 'share/demo_pkg/launch'):
+        (tmp_path / folder).mkdir(parents=True)
+    (tmp_path / 'share/ament_index/resource_index/packages/demo_pkg').touch()
+    (tmp_path / 'share/demo_pkg/launch/demo.launch.py').write_text(LAUNCH_FILE)
+    program = tmp_path / 'lib/demo_pkg/talk'
+    program.parent.mkdir(parents=True)
+    program.write_text('#!/bin/sh\n')
+    program.chmod(0o755)
+    return tmp_path
+
+
+@pytest.fixture
+def complete(prefix: Path, tmp_path: Path, ros_environment_variables: dict[str, str]) -> Complete:
+    """Return a function that asks for the words after a line, as the shell function does."""
+
+    def ask(line: str, point: int | None = None) -> list[str]:
+        answer = tmp_path / 'answer'
+        path = os.pathsep.join([str(prefix), os.environ.get('AMENT_PREFIX_PATH', '')])
+        subprocess.run(
+            ['bash', '-c', f'"$@" 8>"{answer}"', 'bash', sys.executable, '-m', 'ros2cli'],
+            env={
+                **ros_environment_variables,
+                'AMENT_PREFIX_PATH': path,
+                'COMP_LINE': line,
+                'COMP_POINT': str(len(line) if point is None else point),
+                'ROS_HOME': str(tmp_path),
+                '_ARGCOMPLETE': '1',
+                '_ARGCOMPLETE_COMP_WORDBREAKS': BASH_WORDBREAKS,
+                '_ARGCOMPLETE_IFS': '\n',
+                '_ARGCOMPLETE_SHELL': 'bash',
+                '_ARGCOMPLETE_SUPPRESS_SPACE': '0',
+            },
+            capture_output=True,
+            timeout=60,
+        )
+        return answer.read_text().split('\n')
+
+    return ask
+
+
+@pytest.mark.parametrize('target', sorted({*OF_COMMAND.values(), *OF_ARGUMENT.values()}))
+def test_table_names_functions(target: str) -> None:
+    """Each row of the table names a function that exists."""
+    module, _, name = target.partition(':')
+    assert callable(getattr(import_module(f'ros2cli.completion.{module}'), name))
+
+
+def test_command_is_more_precise_than_argument() -> None:
+    """A command's own row goes before that of the argument; names that are new have none."""
+    assert find_completer('ros2 run', 'package_name') is not None
+    assert find_completer('ros2 run', 'package_name') != find_completer(
+        'ros2 pkg xml', 'package_name'
+    )
+    assert find_completer('ros2 pkg create', 'package_name') is None
+    assert find_completer('ros2 topic pub', 'rate') is None
+
+
+@pytest.mark.parametrize(
+    'line, words',
+    [
+        ('ros2 lau', ['launch ']),
+        ('ros2 topic pu', ['pub ']),
+        ('ros2 topic echo --qos-rel', ['--qos-reliability ']),
+        ('ros2 topic echo --qos-durability tr', ['transient_local ']),
+        ('ros2 run demo_', ['demo_pkg ']),
+        ('ros2 run demo_pkg ', ['talk ']),
+        ('ros2 launch demo_', ['demo_pkg ']),
+        ('ros2 launch demo_pkg d', ['demo.launch.py ']),
+        ('ros2 launch demo_pkg demo.launch.py ', ['rate_hz:=', 'robot:=', 'use_rviz:=']),
+        ('ros2 launch demo_pkg demo.launch.py robot:=nao r', ['rate_hz:=']),
+        ('ros2 launch demo_pkg demo.launch.py robot:=w', ['wolfgang ']),
+        ('ros2 launch demo_pkg demo.launch.py use_rviz:=', ['true', 'false']),
+        ('ros2 pkg prefix demo_', ['demo_pkg ']),
+        ('ros2 topic find sensor_msgs/msg/JointS', ['sensor_msgs/msg/JointState ']),
+        ('ros2 topic find sensor_m', None),
+        ('ros2 nope ', ['']),
+        ('ros2 run nope ', ['']),
+        ('ros2 launch demo_pkg nope.launch.py ', ['']),
+    ],
+)
+def test_words(complete: Complete, line: str, words: list[str] | None) -> None:
+    """The words after a line are those that fit there; after a mistake there are none."""
+    found = complete(line)
+    if words is None:
+        assert all(word.startswith('sensor_msgs/msg/') for word in found)
+        assert len(found) > 1
+    else:
+        assert found == words
+
+
+def test_file_instead_of_package(complete: Complete, prefix: Path) -> None:
+    """The path of a launch file is completed, and so are its arguments."""
+    path = prefix / 'share/demo_pkg/launch/demo.launch.py'
+    assert complete(f'ros2 launch {str(path)[:-8]}') == [f'{path} ']
+    assert complete(f'ros2 launch {path} us') == ['use_rviz:=']
+
+
+def test_cursor_inside_the_line(complete: Complete) -> None:
+    """Only what is before the cursor counts."""
+    assert complete('ros2 launch demo_ -n', len('ros2 launch demo_')) == ['demo_pkg ']
+
+
+@pytest.mark.usefixtures('talker')
+def test_names_of_the_graph(complete: Complete) -> None:
+    """Topics, nodes and the types of topics come from the graph; later from memory."""
+    for _ in range(20):
+        if complete('ros2 topic echo /jo') == ['/joint_commands ']:
+            break
+    assert complete('ros2 topic echo /jo') == ['/joint_commands ']
+    assert complete('ros2 topic echo /robot1/_') == ['/robot1/_secret ']
+    assert complete('ros2 node info /ta') == ['/talker ']
+    assert complete('ros2 topic pub /joint_commands ') == ['sensor_msgs/msg/JointState ']
+
+
+def test_memory_is_short(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is remembered is forgotten with time, and when processes come or go."""
+    from ros2cli.completion import memory
+
+    neighbours = 1
+    monkeypatch.setenv('ROS_HOME', str(tmp_path))
+    monkeypatch.setattr(memory, 'count_neighbours', lambda domain: neighbours)
+    assert memory.recall('/a/b') is None
+    memory.remember('/a/b', ['rate_hz'])
+    assert memory.recall('/a/b') == ['rate_hz']
+    neighbours = 2
+    assert memory.recall('/a/b') is None
+    neighbours = 1
+    monkeypatch.setattr(memory, 'REMEMBERED_S', -1.0)
+    assert memory.recall('/a/b') is None
+
+
+def test_home_that_cannot_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where nothing can be written nothing is remembered, and that is all."""
+    from ros2cli.completion import memory
+
+    (tmp_path / 'file').touch()
+    monkeypatch.setenv('ROS_HOME', str(tmp_path / 'file'))
+    memory.remember('graph', [])
+    assert memory.recall('graph') is None

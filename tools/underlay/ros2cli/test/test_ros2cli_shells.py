@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of completion in a shell with a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import os
+from pathlib import Path
+import pty
+import select
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+SCRIPTS = Path(__file__).parents[1] / 'completion'
+PROMPT = 'ready> '
+TIMEOUT_S = 30.0
+INTERRUPT = '\x03'
+
+pytestmark = pytest.mark.skipif(not shutil.which('bash'), reason='there is no bash')
+
+
+class Terminal:
+    """A shell in a terminal of its own, and what it has shown."""
+
+    def __init__(self, command: list[str], environment: dict[str, str]) -> None:
+        """Start the shell and wait for its prompt."""
+        self.shown = ''
+        self.pid, self._descriptor = pty.fork()
+        if self.pid == 0:
+            os.execvpe(command[0], command, environment)
+        self.wait_for(PROMPT)
+
+    def press(self, text: str) -> None:
+        """Press keys."""
+        self.shown = ''
+        os.write(self._descriptor, text.encode())
+
+    def wait_for(self, text: str) -> None:
+        """Read until a text is shown."""
+        end = time.monotonic() + TIMEOUT_S
+        while text not in self.shown:
+            assert time.monotonic() < end, f'{text!r} is not in {self.shown!r}'
+            self.read(0.1)
+
+    def read(self, duration_s: float) -> None:
+        """Read what is shown within some time."""
+        if select.select([self._descriptor], [], [], duration_s)[0]:
+            self.shown += os.read(self._descriptor, 4096).decode(errors='replace')
+
+    def children(self) -> list[str]:
+        """Return the processes that the shell has started and that still run."""
+        path = Path(f'/proc/{self.pid}/task/{self.pid}/children')
+        return path.read_text().split()
+
+    def close(self) -> None:
+        """End the shell."""
+        os.kill(self.pid, signal.SIGKILL)
+        os.waitpid(self.pid, 0)
+        os.close(self._descriptor)
+
+
+@pytest.fixture
+def bash(tmp_path: Path, ros_environment_variables: dict[str, str]) -> Iterator[Terminal]:
+    """Run an interactive bash with the completion of `ros2`."""
+    program = tmp_path / 'bin' / 'ros2'
+    program.parent.mkdir()
+    program.write_text(f'#!/bin/sh\nexec {sys.executable} -m ros2cli "$@"\n')
+    program.chmod(0o755)
+    rc = tmp_path / 'rc'
+    rc.write_text(
+        f"PS1='{PROMPT}'\nbind 'set bell-style none' 'set enable-bracketed-paste off'\n"
+        f'source {SCRIPTS / "ros2.bash"}\n'
+    )
+    environment = {
+        **ros_environment_variables,
+        'PATH': f'{program.parent}:{os.environ["PATH"]}',
+        'ROS_HOME': str(tmp_path),
+        'TERM': 'dumb',
+    }
+    terminal = Terminal(['bash', '--noprofile', '--rcfile', str(rc), '-i'], environment)
+    yield terminal
+    terminal.close()
+
+
+def test_tab_completes_a_word(bash: Terminal) -> None:
+    """TAB adds the rest of a word and a space, and nothing else reaches the terminal."""
+    bash.press('ros2 topic ec\t')
+    bash.wait_for('echo ')
+    bash.read(0.5)
+    assert bash.shown == 'ros2 topic echo '
+    assert bash.children() == []
+
+
+def test_colons_and_equals_signs_are_kept(bash: Terminal, tmp_path: Path) -> None:
+    """An argument's name ends with `:=`, directly after which its value is completed."""
+    path = tmp_path / 'x.launch.py'
+    path.write_text(
+        'import sys\n'
+        "print('noise')\n"
+        "print('noise', file=sys.stderr)\n"
+        'from launch import LaunchDescription\n'
+        'from launch.actions import DeclareLaunchArgument\n'
+        'def generate_launch_description():\n'
+        '    return LaunchDescription([\n'
+        "        DeclareLaunchArgument('robot', choices=['nao', 'wolfgang'])])\n"
+    )
+    bash.press(f'ros2 launch {path} ro\t')
+    bash.wait_for('robot:=')
+    bash.press('w\t')
+    bash.wait_for('wolfgang ')
+    assert 'noise' not in bash.shown
+
+
+def test_two_tabs_show_the_choices(bash: Terminal) -> None:
+    """Where there are several words, TAB pressed twice lists them."""
+    bash.press('ros2 pkg \t\t')
+    bash.wait_for(f'{PROMPT}ros2 pkg ')
+    for verb in ('create', 'executables', 'list', 'prefix', 'xml'):
+        assert verb in bash.shown
+
+
+def test_interrupt_while_completing(bash: Terminal) -> None:
+    """Ctrl-C during completion leaves no process and no text of one."""
+    bash.press('ros2 topic echo /\t')
+    bash.read(0.2)
+    bash.press(INTERRUPT)
+    end = time.monotonic() + TIMEOUT_S
+    while bash.children() and time.monotonic() < end:
+        bash.read(0.1)
+    assert bash.children() == []
+    assert 'Traceback' not in bash.shown
+
+
+@pytest.mark.parametrize('shell', ['bash', 'zsh'])
+def test_nothing_happens_without_a_terminal(shell: str) -> None:
+    """A script that sources the environment gets no completion and no word of it."""
+    if not shutil.which(shell):
+        pytest.skip(f'there is no {shell}')
+    result = subprocess.run(
+        [shell, '-euc', f'. {SCRIPTS}/ros2.{shell}; typeset -f _ros2_complete || echo none'],
+        capture_output=True,
+        text=True,
+    )
+    assert (result.returncode, result.stdout, result.stderr) == (0, 'none\n', '')

@@ -1,0 +1,336 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of what the checks find in given facts; nothing of this machine is looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from ros2doctor.api.finding import Finding
+from ros2doctor.check.client_library import client_library_findings
+from ros2doctor.check.environment import environment_findings
+from ros2doctor.check.frames import frame_findings
+from ros2doctor.check.graphics import graphics_findings
+from ros2doctor.check.libraries import library_findings
+from ros2doctor.check.network import network_findings
+from ros2doctor.check.nodes import name_findings
+from ros2doctor.check.qos import pair_findings
+from ros2doctor.check.scripts import script_findings
+from ros2doctor.check.wheels import wheel_findings
+from ros2doctor.check.workspace import workspace_findings
+from ros2doctor.facts.environment import Environment
+from ros2doctor.facts.graph import Endpoint
+from ros2doctor.facts.graphics import Graphics
+from ros2doctor.facts.interfaces import Interface
+from ros2doctor.facts.libraries import Libraries, LibraryFolder
+from ros2doctor.facts.network import Network
+from ros2doctor.facts.scripts import Script
+from ros2doctor.facts.transforms import Transform
+from ros2doctor.facts.wheels import Wheels
+from ros2doctor.facts.workspace import PackageState, Workspace
+
+SET_UP = 'source install/setup.bash'
+LOOPBACK = Interface('lo', '127.0.0.1', True, True, False)
+CABLE = Interface('eth0', '192.0.2.1', True, False, True)
+
+
+def sentences(findings: Iterable[Finding]) -> list[str]:
+    """Return what is wrong, each with its severity; all findings say why and what mends them."""
+    found = list(findings)
+    assert all(finding.why and finding.mend for finding in found)
+    return [f'{finding.severity.value}: {finding.what}' for finding in found]
+
+
+@pytest.fixture
+def environment(tmp_path: Path) -> Environment:
+    """Return an environment without a fault."""
+    return Environment(
+        variables={
+            'AMENT_PREFIX_PATH': str(tmp_path),
+            'ROS_DISTRO': 'jazzy',
+            'RMW_IMPLEMENTATION': 'rmw_fastrtps_cpp',
+        },
+        python_version=(3, 12),
+        prefix=str(tmp_path),
+        rclpy=f'{tmp_path}/lib/rclpy/__init__.py',
+        other_python=None,
+        colcon=None,
+        set_up=SET_UP,
+    )
+
+
+def test_environment_without_fault(environment: Environment) -> None:
+    """There is nothing to say about a complete environment."""
+    assert sentences(environment_findings(environment)) == []
+
+
+@pytest.mark.parametrize(
+    'variables, sentence',
+    [
+        ({'AMENT_PREFIX_PATH': ''}, 'ERROR: no ROS 2 environment is sourced in this terminal'),
+        ({'ROS_DISTRO': 'humble'}, "ERROR: ROS_DISTRO is 'humble' instead of 'jazzy'"),
+        ({'RMW_IMPLEMENTATION': 'rmw_x'}, "ERROR: RMW_IMPLEMENTATION is 'rmw_x', of which PyPI"),
+        ({'PYTHONPATH': '/opt/ros/jazzy/lib'}, "ERROR: PYTHONPATH also names another ROS, '/opt"),
+        ({'COLCON_PREFIX_PATH': '/gone'}, "WARNING: COLCON_PREFIX_PATH names the folder '/gone'"),
+    ],
+)
+def test_variables(environment: Environment, variables: dict[str, str], sentence: str) -> None:
+    """Each wrong variable is named with its value."""
+    changed = replace(environment, variables={**environment.variables, **variables})
+    found = sentences(environment_findings(changed))
+    assert [text[: len(sentence)] for text in found] == [sentence]
+
+
+@pytest.mark.parametrize(
+    'change, sentence',
+    [
+        ({'python_version': (3, 14)}, 'ERROR: this is Python 3.14'),
+        (
+            {'rclpy': '/usr/lib/rclpy.py'},
+            "ERROR: rclpy would be imported from '/usr/lib/rclpy.py'",
+        ),
+        ({'other_python': '/conda/python3'}, "ERROR: `python3` is '/conda/python3', outside of"),
+        (
+            {'colcon': Script('/usr/bin/colcon', '/usr/bin/python3', True, True, True, False)},
+            "WARNING: `colcon` is '/usr/bin/colcon', which runs with '/usr/bin/python3'",
+        ),
+    ],
+)
+def test_programs(environment: Environment, change: dict[str, Any], sentence: str) -> None:
+    """A Python, an rclpy and a colcon of another installation are named."""
+    found = sentences(environment_findings(replace(environment, **change)))
+    assert [text[: len(sentence)] for text in found] == [sentence]
+
+
+def test_rclpy_that_does_not_start() -> None:
+    """The reason is part of the sentence."""
+    found = sentences(client_library_findings('ImportError: x', SET_UP))
+    assert found == ['ERROR: rclpy does not start: ImportError: x']
+    assert sentences(client_library_findings('', SET_UP)) == []
+
+
+def test_wheels() -> None:
+    """Missing wheels and wrong ones of ROS are errors, other versions are warnings."""
+    pinned = {'numpy': '2.0', 'ros-rcl': '9.2.8', 'xacro': '2.1'}
+    installed = {'numpy': '2.1', 'ros-rcl': '9.2.7', 'setuptools': '80.1'}
+    assert sentences(wheel_findings(Wheels(installed, pinned, Path('/w s')))) == [
+        'ERROR: wheels are missing: xacro',
+        'ERROR: wheels of ROS have versions that do not belong together: '
+        'ros-rcl 9.2.7 instead of 9.2.8',
+        'WARNING: wheels have other versions than the tested ones: numpy 2.1 instead of 2.0',
+    ]
+    assert sentences(wheel_findings(Wheels(pinned, pinned, Path('/ws')))) == []
+    assert sentences(wheel_findings(Wheels(installed, {}, None))) == [
+        'WARNING: setuptools is 80.1'
+    ]
+
+
+def test_wheels_are_mended_in_their_workspace() -> None:
+    """The command works from anywhere, also if the path has a space."""
+    finding = next(wheel_findings(Wheels({}, {'numpy': '2.0'}, Path('/w s'))))
+    assert finding.mend.startswith("cd '/w s' && rm -f .venv/stamp/wheels")
+
+
+def test_libraries() -> None:
+    """A path without the own folder, with another ROS before it, or with conda, is named."""
+    own = LibraryFolder('/venv/lib', True, ())
+    other = LibraryFolder('/opt/ros/lib', True, ())
+    conda = LibraryFolder('/conda/lib', False, ('libstdc++.so.6',))
+
+    def found(*folders: LibraryFolder) -> list[str]:
+        return sentences(library_findings(Libraries('/venv/lib', folders, True), SET_UP))
+
+    assert found(own) == []
+    assert found(own, other) == []
+    assert found() == ["ERROR: LD_LIBRARY_PATH does not name '/venv/lib'"]
+    assert found(other, own) == [
+        "ERROR: LD_LIBRARY_PATH names '/opt/ros/lib' first, which has libraries of another ROS"
+    ]
+    assert found(own, conda) == [
+        "WARNING: LD_LIBRARY_PATH names '/conda/lib', which has its own libstdc++.so.6"
+    ]
+
+
+def test_scripts_are_grouped_by_interpreter() -> None:
+    """One finding names all scripts with the same wrong interpreter."""
+    gone = Script('/a/x', '/gone/python3', True, False, True, False)
+    system = Script('/a/z', '/usr/bin/python3', True, True, True, False)
+    scripts = [
+        gone,
+        replace(gone, path='/a/y'),
+        system,
+        replace(system, path='/a/env', is_fixed=False),
+        replace(system, path='/a/own', is_own=True),
+        Script('/a/shell', '/bin/sh', True, True, False, False),
+    ]
+    assert sentences(script_findings(scripts, SET_UP)) == [
+        "ERROR: the interpreter '/gone/python3' does not exist, but is named by: /a/x, /a/y",
+        "ERROR: '/usr/bin/python3' is not the Python of this environment, but runs: /a/z",
+    ]
+
+
+def test_workspace() -> None:
+    """What is not built, not sourced or older than its sources is named with its cure."""
+
+    def found(*packages: PackageState) -> list[str]:
+        return sentences(workspace_findings([Workspace(Path('/ws'), packages)]))
+
+    arm = PackageState('arm', Path('/ws/src/arm'), True, True)
+    leg = PackageState('leg', Path('/ws/src/leg'), False, False)
+    assert found(arm) == []
+    assert found(leg) == ["ERROR: the workspace '/ws' is not built"]
+    assert found(replace(arm, is_known=False)) == [
+        "ERROR: the workspace '/ws' is built, but not sourced in this terminal"
+    ]
+    assert found(replace(arm, changed=('launch/a.launch.py',)), leg) == [
+        "WARNING: 'arm' is older than its sources: launch/a.launch.py",
+        "WARNING: the package 'leg' in '/ws/src/leg' is not built",
+    ]
+
+
+@pytest.fixture
+def network() -> Network:
+    """Return a network without a fault."""
+    return Network(
+        variables={'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET'},
+        interfaces=(LOOPBACK, CABLE),
+        multicast={'lo': True, 'eth0': True},
+        ephemeral_ports=(32768, 60999),
+        shared_memory_bytes=10**9,
+    )
+
+
+def test_network_without_fault(network: Network) -> None:
+    """There is nothing to say about a network in which all works."""
+    assert sentences(network_findings(network)) == []
+
+
+@pytest.mark.parametrize(
+    'variables, sentence',
+    [
+        ({'ROS_AUTOMATIC_DISCOVERY_RANGE': 'near'}, "ERROR: ROS_AUTOMATIC_DISCOVERY_RANGE is 'N"),
+        ({'ROS_AUTOMATIC_DISCOVERY_RANGE': 'OFF'}, 'WARNING: ROS_AUTOMATIC_DISCOVERY_RANGE is O'),
+        ({'ROS_LOCALHOST_ONLY': '1'}, 'WARNING: ROS_LOCALHOST_ONLY is set, which is deprecated'),
+        ({'ROS_DOMAIN_ID': 'x'}, "ERROR: ROS_DOMAIN_ID is 'x', which is no whole number from 0 t"),
+        ({'ROS_DOMAIN_ID': '233'}, "ERROR: ROS_DOMAIN_ID is '233'"),
+        ({'ROS_DOMAIN_ID': '102'}, 'WARNING: the ports of domain 102 begin at 32900, among those'),
+        ({'FASTRTPS_DEFAULT_PROFILES_FILE': '/x'}, 'WARNING: FASTRTPS_DEFAULT_PROFILES_FILE name'),
+    ],
+)
+def test_network_variables(network: Network, variables: dict[str, str], sentence: str) -> None:
+    """Each wrong variable is named with its value."""
+    changed = replace(network, variables={**network.variables, **variables})
+    found = sentences(network_findings(changed))
+    assert [text[: len(sentence)] for text in found] == [sentence]
+
+
+@pytest.mark.parametrize('domain', ['0', '42', '100', '215', '232'])
+def test_safe_domains(network: Network, domain: str) -> None:
+    """Domains whose ports the kernel gives to nobody are fine."""
+    assert sentences(network_findings(replace(network, variables={'ROS_DOMAIN_ID': domain}))) == []
+
+
+def test_interfaces(network: Network) -> None:
+    """Multicast matters where nodes use it; the loopback matters always."""
+    deaf = replace(network, multicast={'lo': True, 'eth0': False})
+    assert sentences(network_findings(deaf)) == [
+        "WARNING: multicast does not work on the interface 'eth0' (192.0.2.1)"
+    ]
+    local = replace(deaf, variables={'ROS_AUTOMATIC_DISCOVERY_RANGE': 'localhost'})
+    assert sentences(network_findings(local)) == []
+    assert sentences(network_findings(replace(network, interfaces=(CABLE,)))) == [
+        'ERROR: the loopback interface is down'
+    ]
+
+
+def test_shared_memory(network: Network) -> None:
+    """Too little room, or none at all, is a warning."""
+    full = replace(network, shared_memory_bytes=5 * 10**6)
+    assert sentences(network_findings(full)) == ['WARNING: /dev/shm has 5 MB left']
+    missing = replace(network, shared_memory_bytes=None)
+    assert sentences(network_findings(missing)) == [
+        'WARNING: /dev/shm is missing or cannot be written'
+    ]
+
+
+@pytest.mark.parametrize(
+    'backend, libraries, sentences_expected',
+    [
+        ('', {'GL': 'x', 'EGL': ''}, []),
+        ('', {'GL': '', 'EGL': ''}, ['WARNING: there is no OpenGL library: neither libGL nor']),
+        ('egl', {'GL': 'x', 'EGL': ''}, ['WARNING: MUJOCO_GL is egl, but there is no libEGL']),
+        ('glfw', {'GL': 'x', 'EGL': ''}, ['WARNING: MUJOCO_GL is glfw, which needs a display,']),
+        ('x', {'GL': 'x', 'EGL': ''}, ["WARNING: MUJOCO_GL is 'x', which is none of egl, glfw"]),
+    ],
+)
+def test_graphics(backend: str, libraries: dict[str, str], sentences_expected: list[str]) -> None:
+    """Missing libraries, and a choice that cannot work here, are warnings."""
+    found = sentences(graphics_findings(Graphics({'MUJOCO_GL': backend}, libraries, {})))
+    assert [text[: len(start)] for text, start in zip(found, sentences_expected)] == (
+        sentences_expected
+    )
+    assert len(found) == len(sentences_expected)
+
+
+def test_graphics_card_of_others() -> None:
+    """A card that this user may not use is named."""
+    facts = Graphics({}, {'GL': 'x'}, {'/dev/dri/renderD128': False, '/dev/nvidia0': True})
+    assert sentences(graphics_findings(facts)) == [
+        "WARNING: this user may not use the graphics card '/dev/dri/renderD128'"
+    ]
+
+
+def endpoint(node: str, *, is_publisher: bool, qos: str, type_name: str = 'String') -> Endpoint:
+    """Return a publisher or subscription of one topic."""
+    return Endpoint('/image', node, type_name, is_publisher, qos)
+
+
+def test_pairs_name_both_nodes() -> None:
+    """Each pair is compared in the right order; only those that do not match are named."""
+    endpoints = [
+        endpoint('/viewer', is_publisher=False, qos='reliable'),
+        endpoint('/camera', is_publisher=True, qos='best effort'),
+        endpoint('/recorder', is_publisher=False, qos='best effort'),
+        endpoint('/other', is_publisher=False, qos='best effort', type_name='Int32'),
+    ]
+
+    def why_not(offered: str, requested: str) -> str:
+        return 'unreliable' if (offered, requested) == ('best effort', 'reliable') else ''
+
+    assert sentences(pair_findings(endpoints, why_not)) == [
+        "ERROR: on '/image', what '/camera' offers is not what '/viewer' asks for (unreliable)",
+        "ERROR: on '/image', '/camera' publishes String, but '/other' subscribes to Int32",
+    ]
+
+
+def test_names_of_nodes() -> None:
+    """A name that several nodes have is a warning with their number."""
+    found = sentences(name_findings(['/a', '/b', '/a', '/a']))
+    assert found == ["WARNING: 3 nodes have the name '/a'"]
+
+
+@pytest.mark.parametrize(
+    'edges, expected',
+    [
+        (['odom base', 'base head'], []),
+        (['odom base', 'map odom', 'x y'], ["WARNING: on '/tf' there are 2 trees of frames"]),
+        (['a c', 'b c', 'b a'], ["ERROR: on '/tf', the frame 'c' has 2 parents: a, b"]),
+        (['a b', 'b a'], ["ERROR: on '/tf', the frames go round in a circle: a, b"]),
+        ([], []),
+    ],
+)
+def test_frames(edges: list[str], expected: list[str]) -> None:
+    """Two trees, two parents and circles are named."""
+    transforms = [Transform('/tf', *edge.split()) for edge in edges]
+    found = sentences(frame_findings(transforms))
+    assert [text[: len(start)] for text, start in zip(found, expected)] == expected
+    assert len(found) == len(expected)
+
+
+def test_frames_of_two_robots_are_two_trees() -> None:
+    """Topics of different namespaces have nothing to do with each other."""
+    transforms = [Transform('/r1/tf', 'odom', 'base'), Transform('/r2/tf', 'odom', 'base')]
+    assert sentences(frame_findings(transforms)) == []

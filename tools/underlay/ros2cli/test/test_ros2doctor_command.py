@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of `ros2 doctor`: its output and exit status, extensions, and a graph with faults."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+import subprocess
+import sys
+import time
+
+import pytest
+from ros2cli.cli import main
+from ros2cli.entry import Entry
+from ros2doctor.api import DoctorCheck, DoctorReport, Report, Result
+from ros2doctor.api.greeting import table
+
+Ros2 = Callable[..., subprocess.CompletedProcess[str]]
+HERE = 'test_ros2doctor_command_extensions'
+PATIENCE_S = 40.0
+
+
+class FineCheck(DoctorCheck):
+    """A check that finds nothing."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'fine'
+
+    def check(self) -> Result:
+        """Return nothing."""
+        return Result()
+
+
+class WarningCheck(DoctorCheck):
+    """A check that warns."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'shaky'
+
+    def check(self) -> Result:
+        """Return a warning, as a check of another package does."""
+        result = Result()
+        result.add_warning('It creaks')
+        return result
+
+
+class ErrorCheck(DoctorCheck):
+    """A check that finds an error."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'broken'
+
+    def check(self) -> Result:
+        """Return an error."""
+        result = Result()
+        result.add_error('It is broken', 'nothing works', 'glue it')
+        return result
+
+
+class BrokenReport(DoctorReport):
+    """A report."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'broken'
+
+    def report(self) -> Report:
+        """Return two lines."""
+        report = Report('PARTS')
+        report.add_to_report('arm', 1)
+        report.add_to_report('finger', 'none')
+        return report
+
+
+@pytest.fixture
+def checks(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+    """Return a function that replaces all checks, and leaves one report."""
+    monkeypatch.setitem(sys.modules, HERE, sys.modules[__name__])
+    monkeypatch.setattr('ros2doctor.api.examining.entries_of_group', lambda group: {})
+
+    def replace(*names: str) -> None:
+        table = {name: Entry(f'{HERE}:{name}', '') for name in names}
+        monkeypatch.setattr('ros2doctor.api.examining.CHECKS', table)
+        report = {'broken': Entry(f'{HERE}:BrokenReport', '')}
+        monkeypatch.setattr('ros2doctor.api.examining.REPORTS', report)
+
+    return replace
+
+
+def test_all_is_well(checks: Callable[..., None], capsys: pytest.CaptureFixture[str]) -> None:
+    """Without findings there is one sentence."""
+    checks('FineCheck', 'FineCheck2')
+    with pytest.warns(UserWarning, match='FineCheck2'):
+        assert main(['doctor']) == 0
+    assert capsys.readouterr().out == '\nAll 1 checks passed\n\n'
+
+
+def test_warning_is_no_failure(
+    checks: Callable[..., None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A warning is shown; it is a failure only with --include-warnings."""
+    checks('FineCheck', 'WarningCheck')
+    assert main(['doctor']) == 0
+    output = '\nWARNING (shaky): It creaks\n'
+    assert capsys.readouterr().out == f'{output}\nAll 2 checks passed\n\n'
+    assert main(['wtf', '-iw']) == 1
+    failure = '\n1/2 check(s) failed\n\nFailed modules: shaky\n\n'
+    assert capsys.readouterr().out == output + failure
+
+
+def test_error_is_a_failure(
+    checks: Callable[..., None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """An error comes with why it matters and what mends it; the report follows if asked for."""
+    checks('ErrorCheck', 'FineCheck')
+    assert main(['doctor', '-rf']) == 1
+    assert capsys.readouterr().out == (
+        '\nERROR (broken): It is broken\n'
+        '    why it matters: nothing works\n'
+        '    to mend it: glue it\n'
+        '\n1/2 check(s) failed\n\nFailed modules: broken\n\n'
+        '\n   PARTS\narm    : 1\nfinger : none\n'
+    )
+
+
+def test_report_has_all(checks: Callable[..., None], capsys: pytest.CaptureFixture[str]) -> None:
+    """The report has all sections and all findings, and has succeeded in any case."""
+    checks('ErrorCheck')
+    assert main(['doctor', '--report']) == 0
+    output = capsys.readouterr().out
+    assert '\n   PARTS\narm    : 1\n' in output
+    assert '\n   FINDINGS\n\nERROR (broken): It is broken\n' in output
+
+
+def test_report_or_failed_ones() -> None:
+    """The two kinds of reports exclude each other."""
+    assert main(['doctor', '-r', '-rf']) == 2
+
+
+def test_checks_of_others(
+    checks: Callable[..., None],
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A check of another distribution is found by its entry point."""
+    checks('FineCheck')
+    entry = {'other': Entry(f'{HERE}:ErrorCheck', '')}
+    monkeypatch.setattr(
+        'ros2doctor.api.examining.entries_of_group',
+        lambda group: entry if group == 'ros2doctor.checks' else {},
+    )
+    assert main(['doctor']) == 1
+    assert '1/2 check(s) failed' in capsys.readouterr().out
+
+
+@pytest.fixture
+def faulty_graph(ros_environment_variables: dict[str, str]) -> Iterator[None]:
+    """Run nodes that do not understand each other."""
+    process = subprocess.Popen(
+        [sys.executable, str(Path(__file__).with_name('faulty_graph.py'))],
+        env=ros_environment_variables,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        assert process.stdout is not None
+        assert process.stdout.readline() == 'ready\n'
+        yield
+    finally:
+        process.kill()
+        process.communicate()
+
+
+@pytest.mark.usefixtures('faulty_graph')
+def test_faults_of_a_graph(ros2: Ros2, tmp_path: Path) -> None:
+    """A real graph is examined: quality of service, names and frames; the report lists it."""
+    end = time.monotonic() + PATIENCE_S
+    expected = (
+        "ERROR (qos): on '/image', what '/camera' offers is not what '/viewer' asks for",
+        "WARNING (nodes): 2 nodes have the name '/viewer'",
+        "WARNING (frames): on '/tf' there are 2 trees of frames, with the roots base_link, map",
+    )
+    result = ros2('doctor', '--exclude-packages', cwd=tmp_path)
+    while not all(text in result.stdout for text in expected) and time.monotonic() < end:
+        result = ros2('doctor', '--exclude-packages', cwd=tmp_path)
+    for text in expected:
+        assert text in result.stdout
+    assert result.returncode == 1
+    assert 'Failed modules: ' in result.stdout
+    report = ros2('doctor', '--report', cwd=tmp_path)
+    assert report.returncode == 0
+    for title in ('PLATFORM INFORMATION', 'NETWORK CONFIGURATION', 'PACKAGE VERSIONS'):
+        assert f'\n   {title}\n' in report.stdout
+
+
+def test_rclpy_that_ends_the_process(ros2: Ros2, tmp_path: Path) -> None:
+    """Where rclpy ends each process that imports it, the doctor still says so."""
+    result = ros2(
+        'doctor', '-ep', cwd=tmp_path, extra={'RMW_IMPLEMENTATION': 'rmw_nobody_has_this'}
+    )
+    assert result.returncode == 1
+    assert "RMW_IMPLEMENTATION is 'rmw_nobody_has_this', of which PyPI has no wheel" in (
+        result.stdout
+    )
+    assert 'ERROR (rclpy): rclpy does not start: ' in result.stdout
+    assert 'WARNING (qos): not checked, since rclpy does not start' in result.stdout
+
+
+def test_hello_hears_itself(ros2: Ros2) -> None:
+    """A lone host hears its own greetings on the topic."""
+    result = ros2('doctor', 'hello', '--once', '--print-period', '2')
+    lines = result.stdout.splitlines()
+    assert result.returncode == 0
+    assert 'MULTIMACHINE COMMUNICATION SUMMARY' in lines
+    [own] = [line for line in lines if '(this process)' in line]
+    assert int(own.split()[-2]) > 0
+
+
+def test_hello_table() -> None:
+    """Each process has a line with what came by topic and by multicast."""
+    from collections import Counter
+
+    text = table('/hear', Counter({'a/1': 10, 'b/2': 3}), Counter({'a/1': 9}), 'a/1')
+    assert text.splitlines()[2:] == [
+        'a/1 (this process)    10               9',
+        'b/2                    3               0',
+    ]
