@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+import sys
 import time
 from typing import Any
 
@@ -46,6 +47,8 @@ def read_graph() -> Graph:
     from ros2cli.node.direct import DirectNode
     from ros2node.api import get_node_names
 
+    if sys.stderr.isatty():
+        print('Looking at the running nodes ...', file=sys.stderr)
     with DirectNode(None) as node:
         listener = TransformListener(node)
         endpoints = tuple(_endpoints(node))
