@@ -8,6 +8,8 @@ from pathlib import Path
 import re
 import subprocess
 
+import launch_names
+
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / 'docs' / 'reference'
 NOTE = '<!-- Made by `make docs`; an edit here is overwritten. -->\n'
@@ -53,9 +55,19 @@ def launch_page() -> str:
     return '\n'.join(parts)
 
 
+def names_page() -> str:
+    """Describe the names that launch files use."""
+    title = '# The names of launch files\n\nArguments with `=` may be left out.\n'
+    return '\n'.join([NOTE, title, *launch_names.lines()])
+
+
 def pages() -> dict[str, str]:
     """Return the text of each page by file name."""
-    return {'commands.md': commands_page(), 'launch_files.md': launch_page()}
+    return {
+        'commands.md': commands_page(),
+        'launch_files.md': launch_page(),
+        'launch_names.md': names_page(),
+    }
 
 
 def main() -> None:

@@ -11,8 +11,9 @@ import pytest
 
 
 @pytest.fixture
-def generate(root: Path) -> ModuleType:
+def generate(root: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     """Return the generator."""
+    monkeypatch.syspath_prepend(str(root / 'tools' / 'reference'))
     path = root / 'tools' / 'reference' / 'generate.py'
     spec = importlib.util.spec_from_file_location('generate', path)
     assert spec is not None and spec.loader is not None
@@ -25,6 +26,13 @@ def test_the_launch_files_are_described_as_they_are(root: Path, generate: Module
     """An argument that was added is in the reference: otherwise `make docs` was forgotten."""
     written = (root / 'docs' / 'reference' / 'launch_files.md').read_text()
     assert written == generate.launch_page()
+
+
+def test_the_names_of_launch_files_are_described(root: Path, generate: ModuleType) -> None:
+    """Each class, its arguments and its tags are in the reference."""
+    written = (root / 'docs' / 'reference' / 'launch_names.md').read_text()
+    assert written == generate.names_page()
+    assert '| `Node` | `node` | `executable`, `package=`,' in written
 
 
 def test_every_verb_is_described(root: Path, generate: ModuleType) -> None:

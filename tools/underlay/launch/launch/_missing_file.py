@@ -12,15 +12,27 @@ _LISTED = 12
 
 def explain_missing_file(what: str, path: str) -> str:
     """Return a sentence about a file, with the closest one in its folder or what is there."""
+    unsuitable = _unsuitable(path)
+    if unsuitable:
+        return f"the {what} '{path}' is {unsuitable}"
     folder, name = os.path.split(path)
     text = f"the {what} '{path}' does not exist"
-    if os.path.isdir(path):
-        return f"the {what} '{path}' is a folder"
     if not os.path.isdir(folder or '.'):
         return f"{text}: there is no folder '{folder}'{_closest_folder(folder)}"
     there = sorted(each for each in os.listdir(folder or '.') if not each.startswith('.'))
     hint = did_you_mean(name, there) or _listing(there)
     return f'{text}. {hint}' if hint else text
+
+
+def _unsuitable(path: str) -> str:
+    """Return what there is under a path that is no file, empty if there is nothing."""
+    if os.path.isdir(path):
+        return 'a folder'
+    if os.path.exists(path):
+        return 'not a regular file'
+    if os.path.islink(path):
+        return f"a symbolic link that leads nowhere ('{os.readlink(path)}')"
+    return ''
 
 
 def _closest_folder(folder: str) -> str:

@@ -19,8 +19,9 @@ def require_program(details: Mapping[str, Any]) -> None:
     """Raise an error that explains it if the program of a process is not there."""
     program, folder = details['cmd'][0], details['cwd']
     if folder is not None and not os.path.isdir(folder):
+        missing = 'is a file' if os.path.exists(folder) else 'does not exist'
         raise ProgramNotFoundError(
-            f"the folder '{folder}', in which '{program}' was to be started, does not exist"
+            f"the folder '{folder}', in which '{program}' was to be started, {missing}"
         )
     if not is_there(program, folder, details['env']):
         raise ProgramNotFoundError(explain_missing_program(program, folder, details['env']))

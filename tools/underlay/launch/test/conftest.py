@@ -148,7 +148,8 @@ def launcher(
         path = write(
             'it.launch.py',
             (
-                'from launch import LaunchDescription\nfrom launch.actions import *\n'
+                'from launch import LaunchDescription, substitutions\n'
+                'from launch.actions import *\n'
                 f'def generate_launch_description():\n    return LaunchDescription([{entities}])\n'
             ),
         )

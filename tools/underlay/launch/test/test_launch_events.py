@@ -198,6 +198,7 @@ def test_timer_keeps_its_scope(run: Run) -> None:
     assert _texts(result) == ['inner', 'outer']
 
 
+@pytest.mark.filterwarnings('ignore:the period of a TimerAction')
 @pytest.mark.parametrize('period', ['0.01', LaunchConfiguration('p', default='0.01')])
 def test_period_as_a_text(run: Run, period: Any) -> None:
     """The period may be a text or a substitution."""

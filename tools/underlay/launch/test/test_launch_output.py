@@ -10,6 +10,7 @@ from pathlib import Path
 import signal
 import subprocess
 import threading
+import time
 from types import SimpleNamespace
 from typing import Any
 
@@ -80,6 +81,18 @@ def test_backlog_of_a_slow_reader(pipe: tuple[int, int], wait_until: Any) -> Non
     assert received == b''.join(sent)
     wait_until(lambda: backlog.is_empty and room.is_set())
     assert not backlog.is_congested
+
+
+def test_backlog_takes_much_at_once(tmp_path: Path) -> None:
+    """The time to write a large piece grows with its size, not with the square of it."""
+    path = tmp_path / 'screen'
+    data = b'x' * 100_000_000
+    with path.open('wb') as file:
+        backlog = Backlog(file.fileno(), pytest.fail)
+        began = time.process_time()
+        backlog.write(data)
+        assert time.process_time() - began < 30.0
+    assert backlog.is_empty and path.stat().st_size == len(data)
 
 
 def test_backlog_without_a_reader() -> None:

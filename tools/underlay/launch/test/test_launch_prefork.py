@@ -10,6 +10,7 @@ from pathlib import Path
 import re
 import signal
 import sys
+import time
 from typing import Any
 
 from launch._supervision.orphan_guard import OrphanGuard
@@ -17,9 +18,11 @@ from launch._supervision.prefork import template_handle
 from launch._supervision.prefork.prefork import Prefork, WORTHWHILE
 from launch._supervision.process_group import living_members
 from launch._supervision.program import Child, Program
-from launch.actions import ExecuteProcess
+from launch.actions import ExecuteProcess, Shutdown, TimerAction
 import pytest
 
+# No link: a path with spaces cannot stand in the first line of a script.
+INTERPRETER = Path(sys.executable).parent.resolve() / 'python3'
 PRELOADER = """
 import os, time
 EARLY_VARIABLES = frozenset()
@@ -28,7 +31,7 @@ def before_fork(): pass
 def after_fork(): pass
 """
 # Only a program that was forked has something below its first line on the stack.
-HEAD = f"""#!{sys.executable}
+HEAD = f"""#!{INTERPRETER}
 import os, signal, sys, time
 print('forked' if sys._getframe().f_back else 'executed', flush=True)
 """
@@ -166,6 +169,18 @@ def test_switch(run: Callable[..., Any], script: Callable[..., str]) -> None:
         processes = [Forkable(cmd=[path], output='screen') for _ in range(WORTHWHILE)]
         result = run(*processes, prefork=prefork)
         assert (result.status, result.text.count(f'] {how}')) == (0, WORTHWHILE)
+
+
+def test_shutdown_does_not_wait_for_a_template(
+    run: Callable[..., Any], script: Callable[..., str]
+) -> None:
+    """A launch that is to end does not wait for what prepares its start."""
+    path = script('time.sleep(60)', preload='time.sleep(60)')
+    processes = [Forkable(cmd=[path]) for _ in range(WORTHWHILE)]
+    began = time.monotonic()
+    result = run(*processes, TimerAction(period=0.5, actions=[Shutdown()]))
+    assert result.status == 0 and time.monotonic() - began < 15.0
+    assert result.text.count('process has died') == WORTHWHILE
 
 
 def test_respawn(run: Callable[..., Any], script: Callable[..., str]) -> None:

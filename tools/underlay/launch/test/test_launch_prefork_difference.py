@@ -20,6 +20,8 @@ from launch._supervision.prefork.template_handle import TemplateHandle
 from launch._supervision.program import Child, execute, Program
 import pytest
 
+# No link: a path with spaces cannot stand in the first line of a script.
+INTERPRETER = Path(sys.executable).parent.resolve() / 'python3'
 PRELOADER = """
 import gc, json, random
 EARLY_VARIABLES = frozenset()
@@ -156,7 +158,7 @@ def both(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Both:
         folder = tmp_path / 'a folder'
         folder.mkdir(exist_ok=True)
         script = tmp_path / 'a_script_with_a_long_name'
-        script.write_text(f'#!{sys.executable}\n{source}')
+        script.write_text(f'#!{INTERPRETER}\n{source}')
         script.chmod(0o755)
         environment = {**os.environ, 'PYTHONPATH': str(tmp_path), 'WORD': 'ö=1', **variables}
         program = Program(

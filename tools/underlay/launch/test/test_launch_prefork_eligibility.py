@@ -40,6 +40,15 @@ def test_script_of_this_interpreter(script: Script, tmp_path: Path) -> None:
     assert kind_of(replace(program, cwd=str(tmp_path)), ENVIRONMENT) == kind
 
 
+def test_script_of_this_interpreter_by_another_name(script: Script, tmp_path: Path) -> None:
+    """The environment may be a link, as in a workspace whose path has spaces."""
+    link = tmp_path / 'environment'
+    link.symlink_to(os.path.dirname(sys.executable))
+    interpreter = str(link / os.path.basename(sys.executable))
+    kind = kind_of(script(f'#!{interpreter}'), ENVIRONMENT)
+    assert kind is not None and kind.interpreter == interpreter
+
+
 @pytest.mark.parametrize(
     'line',
     ['', 'print()', '#!/bin/sh', '#!/usr/bin/env python3', '#! /no/python3']

@@ -64,6 +64,17 @@ def test_second_interrupt_is_ignored(launcher: Start) -> None:
     assert 'ctrl-c (SIGINT) again, ignoring...' in launch.text
 
 
+@pytest.mark.parametrize('timeout', ["'soon'", "substitutions.LaunchConfiguration('unset')"])
+def test_timeout_that_cannot_be_used(launcher: Start, timeout: str) -> None:
+    """A timeout that is no number is an error in the log; the process is ended all the same."""
+    launch = launcher(_process('exec sleep 60', f'sigterm_timeout={timeout}'))
+    launch.wait_for('] ready')
+    launch.process.send_signal(signal.SIGINT)
+    assert launch.end() == 0
+    assert 'the sigterm_timeout of process[sh-1] must be a number of seconds: ' in launch.text
+    assert 'Traceback' not in launch.text and living_members(_group(launch.text)) == []
+
+
 def test_escalation(launcher: Start) -> None:
     """A process that ignores signals is killed when both timeouts are over."""
     launch = launcher(
@@ -113,6 +124,24 @@ def test_killed_launch(launcher: Start, wait_until: Wait) -> None:
     launch.process.kill()
     launch.process.wait()
     wait_until(lambda: not any(living_members(group) for group in groups))
+
+
+def test_output_to_a_full_disk(
+    launch_command: list[str], write: Callable[[str, str], str]
+) -> None:
+    """The processes do their work although nobody can see it, but it is said that nobody can."""
+    path = write(
+        'it.launch.py',
+        'from launch import LaunchDescription\nfrom launch.actions import *\n'
+        'def generate_launch_description():\n    return LaunchDescription([\n'
+        "        ExecuteProcess(cmd=['sh', '-c', 'echo x; echo y >&2'], output='screen')])\n",
+    )
+    with open('/dev/full', 'wb') as full:
+        result = subprocess.run(
+            [*launch_command, path], stdout=full, stderr=subprocess.PIPE, text=True, timeout=30
+        )
+    assert result.returncode == 0
+    assert result.stderr == 'The output cannot be written any more: No space left on device\n'
 
 
 def test_closed_output(

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import asyncio
+import io
 import os
 import signal
 import subprocess
@@ -26,6 +27,23 @@ def test_line_splitter() -> None:
     assert splitter.feed(b'b\n\nc\xc3') == ['ab', '']
     assert splitter.feed(b'\xa9\r\nd') == ['c\u00e9']
     assert (splitter.flush(), splitter.flush()) == (['d'], [])
+
+
+def test_line_without_end() -> None:
+    """A line that goes on and on is cut between two characters, and never held as a whole."""
+    splitter = LineSplitter()
+    text = 'x\u00e9\u20ac\U0001f916' * 300_000
+    data = io.BytesIO(text.encode())
+    chunks = iter(lambda: data.read(65_521), b'')
+    pieces = [line for chunk in chunks for line in splitter.feed(chunk)]
+    assert 2 <= len(pieces) <= 3 and all(len(piece) > 300_000 for piece in pieces)
+    assert ''.join([*pieces, *splitter.flush()]) == text
+
+
+def test_endless_binary_output() -> None:
+    """Bytes that are no characters are cut as well."""
+    splitter = LineSplitter()
+    assert splitter.feed(b'\x80' * 2_000_000) == ['\ufffd' * 2_000_000]
 
 
 @pytest.mark.parametrize('with_descriptor', [True, False])
@@ -116,6 +134,17 @@ def test_guard_that_was_killed() -> None:
     os.waitid(os.P_PID, guard.pid, os.WEXITED | os.WNOWAIT)
     guard.remove(2**22 + 1)
     guard.close()
+
+
+def test_guard_that_was_stopped() -> None:
+    """A guard that someone has stopped does not stop the launch from ending."""
+    guard = OrphanGuard()
+    guard.add(2**22 + 1)
+    assert guard.pid is not None
+    os.kill(guard.pid, signal.SIGSTOP)
+    os.waitid(os.P_PID, guard.pid, os.WSTOPPED)
+    guard.close()
+    assert guard.pid is None
 
 
 def test_timeout_must_be_a_number() -> None:

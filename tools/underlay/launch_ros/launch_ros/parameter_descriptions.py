@@ -16,6 +16,8 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
+_NOT_YET = object()
+
 
 class ParameterValue:
     """A value with the type that it must have."""
@@ -24,6 +26,7 @@ class ParameterValue:
         """Create the value; without a type YAML rules decide on that of a text."""
         self.__value = normalize_typed_substitution(value, value_type)
         self.__value_type = value_type
+        self.__evaluated: Any = _NOT_YET
 
     @property
     def value(self) -> Any:
@@ -36,8 +39,10 @@ class ParameterValue:
         return self.__value_type
 
     def evaluate(self, context: LaunchContext) -> Any:
-        """Return the value now."""
-        return perform_typed_substitution(context, self.__value, self.__value_type)
+        """Return the value that there is when this is first asked for."""
+        if self.__evaluated is _NOT_YET:
+            self.__evaluated = perform_typed_substitution(context, self.__value, self.__value_type)
+        return self.__evaluated
 
     def __repr__(self) -> str:
         """Return the value as text for people."""

@@ -91,11 +91,11 @@ def test_namespace(
 @pytest.mark.parametrize(
     'kwargs, text',
     [
-        ({'name': 'a-b'}, "the name 'a-b' has the character '-'; only letters"),
-        ({'name': '1a'}, 'begins with a digit'),
-        ({'name': ''}, 'has an empty part'),
-        ({'namespace': 'a//b'}, 'has an empty part'),
-        ({'namespace': '/a/b c'}, "has the character ' '"),
+        ({'name': 'a-b'}, "\n  'a-b'\n    ^\n"),
+        ({'name': '1a'}, 'Invalid node name: node name must not start with a number'),
+        ({'name': ''}, 'Invalid node name: node name must not be empty'),
+        ({'namespace': 'a//b'}, 'Invalid namespace: namespace must not contain repeated'),
+        ({'namespace': '/a/b c'}, "\n  '/a/b c'\n       ^\n"),
     ],
 )
 def test_invalid_names(run: Run, kwargs: Any, text: str) -> None:

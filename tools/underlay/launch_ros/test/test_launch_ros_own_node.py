@@ -22,7 +22,7 @@ from launch.actions import (
     TimerAction,
 )
 from launch.events import Shutdown as ShutdownEvent
-from launch.substitutions import LaunchConfiguration
+from launch.substitutions import LaunchConfiguration, TextSubstitution
 from launch_ros.actions import ROSTimer, SetUseSimTime
 from launch_ros.ros_adapters import get_ros_adapter, get_ros_node
 import pytest
@@ -118,7 +118,7 @@ def test_timer(run: Run) -> None:
     assert status == 0 and out.count('x is inner') == 1
 
 
-@pytest.mark.parametrize('period', ['0.0', 0.0])
+@pytest.mark.parametrize('period', [TextSubstitution(text='0.0'), 0.0])
 def test_timer_without_a_period(run: Run, period: Any) -> None:
     """A period may be nothing at all."""
     status, out = run(ROSTimer(period=period, actions=[LogInfo(msg='the time has come')]))

@@ -14,8 +14,10 @@ from launch_ros._imports import imports_of
 from launch_ros.actions import Node
 import pytest
 
+# No link: a path with spaces cannot stand in the first line of a script.
+INTERPRETER = Path(sys.executable).parent.resolve() / 'python3'
 # As setuptools writes it.
-CONSOLE_SCRIPT = f"""#!{sys.executable}
+CONSOLE_SCRIPT = f"""#!{INTERPRETER}
 # EASY-INSTALL-ENTRY-SCRIPT: 'some-nodes==0.1.0','console_scripts','talker'
 import re
 import sys

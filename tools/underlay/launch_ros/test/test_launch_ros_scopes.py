@@ -74,7 +74,10 @@ def test_invalid_namespace(context: LaunchContext) -> None:
     context.launch_configurations['ros_namespace'] = '/a'
     with pytest.raises(
         RuntimeError,
-        match=(r"invalid: \[previous_namespace='/a', pushed_namespace='1bad'\]. .*a digit"),
+        match=(
+            r"invalid: \[previous_namespace='/a', pushed_namespace='1bad'\]. [^.]*number:\n"
+            r"  '/a/1bad'\n"
+        ),
     ):
         PushRosNamespace('1bad').visit(context)
 

@@ -173,6 +173,38 @@ def test_dry_run_as_json(ros2: Ros2, arm: dict[str, str]) -> None:
     assert data['actions'][0]['actions'][-1]['argv'] == ['echo', 'said', 'hello']
 
 
+def test_json_of_a_noisy_file(ros2: Ros2, arm: dict[str, str]) -> None:
+    """What a launch file and its programs write to the standard output is no part of the data."""
+    noise = "import os\nprint('printed')\nos.system('echo from a program')\n"
+    Path('noisy.launch.py').write_text(noise + LAUNCH_FILE)
+    result = ros2('launch', '--dry-run', '--json', 'noisy.launch.py', extra=arm)
+    assert json.loads(result.stdout)['status'] == 0
+    assert 'printed' in result.stderr and 'from a program' in result.stderr
+
+
+def test_path_of_no_file(ros2: Ros2, arm: dict[str, str]) -> None:
+    """A folder, a link that leads nowhere and a pipe are called what they are."""
+    Path('folder.launch.py').mkdir()
+    Path('link.launch.py').symlink_to('/nope')
+    os.mkfifo('pipe.launch.py')
+    errors = [
+        ros2('launch', f'./{name}.launch.py', extra=arm).stderr
+        for name in ('folder', 'link', 'pipe')
+    ]
+    assert errors == [
+        "the launch file './folder.launch.py' is a folder\n",
+        "the launch file './link.launch.py' is a symbolic link that leads nowhere ('/nope')\n",
+        "the launch file './pipe.launch.py' is not a regular file\n",
+    ]
+
+
+def test_launch_file_that_closes_the_output(ros2: Ros2, arm: dict[str, str]) -> None:
+    """A launch file that closes the standard output causes no traceback."""
+    Path('closes.launch.py').write_text('import sys\nsys.stdout.close()\n' + LAUNCH_FILE)
+    result = ros2('launch', 'closes.launch.py', extra=arm)
+    assert (result.returncode, result.stderr) == (0, '')
+
+
 def test_dry_run_of_what_fails(ros2: Ros2, arm: dict[str, str]) -> None:
     """A dry run ends with the errors and the status of a real one."""
     result = ros2('launch', '--dry-run', 'arm', 'broken.launch.py', extra=arm)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 from typing import Optional
 
@@ -92,5 +93,6 @@ class OrphanGuard:
             return
         os.close(self._pipe)
         self._pipe = -1
+        self._shell.send_signal(signal.SIGCONT)  # someone may have stopped it
         self._shell.wait()
         self._shell = None

@@ -32,6 +32,11 @@ class ProcessRegistry:
             self._prefork = Prefork(self._guard)
         return await self._prefork.spawn(program, stdout, stderr)
 
+    def hurry(self) -> None:
+        """Wait for no template any more; what is still to be started is executed."""
+        if self._prefork is not None:
+            self._prefork.close()
+
     def add(self, process: RunningProcess) -> None:
         """Note a process that was started."""
         self._processes.add(process)
@@ -44,8 +49,7 @@ class ProcessRegistry:
 
     def close(self) -> None:
         """Kill what is still running; after an orderly shutdown that is nothing."""
-        if self._prefork is not None:
-            self._prefork.close()
+        self.hurry()
         for process in self._processes:
             process.kill_at_once()
             self._guard.remove(process.pid)

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from launch.actions.execute_local import ExecuteLocal
     from launch.launch_context import LaunchContext
 
+_USUAL_TIMEOUT = '5'
+
 
 class Supervisor:
     """Starts a process, reports on it, starts it again if wanted, and ends it on shutdown."""
@@ -69,12 +71,17 @@ class Supervisor:
         """End the process, and do not start it again."""
         if not self._stopped.done():
             self._stopped.set_result(None)
-        if self._process is not None and self._escalation is None:
+        if self._process is None:
+            self._stop_waiting()
+        elif self._escalation is None:
             self._begin_escalation()
 
     def send_signal(self, number: signal.Signals) -> None:
-        """Send a signal to the process."""
+        """Send a signal to the process; one that has ended needs none."""
         if self._process is None:
+            if self.return_code is not None:
+                self._logger.debug("signal '%s' not sent: it has ended already", number.name)
+                return
             raise RuntimeError(
                 f"the signal '{number.name}' cannot be sent to process[{self._label}], which is "
                 'not running'
@@ -86,6 +93,11 @@ class Supervisor:
         """Write to the standard input of the process."""
         if self._process is not None:
             self._process.write(data)
+
+    def _stop_waiting(self) -> None:
+        """Let a start that is under way come to its end soon, if everything is to end."""
+        if self._context.is_shutdown and self._context._processes is not None:
+            self._context._processes.hurry()
 
     # The life of the process.
 
@@ -217,10 +229,26 @@ class Supervisor:
             label=self._label,
             logger=self._logger,
             send=process.send_signal,
-            sigterm_timeout=perform_substitutions(self._context, self._options.sigterm_timeout),
-            sigkill_timeout=perform_substitutions(self._context, self._options.sigkill_timeout),
+            sigterm_timeout=self._timeout('sigterm_timeout'),
+            sigkill_timeout=self._timeout('sigkill_timeout'),
         )
         self._escalation.begin(self._loop)
+
+    def _timeout(self, name: str) -> str:
+        """Return a timeout; one that cannot be used keeps no process from being ended."""
+        try:
+            text = perform_substitutions(self._context, getattr(self._options, name))
+            float(text)
+        except (RuntimeError, ValueError) as error:
+            self._logger.error(
+                'the %s of process[%s] must be a number of seconds: %s; it is %s seconds instead',
+                name,
+                self._label,
+                error,
+                _USUAL_TIMEOUT,
+            )
+            return _USUAL_TIMEOUT
+        return text
 
     def _command_line(self) -> str:
         return ' '.join(self._details['cmd'])

@@ -150,10 +150,21 @@ class TimerAction(Action):
 
 
 def _checked_period(period: Any) -> Any:
-    """Return the period as a float or as substitutions; whole numbers are refused."""
+    """Return the period as a float or as substitutions; ints are refused, texts are doubtful."""
     if isinstance(period, int) and not isinstance(period, bool):
         raise TypeError(
             'the period of a TimerAction must be a float or a substitution, but it is the '
             f'{type(period).__name__} {period}: write {float(period)} instead'
         )
+    if isinstance(period, str):
+        _warn_of_text(period)
     return typed('period', period, float, 'a float or a substitution')
+
+
+def _warn_of_text(period: str) -> None:
+    import warnings
+
+    warnings.warn(
+        f"the period of a TimerAction should be a float or substitutions, not the text '{period}'",
+        stacklevel=4,
+    )

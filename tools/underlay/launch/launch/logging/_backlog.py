@@ -23,7 +23,7 @@ class Backlog:
         """Write to a descriptor; `on_error` may be called from the thread."""
         self._descriptor = descriptor
         self._on_error = on_error
-        self._pieces: deque[bytes] = deque()
+        self._pieces: deque[memoryview] = deque()
         self._size = 0
         self._lock = threading.Lock()
         self._thread: Optional[threading.Thread] = None
@@ -50,21 +50,23 @@ class Backlog:
     def write(self, data: bytes) -> None:
         """Write what can be written now and keep the rest."""
         with self._lock:
-            rest = data if self._size else self._write_what_fits(data)
+            rest = memoryview(data)
+            if not self._size:
+                rest = self._write_what_fits(rest)
             if rest:
                 self._keep(rest)
 
-    def _write_what_fits(self, data: bytes) -> bytes:
+    def _write_what_fits(self, data: memoryview) -> memoryview:
         try:
             while data and _is_ready(self._descriptor):
                 written = os.write(self._descriptor, data[:_PIECE])
                 data = data[written:]
         except OSError as error:
             self._on_error(error)
-            return b''
+            return data[:0]
         return data
 
-    def _keep(self, data: bytes) -> None:
+    def _keep(self, data: memoryview) -> None:
         self._pieces.append(data)
         self._size += len(data)
         if self._thread is None:
@@ -89,7 +91,7 @@ class Backlog:
             for callback in waiting:
                 callback()
 
-    def _write_or_give_up(self, piece: bytes, size: int) -> int:
+    def _write_or_give_up(self, piece: memoryview, size: int) -> int:
         """Write a piece and return how much; whatever cannot be written counts as well."""
         try:
             return os.write(self._descriptor, piece)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import codecs
 import logging
+import re
 from typing import Optional
 
 _SCREEN_FORMATS = {
@@ -73,7 +74,8 @@ class _Stamped(logging.Formatter):
 
 
 def _formatter(text: str) -> logging.Formatter:
-    """Return a brace-style formatter; backslash escapes are interpreted."""
+    """Return a brace-style formatter; backslash escapes are interpreted, {msg} is the message."""
     if '\\' in text:
         text = codecs.decode(text, 'unicode_escape')
+    text = re.sub(r'\{msg(?=[!:}])', '{message', text)
     return logging.Formatter(text, style='{', validate=False)

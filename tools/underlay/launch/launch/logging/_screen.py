@@ -92,8 +92,20 @@ class Screen:
         if stream is sys.__stdout__ and isinstance(error, OSError):
             _discard_standard_output()
         self._is_unread = isinstance(error, BrokenPipeError)
-        if self._is_unread and self._on_closed is not None:
+        if not self._is_unread:
+            _complain(error)
+        elif self._on_closed is not None:
             self._on_closed()
+
+
+def _complain(error: Exception) -> None:
+    """Say that output is lost, as long as there is a place to say so."""
+    if sys.stderr is None or not isinstance(error, OSError):
+        return
+    try:
+        print(f'The output cannot be written any more: {error.strerror}', file=sys.stderr)
+    except (OSError, ValueError):
+        pass  # there is none
 
 
 def _discard_standard_output() -> None:

@@ -1,56 +1,44 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check the names of nodes and namespaces."""
+"""
+Check the names of nodes and namespaces.
+
+What is valid is recognised here; why something is not, rclpy says, which takes long to import.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import re
+from typing import Any
 
-_TOKEN = re.compile(r'[A-Za-z_][A-Za-z0-9_]*')
-_MAX_LENGTH = 255
+_NODE_NAME = re.compile(r'(?=.{1,255}\Z)[A-Za-z_][A-Za-z0-9_]*')
+_NAMESPACE = re.compile(r'/|(?=.{1,245}\Z)(/[A-Za-z_][A-Za-z0-9_]*)+')
 
 
 class InvalidNameError(ValueError):
-    """A name is not allowed in ROS; the text says why."""
+    """A name is not allowed in ROS; the text says why, and where."""
 
 
 def validate_node_name(name: str) -> None:
     """Raise an error unless this is the name of a node."""
-    problem = _token_problem(name)
-    if problem:
-        raise InvalidNameError(f"Invalid node name: the name '{name}' {problem}")
+    if not _NODE_NAME.fullmatch(name):
+        from rclpy.validate_node_name import validate_node_name as judge
+
+        _let_judge(judge, name)
 
 
 def validate_namespace(namespace: str) -> None:
     """Raise an error unless this is an absolute namespace."""
-    problem = _namespace_problem(namespace)
-    if problem:
-        raise InvalidNameError(f"Invalid namespace: the namespace '{namespace}' {problem}")
+    if not _NAMESPACE.fullmatch(namespace):
+        from rclpy.validate_namespace import validate_namespace as judge
+
+        _let_judge(judge, namespace)
 
 
-def _namespace_problem(namespace: str) -> str:
-    if not namespace.startswith('/'):
-        return 'must begin with a slash'
-    if len(namespace) > _MAX_LENGTH:
-        return f'is longer than {_MAX_LENGTH} characters'
-    if namespace == '/':
-        return ''
-    if namespace.endswith('/'):
-        return 'must not end with a slash'
-    problems = (_token_problem(token) for token in namespace[1:].split('/'))
-    return next((problem for problem in problems if problem), '')
+def _let_judge(judge: Callable[[str], Any], name: str) -> None:
+    from rclpy.exceptions import NameValidationException
 
-
-def _token_problem(token: str) -> str:
-    """Return what is wrong with a part of a name; empty if nothing is."""
-    if not token:
-        return 'has an empty part'
-    if len(token) > _MAX_LENGTH:
-        return f'is longer than {_MAX_LENGTH} characters'
-    if token[0].isdigit():
-        return f"has the part '{token}', which begins with a digit"
-    if _TOKEN.fullmatch(token):
-        return ''
-    position = next(i for i, letter in enumerate(token) if not _TOKEN.fullmatch('_' + letter))
-    return (
-        f"has the character '{token[position]}'; only letters, digits and underscores are allowed"
-    )
+    try:
+        judge(name)
+    except NameValidationException as error:
+        raise InvalidNameError(str(error)) from error

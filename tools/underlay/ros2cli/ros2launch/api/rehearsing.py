@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from contextlib import redirect_stdout
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, nullcontext, redirect_stdout
 import json
+import os
 import sys
 from typing import Any
 
@@ -34,13 +35,30 @@ def rehearse_launch_file(
     )
     from launch._rehearsal.rehearsal import rehearse
 
-    with redirect_stdout(sys.stderr if as_json else sys.stdout):
+    with _output_to_stderr() if as_json else nullcontext():
         root, status = rehearse(service)
     if as_json:
         print(json.dumps({'status': status, **root.as_data()}, indent=2, default=_plain))
     elif status == 0:
         _print_tree(root)
     return status
+
+
+@contextmanager
+def _output_to_stderr() -> Iterator[None]:
+    """Lead the standard output elsewhere, also that of what is called or run meanwhile."""
+    with redirect_stdout(sys.stderr):
+        if sys.__stdout__ is None or sys.__stderr__ is None:
+            yield
+            return
+        sys.__stdout__.flush()
+        kept = os.dup(1)
+        os.dup2(2, 1)
+        try:
+            yield
+        finally:
+            os.dup2(kept, 1)
+            os.close(kept)
 
 
 def _print_tree(root: Any) -> None:

@@ -78,8 +78,10 @@ def _rehearse(path: str, arguments: list[str], args: argparse.Namespace) -> int:
 def _show(path: str, args: argparse.Namespace) -> int | str | None:
     from launch import InvalidLaunchFileError
     from launch._failure_place import place_of
+    from launch.logging import launch_config
     from ros2launch.api.showing import print_a_launch_file, print_arguments_of_launch_file
 
+    launch_config.log_dir  # noqa: B018  # a run of its own, even if nothing is logged
     show = print_a_launch_file if args.print else print_arguments_of_launch_file
     try:
         show(launch_file_path=path)

@@ -18,7 +18,9 @@ def find_target(
         first = [file_name] if file_name is not None else []
         return package_or_path, first + arguments
     if os.sep in package_or_path:
-        raise RuntimeError(_no_path_text(package_or_path))
+        from launch._missing_file import explain_missing_file
+
+        raise RuntimeError(explain_missing_file('launch file', package_or_path))
     return _find_in_package(package_or_path, file_name), list(arguments)
 
 
@@ -42,14 +44,3 @@ def _with_advice(text: str, package: str, file_name: str | None) -> str:
 
     share = get_share_directory(package)
     return f'{text}\n{explain_missing_share_file(package, file_name or "", share)}'.rstrip()
-
-
-def _no_path_text(path: str) -> str:
-    """Return the error text for a path that does not exist, with a file that comes close."""
-    from ros2cli.suggest import did_you_mean
-
-    folder, name = os.path.split(path)
-    if not os.path.isdir(folder):
-        return f"the launch file '{path}' does not exist: there is no folder '{folder}'"
-    text = f"the launch file '{path}' does not exist"
-    return '. '.join(part for part in (text, did_you_mean(name, os.listdir(folder))) if part)

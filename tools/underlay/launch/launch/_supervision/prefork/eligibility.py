@@ -81,8 +81,8 @@ def _is_running(interpreter: str) -> bool:
     if interpreter == sys.executable:
         return True
     try:
-        return os.path.dirname(interpreter) == os.path.dirname(
-            sys.executable
+        return os.path.samefile(
+            os.path.dirname(interpreter), os.path.dirname(sys.executable)
         ) and os.path.samefile(interpreter, sys.executable)
     except OSError:
         return False
