@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+import json
 import os
 from pathlib import Path
 import pty
@@ -147,3 +148,10 @@ def test_nothing_happens_without_a_terminal(shell: str) -> None:
         text=True,
     )
     assert (result.returncode, result.stdout, result.stderr) == (0, 'none\n', '')
+
+
+def test_hooks_are_installed() -> None:
+    """The hooks that set-up files source are files of this package."""
+    hooks = json.loads((SCRIPTS.parent / 'colcon.pkg').read_text())['hooks']
+    assert [os.path.dirname(hook) for hook in hooks] == ['share/ros2cli/completion'] * 2
+    assert all((SCRIPTS / os.path.basename(hook)).is_file() for hook in hooks)

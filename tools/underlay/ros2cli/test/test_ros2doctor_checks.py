@@ -15,6 +15,7 @@ from ros2doctor.check.environment import environment_findings
 from ros2doctor.check.frames import frame_findings
 from ros2doctor.check.graphics import graphics_findings
 from ros2doctor.check.libraries import library_findings
+from ros2doctor.check.neighbours import NeighboursCheck
 from ros2doctor.check.network import network_findings
 from ros2doctor.check.nodes import name_findings
 from ros2doctor.check.qos import pair_findings
@@ -22,7 +23,7 @@ from ros2doctor.check.scripts import script_findings
 from ros2doctor.check.wheels import wheel_findings
 from ros2doctor.check.workspace import workspace_findings
 from ros2doctor.facts.environment import Environment
-from ros2doctor.facts.graph import Endpoint
+from ros2doctor.facts.graph import Endpoint, Graph
 from ros2doctor.facts.graphics import Graphics
 from ros2doctor.facts.interfaces import Interface
 from ros2doctor.facts.libraries import Libraries, LibraryFolder
@@ -304,6 +305,16 @@ def test_pairs_name_both_nodes() -> None:
         "ERROR: on '/image', what '/camera' offers is not what '/viewer' asks for (unreliable)",
         "ERROR: on '/image', '/camera' publishes String, but '/other' subscribes to Int32",
     ]
+
+
+def test_nodes_of_other_machines() -> None:
+    """They are a warning in the domain that everybody has; another one was chosen on purpose."""
+    graph = Graph(elsewhere=('/nao', '/wolfgang'))
+    [sentence] = sentences(NeighboursCheck().findings(graph))
+    assert sentence.startswith('WARNING: nodes of other machines are in domain 0, which ')
+    assert sentence.endswith(': /nao, /wolfgang')
+    assert sentences(NeighboursCheck().findings(replace(graph, domain_id=42))) == []
+    assert sentences(NeighboursCheck().findings(Graph())) == []
 
 
 def test_names_of_nodes() -> None:

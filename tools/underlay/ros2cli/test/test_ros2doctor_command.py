@@ -190,6 +190,7 @@ def test_faults_of_a_graph(ros2: Ros2, tmp_path: Path) -> None:
         assert text in result.stdout
     assert result.returncode == 1
     assert 'Failed modules: ' in result.stdout
+    assert 'other machines' not in result.stdout
     report = ros2('doctor', '--report', cwd=tmp_path)
     assert report.returncode == 0
     for title in ('PLATFORM INFORMATION', 'NETWORK CONFIGURATION', 'PACKAGE VERSIONS'):

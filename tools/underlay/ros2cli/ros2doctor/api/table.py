@@ -20,6 +20,7 @@ CHECKS = {
     'rclpy': Entry('ros2doctor.check.client_library:ClientLibraryCheck', ''),
     'qos': Entry('ros2doctor.check.qos:QosCheck', ''),
     'nodes': Entry('ros2doctor.check.nodes:NodesCheck', ''),
+    'neighbours': Entry('ros2doctor.check.neighbours:NeighboursCheck', ''),
     'frames': Entry('ros2doctor.check.frames:FramesCheck', ''),
 }
 REPORTS = {

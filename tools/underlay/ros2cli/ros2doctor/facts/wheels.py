@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.metadata import distributions
 from pathlib import Path
@@ -60,12 +60,10 @@ def _applies(marker: str | None) -> bool:
 
 
 def _root() -> Path | None:
-    """Return the workspace with the pins: the one that made the environment, or a near one."""
-    return next((root for root in _candidates() if (root / 'requirements.txt').is_file()), None)
-
-
-def _candidates() -> Iterator[Path]:
-    home = Path(sys.prefix, 'stamp', 'home')
-    if home.is_file():
-        yield Path(home.read_text(encoding='utf-8').split('\n')[0])
-    yield Path(sys.prefix).parent
+    """Return the workspace that has made this environment, if one has."""
+    try:
+        home = Path(sys.prefix, 'stamp', 'home').read_text(encoding='utf-8')
+    except OSError:
+        return None
+    root = Path(home.split('\n')[0])
+    return root if (root / 'requirements.txt').is_file() else None
