@@ -127,6 +127,26 @@ def test_required_argument_must_be_given_to_the_include(run: Run, write: Write) 
     assert run(IncludeLaunchDescription(path, launch_arguments=[('must', '1')])).status == 0
 
 
+def test_line_of_the_include_that_gives_too_little(run: Run, write: Write) -> None:
+    """The error is at the include to be corrected; those around it follow."""
+    child = write('child.launch.py', REQUIRED)
+    middle = write(
+        'middle.launch.py',
+        (
+            'from launch import LaunchDescription\n'
+            'from launch.actions import IncludeLaunchDescription\n'
+            'def generate_launch_description():\n'
+            f'    return LaunchDescription([IncludeLaunchDescription({child!r})])\n'
+        ),
+    )
+    lines = run(IncludeLaunchDescription(middle)).lines
+    assert lines[1] == (
+        f"[ERROR] [launch]: It comes from '{middle}', line 4 (IncludeLaunchDescription)"
+    )
+    assert lines[2].startswith(f"  included from '{__file__}', line ")
+    assert len(lines) == 3
+
+
 def test_file_is_loaded_once(run: Run, write: Write) -> None:
     """Looking for arguments and including need only one run of the file."""
     count = "with open(__file__ + '.log', 'a') as log:\n    log.write('x')\n"

@@ -22,6 +22,7 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.actions.declare_launch_argument import DeclareLaunchArgument
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -123,10 +124,23 @@ class IncludeLaunchDescription(Action):
                     f"Included launch description missing required argument '{argument.name}' "
                     f"(description: '{argument.description}'), given: [{', '.join(names)}]"
                 )
-                from launch._failure_place import note_line
-
-                note_line(error, argument.call_site)
+                self._note_lines(error, argument, includes)
                 raise error
+
+    def _note_lines(
+        self,
+        error: RuntimeError,
+        argument: DeclareLaunchArgument,
+        includes: list[IncludeLaunchDescription],
+    ) -> None:
+        """Note the line of the innermost include, which is to give what is missing."""
+        from launch._failure_place import note_line
+
+        lines = [each.call_site for each in reversed([self, *includes]) if each.call_site]
+        if lines:
+            note_line(error, lines[0], type(self).__name__, tuple(lines[1:]))
+        else:
+            note_line(error, argument.call_site)
 
 
 def _pairs(launch_arguments: Any) -> tuple[tuple[Any, Any], ...]:
