@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import os
 from typing import Any
 
 from launch import (
@@ -225,6 +226,29 @@ def test_missing_file(run: Run, write: Write) -> None:
     path = write('robot.launch.py', CHILD)
     result = run(IncludeLaunchDescription(path.replace('robot', 'robto')))
     assert "robto.launch.py' does not exist. Did you mean 'robot.launch.py'?" in result.text
+
+
+def test_missing_file_beside_the_including_one(
+    run: Run, write: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A file that is being read is never suggested; a relative path is explained."""
+    path = write(
+        'robot.launch.py',
+        (
+            'from launch import LaunchDescription\n'
+            'from launch.actions import IncludeLaunchDescription\n'
+            'def generate_launch_description():\n'
+            "    return LaunchDescription([IncludeLaunchDescription('robto.launch.py')])\n"
+        ),
+    )
+    monkeypatch.chdir(os.path.dirname(path))
+    text = run(IncludeLaunchDescription(path)).text
+    assert "the launch file 'robto.launch.py' does not exist" in text
+    assert 'Did you mean' not in text
+    assert f"looked up from the current folder, '{os.getcwd()}'. Beside this launch file" in text
+    text = run(IncludeLaunchDescription(path + '/child.launch.py')).text
+    assert f"there is no folder '{path}'" in text
+    assert 'Did you mean' not in text and 'relative path' not in text
 
 
 def test_unknown_format(write: Write, context: LaunchContext) -> None:

@@ -85,12 +85,13 @@ class IncludeLaunchDescription(Action):
         return [] if description is None else [description]
 
     def _check_in_advance(self, context: LaunchContext) -> None:
-        from launch._missing_file import explain_missing_file
+        from launch._missing_file import explain_missing_include
         from launch._preflight import constant_text
 
         path = constant_text(self.__source._location_parts, context)
         if path is not None and os.path.dirname(path) and not os.path.isfile(path):
-            raise FileNotFoundError(explain_missing_file('launch file', path))
+            reading = {each.path for each in context._open_files}
+            raise FileNotFoundError(explain_missing_include(path, reading))
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Load the file and return its description, with the arguments before it."""
