@@ -195,6 +195,23 @@ def test_broken_files(run: Run, write: Write, body: str, text: str) -> None:
     assert text in result.text
 
 
+def test_misspelt_function(run: Run, write: Write) -> None:
+    """The function that is meant perhaps is named."""
+    path = write('bad.launch.py', 'def generate_launch_descripton():\n    pass\n')
+    text = run(IncludeLaunchDescription(PythonLaunchDescriptionSource(path))).text
+    assert (
+        "required function 'generate_launch_description()'\nDid you mean 'generate_launch_de"
+        in text
+    )
+
+
+def test_source_of_another_format(run: Run, write: Write) -> None:
+    """Python reads no XML; the error says what does."""
+    path = write('child.launch.xml', '<launch/>\n')
+    text = run(IncludeLaunchDescription(PythonLaunchDescriptionSource(path))).text
+    assert 'XMLLaunchDescriptionSource, or AnyLaunchDescriptionSource, reads it' in text
+
+
 def test_error_names_the_line(run: Run, write: Write) -> None:
     """An error in a launch file is reported with its line."""
     path = write('bad.launch.py', 'import os\n\nraise RuntimeError("because")\n')
