@@ -28,12 +28,13 @@ class FailurePlace(NamedTuple):
 
 
 def place_of(error: Optional[BaseException]) -> Optional[FailurePlace]:
-    """Return the place that was noted on an error or on what caused it."""
-    found = None
+    """Return the place that was noted on an error, or else on what caused it."""
     while error is not None:
-        found = getattr(error, 'launch_place', None) or found
+        found: Optional[FailurePlace] = getattr(error, 'launch_place', None)
+        if found is not None:
+            return found
         error = error.__cause__
-    return found
+    return None
 
 
 def note_line(

@@ -210,6 +210,7 @@ def test_source_of_another_format(run: Run, write: Write) -> None:
     path = write('child.launch.xml', '<launch/>\n')
     text = run(IncludeLaunchDescription(PythonLaunchDescriptionSource(path))).text
     assert 'XMLLaunchDescriptionSource, or AnyLaunchDescriptionSource, reads it' in text
+    assert f"It comes from '{path}', line 1\n  included from '{__file__}', line" in text
 
 
 def test_error_names_the_line(run: Run, write: Write) -> None:
