@@ -7,8 +7,19 @@ import os
 import sys
 from typing import NamedTuple, Optional
 
-_OWN_PACKAGES = frozenset(('launch', 'launch_ros', 'launch_xml', 'launch_yaml'))
-_COMMANDS = frozenset(('ros2cli', 'ros2launch'))
+_OWN_PACKAGES = frozenset(
+    (
+        'launch',
+        'launch_pytest',
+        'launch_ros',
+        'launch_testing',
+        'launch_testing_ros',
+        'launch_xml',
+        'launch_yaml',
+    )
+)
+# What runs the launch of somebody else: packages, and modules of the packages above.
+_COMMANDS = frozenset(('launch_testing._single_run', 'ros2cli', 'ros2launch'))
 _INSTALLED = ('site-packages', 'dist-packages')
 
 
@@ -28,7 +39,7 @@ def calling_line() -> Optional[CallSite]:
     frame = sys._getframe(1)
     while frame is not None:
         package = _package(frame.f_globals)
-        if package in _COMMANDS:
+        if package in _COMMANDS or frame.f_globals.get('__name__') in _COMMANDS:
             return None
         if package not in _OWN_PACKAGES:
             return CallSite(frame.f_code.co_filename, frame.f_lineno)

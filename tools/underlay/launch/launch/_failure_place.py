@@ -28,18 +28,24 @@ class FailurePlace(NamedTuple):
 
 
 def place_of(error: Optional[BaseException]) -> Optional[FailurePlace]:
-    """Return the place that was noted on an error or on what caused it."""
-    found = None
+    """Return the place that was noted on an error, or else on what caused it."""
     while error is not None:
-        found = getattr(error, 'launch_place', None) or found
+        found: Optional[FailurePlace] = getattr(error, 'launch_place', None)
+        if found is not None:
+            return found
         error = error.__cause__
-    return found
+    return None
 
 
-def note_line(error: BaseException, call_site: Optional[CallSite], action: str = '') -> None:
-    """Note the line of a file that raised an error, while the file is being loaded."""
+def note_line(
+    error: BaseException,
+    call_site: Optional[CallSite],
+    action: str = '',
+    includes: tuple[CallSite, ...] = (),
+) -> None:
+    """Note the line of a file that raised an error, and the includes that led to it so far."""
     if call_site is not None and place_of(error) is None:
-        _set(error, FailurePlace(call_site, action))
+        _set(error, FailurePlace(call_site, action, includes))
 
 
 def note_place(
@@ -56,7 +62,8 @@ def note_place(
         line = raising_line(error) if _runs_code_of_the_user(entity) else None
         place = _place_of_entity(line or created, type(entity).__name__, context)
     else:
-        place = inner._replace(includes=_includes(inner.call_site, created, context))
+        outer = _includes(inner.call_site, created, context)
+        place = inner._replace(includes=tuple(dict.fromkeys((*inner.includes, *outer))))
     if place is not None:
         _set(error, place)
         error.launch_place_is_complete = True  # type: ignore[attr-defined]

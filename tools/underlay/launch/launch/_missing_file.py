@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 import os
 
 from launch._did_you_mean import did_you_mean
@@ -10,8 +11,26 @@ from launch._did_you_mean import did_you_mean
 _LISTED = 12
 
 
-def explain_missing_file(what: str, path: str) -> str:
-    """Return a sentence about a file, with the closest one in its folder or what is there."""
+_RELATIVE = (
+    "A relative path is looked up from the current folder, '{folder}'. Beside this launch file "
+    'is $(dirname)/..., or ThisLaunchFileDir() in Python; in a package it is '
+    '$(find-pkg-share PACKAGE)/..., or FindPackageShare().'
+)
+
+
+def explain_missing_include(path: str, reading: Container[str]) -> str:
+    """Return sentences about a launch file that is included by those that are being read."""
+    text = explain_missing_file('launch file', path, reading)
+    relative = '' if os.path.isabs(path) else _RELATIVE.format(folder=os.getcwd())
+    return '\n'.join(filter(None, [text, relative]))
+
+
+def explain_missing_file(what: str, path: str, but: Container[str] = ()) -> str:
+    """Return sentences about a file: the closest one but some, what is there, or its source."""
+    return '\n'.join(filter(None, [_sentence(what, path, but), _source_of(path)]))
+
+
+def _sentence(what: str, path: str, but: Container[str]) -> str:
     unsuitable = _unsuitable(path)
     if unsuitable:
         return f"the {what} '{path}' is {unsuitable}"
@@ -19,7 +38,11 @@ def explain_missing_file(what: str, path: str) -> str:
     text = f"the {what} '{path}' does not exist"
     if not os.path.isdir(folder or '.'):
         return f"{text}: there is no folder '{folder}'{_closest_folder(folder)}"
-    there = sorted(each for each in os.listdir(folder or '.') if not each.startswith('.'))
+    there = sorted(
+        each
+        for each in os.listdir(folder or '.')
+        if not each.startswith('.') and os.path.abspath(os.path.join(folder, each)) not in but
+    )
     hint = did_you_mean(name, there) or _listing(there)
     return f'{text}. {hint}' if hint else text
 
@@ -37,8 +60,18 @@ def _unsuitable(path: str) -> str:
 
 def _closest_folder(folder: str) -> str:
     above, name = os.path.split(folder)
-    hint = did_you_mean(name, os.listdir(above)) if os.path.isdir(above) else ''
+    there = os.listdir(above) if os.path.isdir(above) else []
+    hint = '' if name in there else did_you_mean(name, there)
     return f'. {hint}' if hint else ''
+
+
+def _source_of(path: str) -> str:
+    """Say what to do if an installed package has the file in its source only."""
+    try:
+        from ros_environment.workspace import explain_uninstalled_file
+    except ModuleNotFoundError:
+        return ''
+    return explain_uninstalled_file(path)
 
 
 def _listing(names: list[str]) -> str:

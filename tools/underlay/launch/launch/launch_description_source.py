@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 class LaunchDescriptionSource:
     """A launch description, or the file that it is loaded from when it is needed."""
 
+    _loads_file = False
+
     def __init__(
         self,
         launch_description: Optional[LaunchDescription] = None,
@@ -50,10 +52,19 @@ class LaunchDescriptionSource:
         """Return the description; it is loaded once."""
         location = self._expand_location(context)
         if self.__launch_description is None:
+            self._require_file(location, context)
             self.__launch_description = self._from_preview(
                 location
             ) or self._get_launch_description(location)
         return self.__launch_description
+
+    def _require_file(self, location: str, context: LaunchContext) -> None:
+        """Raise an error if the location is to be a file and is none."""
+        if self._loads_file and not os.path.isfile(location):
+            from launch._missing_file import explain_missing_include
+
+            reading = {each.path for each in context._open_files}
+            raise FileNotFoundError(explain_missing_include(location, reading))
 
     def _expand_location(self, context: LaunchContext) -> str:
         """Return the location, which stays what it is the first time."""

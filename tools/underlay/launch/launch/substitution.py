@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, ClassVar, TYPE_CHECKING
+from typing import Any, ClassVar, NoReturn, TYPE_CHECKING
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -36,6 +36,22 @@ class Substitution:
             f"the substitution class '{type(self).__name__}' does not define perform(context)"
         )
 
+    def __add__(self, other: Any) -> NoReturn:
+        """Raise an error that says how to put texts together."""
+        raise _no_sum(self)
+
+    def __radd__(self, other: Any) -> NoReturn:
+        """Raise an error that says how to put texts together."""
+        raise _no_sum(self)
+
     def describe(self) -> str:
         """Return a short description for people."""
         return repr(self)
+
+
+def _no_sum(substitution: Substitution) -> TypeError:
+    name = type(substitution).__name__
+    return TypeError(
+        f"'{name}' cannot be added to something with '+', as its text is not known yet: "
+        f"write a list, such as ['/ns/', {name}(...)]"
+    )

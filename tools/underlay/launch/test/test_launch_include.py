@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import os
 from typing import Any
 
 from launch import (
@@ -127,6 +128,26 @@ def test_required_argument_must_be_given_to_the_include(run: Run, write: Write) 
     assert run(IncludeLaunchDescription(path, launch_arguments=[('must', '1')])).status == 0
 
 
+def test_line_of_the_include_that_gives_too_little(run: Run, write: Write) -> None:
+    """The error is at the include to be corrected; those around it follow."""
+    child = write('child.launch.py', REQUIRED)
+    middle = write(
+        'middle.launch.py',
+        (
+            'from launch import LaunchDescription\n'
+            'from launch.actions import IncludeLaunchDescription\n'
+            'def generate_launch_description():\n'
+            f'    return LaunchDescription([IncludeLaunchDescription({child!r})])\n'
+        ),
+    )
+    lines = run(IncludeLaunchDescription(middle)).lines
+    assert lines[1] == (
+        f"[ERROR] [launch]: It comes from '{middle}', line 4 (IncludeLaunchDescription)"
+    )
+    assert lines[2].startswith(f"  included from '{__file__}', line ")
+    assert len(lines) == 3
+
+
 def test_file_is_loaded_once(run: Run, write: Write) -> None:
     """Looking for arguments and including need only one run of the file."""
     count = "with open(__file__ + '.log', 'a') as log:\n    log.write('x')\n"
@@ -174,6 +195,24 @@ def test_broken_files(run: Run, write: Write, body: str, text: str) -> None:
     assert text in result.text
 
 
+def test_misspelt_function(run: Run, write: Write) -> None:
+    """The function that is meant perhaps is named."""
+    path = write('bad.launch.py', 'def generate_launch_descripton():\n    pass\n')
+    text = run(IncludeLaunchDescription(PythonLaunchDescriptionSource(path))).text
+    assert (
+        "required function 'generate_launch_description()'\nDid you mean 'generate_launch_de"
+        in text
+    )
+
+
+def test_source_of_another_format(run: Run, write: Write) -> None:
+    """Python reads no XML; the error says what does."""
+    path = write('child.launch.xml', '<launch/>\n')
+    text = run(IncludeLaunchDescription(PythonLaunchDescriptionSource(path))).text
+    assert 'XMLLaunchDescriptionSource, or AnyLaunchDescriptionSource, reads it' in text
+    assert f"It comes from '{path}', line 1\n  included from '{__file__}', line" in text
+
+
 def test_error_names_the_line(run: Run, write: Write) -> None:
     """An error in a launch file is reported with its line."""
     path = write('bad.launch.py', 'import os\n\nraise RuntimeError("because")\n')
@@ -205,6 +244,29 @@ def test_missing_file(run: Run, write: Write) -> None:
     path = write('robot.launch.py', CHILD)
     result = run(IncludeLaunchDescription(path.replace('robot', 'robto')))
     assert "robto.launch.py' does not exist. Did you mean 'robot.launch.py'?" in result.text
+
+
+def test_missing_file_beside_the_including_one(
+    run: Run, write: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A file that is being read is never suggested; a relative path is explained."""
+    path = write(
+        'robot.launch.py',
+        (
+            'from launch import LaunchDescription\n'
+            'from launch.actions import IncludeLaunchDescription\n'
+            'def generate_launch_description():\n'
+            "    return LaunchDescription([IncludeLaunchDescription('robto.launch.py')])\n"
+        ),
+    )
+    monkeypatch.chdir(os.path.dirname(path))
+    text = run(IncludeLaunchDescription(path)).text
+    assert "the launch file 'robto.launch.py' does not exist" in text
+    assert 'Did you mean' not in text
+    assert f"looked up from the current folder, '{os.getcwd()}'. Beside this launch file" in text
+    text = run(IncludeLaunchDescription(path + '/child.launch.py')).text
+    assert f"there is no folder '{path}'" in text
+    assert 'Did you mean' not in text and 'relative path' not in text
 
 
 def test_unknown_format(write: Write, context: LaunchContext) -> None:

@@ -14,10 +14,11 @@ import time
 from typing import Any
 
 from launch._supervision.orphan_guard import OrphanGuard
+from launch._supervision.prefork import prefork as prefork_module
 from launch._supervision.prefork import template_handle
 from launch._supervision.prefork.prefork import Prefork, WORTHWHILE
 from launch._supervision.process_group import living_members
-from launch._supervision.program import Child, Program
+from launch._supervision.program import Child, execute, Program
 from launch.actions import ExecuteProcess, Shutdown, TimerAction
 import pytest
 
@@ -115,6 +116,26 @@ def test_few_are_executed(in_prefork: InPrefork, script: Callable[..., str]) -> 
     path = script()
     few, enough, one = in_prefork(use)
     assert (set(few), set(enough), one) == ({'executed'}, {'forked'}, ['forked'])
+
+
+def test_order_of_what_is_executed(
+    in_prefork: InPrefork, script: Callable[..., str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What cannot be forked does not overtake what waits for the decision."""
+    commands = []
+
+    async def execute_noting(program: Program, stdout: int, stderr: int) -> Child:
+        commands.append(program.command[0])
+        return await execute(program, stdout, stderr)
+
+    async def use(prefork: Prefork) -> None:
+        first = Program([script()], None, None, False, 'plain_preload')
+        second = Program(['true'], None, None, False, None)
+        await asyncio.gather(_how(prefork, first), _how(prefork, second))
+
+    monkeypatch.setattr(prefork_module, 'execute', execute_noting)
+    in_prefork(use)
+    assert [os.path.basename(command) for command in commands] == ['script', 'true']
 
 
 @pytest.mark.parametrize(

@@ -78,6 +78,33 @@ def test_missing_launch_configuration(context: LaunchContext) -> None:
         LaunchConfiguration(['use_', 'simtime']).perform(context)
 
 
+@pytest.mark.parametrize(
+    'expression, error', [('r2d2 == 1', NameError), ('my robot == 1', SyntaxError)]
+)
+def test_expression_without_quotes(
+    context: LaunchContext, expression: str, error: type[Exception]
+) -> None:
+    """An expression that lacks quotes is shown, with the advice to write them."""
+    with pytest.raises(error) as caught:
+        PythonExpression(expression).perform(context)
+    lines = str(caught.value).splitlines()
+    assert lines[1] == f'The expression is: {expression}'
+    assert lines[2].startswith('A text in it needs quotes of its own')
+
+
+def test_no_sums() -> None:
+    """A substitution is not added to a text; the error shows the list to be written."""
+    for make in (lambda x: '/ns/' + x, lambda x: x + '/topic', lambda x: ['a'] + x):
+        with pytest.raises(TypeError, match='write a list, such as .*, LaunchConfiguration'):
+            make(LaunchConfiguration('x'))
+
+
+def test_readable_values() -> None:
+    """Substitutions in what is logged can be read."""
+    parts = [TextSubstitution(text='a'), LaunchConfiguration(['b', LaunchConfiguration('c')])]
+    assert repr(parts) == "[TextSubstitution('a'), LaunchConfiguration('b' + LaunchConfig('c'))]"
+
+
 def test_path_join(context: LaunchContext) -> None:
     """A part may be a list; an absolute part drops what stands before it."""
     assert PathJoinSubstitution(['a', ['b', '.txt']]).perform(context) == 'a/b.txt'

@@ -232,6 +232,24 @@ def test_errors(content: str, text: str) -> None:
     assert place_of(caught.value).call_site == ('<string>', 2)  # type: ignore[union-attr]
 
 
+@pytest.mark.parametrize(
+    'content, advice',
+    [
+        (
+            '<node exec="x"><remap from="a" too="b"/></node>',
+            "There is 'too' instead: was 'to' meant?",
+        ),
+        ('<node package="a" executable="b"/>', "XML and YAML write 'exec'"),
+        ('<node package="a" exec="b"/>', "XML and YAML write 'pkg'"),
+    ],
+)
+def test_advice(content: str, advice: str) -> None:
+    """Further lines name what was given, and what to write instead."""
+    with pytest.raises((AttributeError, ValueError)) as caught:
+        parse(f'<launch>{content}</launch>')
+    assert advice in '\n'.join(str(caught.value).splitlines()[1:])
+
+
 def test_node_of_another_package(context: LaunchContext) -> None:
     """A package derives an action from Node and extends its parse()."""
     before = dict(expose.action_parse_methods)

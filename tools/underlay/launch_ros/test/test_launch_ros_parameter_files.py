@@ -10,6 +10,7 @@ from typing import Any, Optional
 from launch.actions import TimerAction
 from launch_ros.actions import Node, SetParametersFromFile
 from launch_ros.utilities.parameter_file_keys import key_matches, parameter_file_keys
+from launch_ros.utilities.parameter_file_problem import parameter_file_problem
 import pytest
 
 Run = Callable[..., Any]
@@ -104,6 +105,42 @@ def test_file_for_nobody(run: Run, tmp_path: Path) -> None:
 def test_no_false_alarm(run: Run, tmp_path: Path, key: str, nodes: list[Any]) -> None:
     """A node that may be meant is enough, be it another one, a later one or one without name."""
     assert _warnings(run, tmp_path, key, *nodes) == []
+
+
+@pytest.mark.parametrize(
+    'content, text',
+    [
+        (
+            'a:\n  ros__parameters:\n    x: 1\ntalker:\n  ros_parameters:\n    b: 1\n',
+            "line 4, below 'talker' there is no 'ros__parameters': was it meant by 'ros_para",
+        ),
+        ('talker:\n  rate: 1\n', "line 1, below 'talker' there is no 'ros__parameters', below"),
+        ('talker:\n\tros__parameters:\n\t\ta: 1\n', 'line 2, it is not YAML, which allows'),
+    ],
+)
+def test_useless_file(run: Run, tmp_path: Path, content: str, text: str) -> None:
+    """A file that a node cannot read is one warning with the line."""
+    path = tmp_path / 'p.yaml'
+    path.write_text(content)
+    found = run(_node()(str(path)), _node()(str(path)))[1]
+    assert found.count(f"the parameter file '{path}' cannot be used: {text}") == 1
+
+
+@pytest.mark.parametrize(
+    'content',
+    [
+        FILE,
+        'x: {ros__parameters: {a: 1}}\n',
+        '/**:\n  ros__parameters:\n    a: |\n      x:\n      \ty: 1\n',
+        'a: &a\n  ros__parameters: {}\nb:\n  <<: *a\n',
+        'talker:\n',
+    ],
+)
+def test_no_problem(tmp_path: Path, content: str) -> None:
+    """Nothing is said to a file that is right, or that only YAML could judge."""
+    path = tmp_path / 'p.yaml'
+    path.write_text(content)
+    assert parameter_file_problem(str(path)) is None
 
 
 def test_missing_file_gets_advice(run: Run, tmp_path: Path) -> None:

@@ -101,6 +101,18 @@ def generate_test_description():
     assert problem.message.endswith('No process was started.')
 
 
+def test_lines_of_a_failing_launch(run: RunTest, capfd: pytest.CaptureFixture[str]) -> None:
+    """The error of a launch names lines of the test, none of the one who runs it."""
+    run(
+        """
+def generate_test_description():
+    return LaunchDescription([ExecuteProcess(cmd=[LaunchConfiguration('typo')]), ReadyToTest()])
+"""
+    )
+    text = capfd.readouterr().out
+    assert '(ExecuteProcess)' in text and 'included from' not in text
+
+
 def test_never_ready(run: RunTest) -> None:
     """A launch that does not become ready in time is shut down, and the reason is told."""
     outcome = run(

@@ -63,7 +63,7 @@ def test_errors(content: str, error: type[Exception], text: str) -> None:
     'content, advice',
     [
         ('<lgo message="x"/>', "Did you mean 'log'?"),
-        ('<log mesage="x"/>', "Did you mean 'message'?"),
+        ('<log mesage="x"/>', "There is 'mesage' instead: was 'message' meant?"),
         ('<let name="a" value="b" uless="true"/>', "Did you mean 'unless'?"),
         ('<arg name="x" value="1"/>', '<let name="..." value="..."/>'),
         ('<group ns="x"/>', '<push_ros_namespace namespace="..."/>'),

@@ -126,6 +126,17 @@ def test_errors(words: list[str], error: str, ros2: Ros2, arm: dict[str, str]) -
     assert result.stderr.startswith(error)
 
 
+def test_file_that_is_not_here(ros2: Ros2, arm: dict[str, str], tmp_path: Path) -> None:
+    """What is named as a file is looked for as one, beside others like it."""
+    (tmp_path / 'main.launch.yaml').touch()
+    result = ros2('launch', 'main_launch.yaml', extra=arm)
+    assert (result.returncode, result.stdout) == (1, '')
+    assert result.stderr.splitlines() == [
+        "the launch file 'main_launch.yaml' does not exist. Did you mean 'main.launch.yaml'?",
+        f"It is looked up from '{tmp_path}'.",
+    ]
+
+
 def test_missing_file_lists_those_that_exist(ros2: Ros2, arm: dict[str, str]) -> None:
     """The error about a missing file ends with the installed ones and the closest."""
     error = ros2('launch', 'arm', 'sai.launch.py', extra=arm).stderr

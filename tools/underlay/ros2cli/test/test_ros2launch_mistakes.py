@@ -120,7 +120,10 @@ MISTAKES = {
     ),
     'expression': Mistake(
         "LogInfo(msg=PythonExpression('1 + one'))",
-        CAUGHT + "name 'one' is not defined",
+        CAUGHT
+        + "name 'one' is not defined\nThe expression is: 1 + one\n"
+        + 'A text in it needs quotes of its own, also around a substitution: '
+        + """["'", LaunchConfiguration('x'), "' == 'y'"]""",
         'LogInfo',
     ),
     'required argument': Mistake(

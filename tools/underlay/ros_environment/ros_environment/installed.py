@@ -43,6 +43,15 @@ def launch_files(share: Path) -> list[str]:
     return sorted(path.name for path in _files(share) if path.name.endswith(LAUNCH_SUFFIXES))
 
 
+def package_of_share_file(path: Path) -> str | None:
+    """Return the package in whose share folder a path lies, None if in none that is known."""
+    for prefix in prefixes():
+        share = prefix / 'share'
+        if share in path.parents:
+            return path.relative_to(share).parts[0]
+    return None
+
+
 def _files(folder: Path) -> Iterator[Path]:
     for root, folders, names in os.walk(folder):
         folders[:] = [name for name in folders if not name.startswith('.')]

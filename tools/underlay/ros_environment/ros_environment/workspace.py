@@ -68,6 +68,16 @@ def explain_missing_share_file(package: str, file_name: str, share: str) -> str:
     return '\n'.join(line for line in lines if line)
 
 
+def explain_uninstalled_file(path: str) -> str:
+    """Say how a missing file of an installed package gets there from its source, '' if not."""
+    package = installed.package_of_share_file(Path(path))
+    workspace, source = _find_source(package) if package else (None, None)
+    if not workspace or not source:
+        return ''
+    rebuild = advice.build_command(workspace, source.name)
+    return explain_source_file(source, Path(path).name, rebuild)
+
+
 def _explain_unknown_package(package: str) -> str:
     if not installed.prefixes():
         return (

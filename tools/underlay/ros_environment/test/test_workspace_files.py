@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from ros_environment.setup_script import read_setup_script
-from ros_environment.workspace import explain_missing_share_file
+from ros_environment.workspace import explain_missing_share_file, explain_uninstalled_file
 
 MakePackage = Callable[..., Path]
 
@@ -85,6 +85,20 @@ def test_package_built_with_cmake(make_package: MakePackage, share: str) -> None
     (folder / 'CMakeLists.txt').touch()
     text = explain_missing_share_file('arm', NAME, share)
     assert '    install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n' in text
+
+
+def test_path_below_a_share_folder(
+    make_package: MakePackage, share: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A path that is to be installed gets the same advice; other paths get none."""
+    with_launch_file(make_package('arm'))
+    path = f'{share}/launch/{NAME}'
+    assert explain_uninstalled_file(path) == ''
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path))
+    lines = explain_uninstalled_file(path).splitlines()
+    assert 'exists, but setup.py does not install it' in lines[0]
+    assert lines[-1] == f'Then rebuild: {REBUILD}'
+    assert explain_uninstalled_file(f'{share}/launch/other.launch.py') == ''
 
 
 def test_misspelt_name(make_package: MakePackage, share: str) -> None:

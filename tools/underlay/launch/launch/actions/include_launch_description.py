@@ -22,6 +22,7 @@ from launch.utilities.normalize_to_list_of_substitutions_impl import (
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.actions.declare_launch_argument import DeclareLaunchArgument
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -84,12 +85,13 @@ class IncludeLaunchDescription(Action):
         return [] if description is None else [description]
 
     def _check_in_advance(self, context: LaunchContext) -> None:
-        from launch._missing_file import explain_missing_file
+        from launch._missing_file import explain_missing_include
         from launch._preflight import constant_text
 
         path = constant_text(self.__source._location_parts, context)
         if path is not None and os.path.dirname(path) and not os.path.isfile(path):
-            raise FileNotFoundError(explain_missing_file('launch file', path))
+            reading = {each.path for each in context._open_files}
+            raise FileNotFoundError(explain_missing_include(path, reading))
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Load the file and return its description, with the arguments before it."""
@@ -123,10 +125,23 @@ class IncludeLaunchDescription(Action):
                     f"Included launch description missing required argument '{argument.name}' "
                     f"(description: '{argument.description}'), given: [{', '.join(names)}]"
                 )
-                from launch._failure_place import note_line
-
-                note_line(error, argument.call_site)
+                self._note_lines(error, argument, includes)
                 raise error
+
+    def _note_lines(
+        self,
+        error: RuntimeError,
+        argument: DeclareLaunchArgument,
+        includes: list[IncludeLaunchDescription],
+    ) -> None:
+        """Note the line of the innermost include, which is to give what is missing."""
+        from launch._failure_place import note_line
+
+        lines = [each.call_site for each in reversed([self, *includes]) if each.call_site]
+        if lines:
+            note_line(error, lines[0], type(self).__name__, tuple(lines[1:]))
+        else:
+            note_line(error, argument.call_site)
 
 
 def _pairs(launch_arguments: Any) -> tuple[tuple[Any, Any], ...]:

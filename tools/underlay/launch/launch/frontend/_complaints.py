@@ -26,6 +26,9 @@ _SUBSTITUTIONS = {
 }
 _ATTRIBUTES = {
     ('node', 'type'): "write 'exec'",
+    ('node', 'package'): "XML and YAML write 'pkg'",
+    ('node', 'executable'): "XML and YAML write 'exec'",
+    ('composable_node', 'package'): "XML and YAML write 'pkg'",
     ('node', 'required'): 'write on_exit="shutdown"',
     ('node', 'ns'): "write 'namespace'",
     ('node', 'launch_prefix'): "write 'launch-prefix'",
@@ -41,7 +44,7 @@ _ATTRIBUTES = {
 def missing_attribute(entity: Entity, name: str, data_type: Any, left: list[str]) -> str:
     """Say that an attribute is missing, and which other one may be meant for it."""
     text = f"Attribute '{name}' of type '{data_type}' not found in Entity '{entity.type_name}'"
-    return _with_advice(text, [_legacy(entity, each) or _meant(each, [name]) for each in left])
+    return _with_advice(text, [_legacy(entity, each) or _instead(each, name) for each in left])
 
 
 def unexpected_names(entity: Entity, kind: str, names: list[str], known: list[str]) -> str:
@@ -72,6 +75,11 @@ def unknown_substitution(name: str, known: Iterable[str]) -> str:
 
 def _meant(name: str, known: list[str]) -> str:
     return did_you_mean(name, [each for each in known if each != name])
+
+
+def _instead(given: str, missing: str) -> str:
+    close = did_you_mean(given, [missing])
+    return f"There is '{given}' instead: was '{missing}' meant?" if close else ''
 
 
 def _legacy(entity: Entity, name: str) -> str:

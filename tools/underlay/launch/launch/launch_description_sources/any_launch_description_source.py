@@ -14,6 +14,8 @@ from launch.some_substitutions_type import SomeSubstitutionsType
 class AnyLaunchDescriptionSource(LaunchDescriptionSource):
     """Loads a launch file in whatever format it is."""
 
+    _loads_file = True
+
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
         """Create the source of the file at a path."""
         super().__init__(None, launch_file_path, 'any launch file')

@@ -15,6 +15,8 @@ from launch.some_substitutions_type import SomeSubstitutionsType
 class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
     """Loads a launch file in XML, YAML or another format that a parser is installed for."""
 
+    _loads_file = True
+
     def __init__(
         self,
         launch_file_path: SomeSubstitutionsType,

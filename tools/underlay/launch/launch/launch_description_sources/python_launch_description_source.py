@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import os
+
 from launch.launch_description import LaunchDescription
 from launch.launch_description_source import LaunchDescriptionSource
 from launch.launch_description_sources.python_launch_file_utilities import (
@@ -10,13 +12,28 @@ from launch.launch_description_sources.python_launch_file_utilities import (
 )
 from launch.some_substitutions_type import SomeSubstitutionsType
 
+_OTHER_FORMATS = {
+    '.xml': 'XMLLaunchDescriptionSource',
+    '.yaml': 'YAMLLaunchDescriptionSource',
+    '.yml': 'YAMLLaunchDescriptionSource',
+}
+_ADVICE = 'The file is not one in Python: {}, or AnyLaunchDescriptionSource, reads it.'
+
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):
     """Loads a launch file in Python."""
+
+    _loads_file = True
 
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
         """Create the source of the file at a path."""
         super().__init__(None, launch_file_path, 'interpreted python launch file')
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
-        return get_launch_description_from_python_launch_file(location)
+        try:
+            return get_launch_description_from_python_launch_file(location)
+        except SyntaxError as error:
+            other = _OTHER_FORMATS.get(os.path.splitext(location)[1])
+            if other is None:
+                raise
+            raise SyntaxError(f'{error}\n{_ADVICE.format(other)}') from error

@@ -7,13 +7,14 @@ from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_file_location
 import os
 from traceback import walk_tb
-from types import ModuleType
+from types import FunctionType, ModuleType
 
 from launch._call_site import CallSite
 from launch._failure_place import note_line
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_description import LaunchDescription
 
+_FUNCTION = 'generate_launch_description'
 _MODULE_NAME = 'python_launch_file'
 
 
@@ -58,14 +59,10 @@ def get_launch_description_from_python_launch_file(
 
 
 def _generate(path: str) -> LaunchDescription:
-    generate = getattr(
-        load_python_launch_file_as_module(path), 'generate_launch_description', None
-    )
+    module = load_python_launch_file_as_module(path)
+    generate = getattr(module, _FUNCTION, None)
     if generate is None:
-        raise InvalidPythonLaunchFileError(
-            f"launch file at '{path}' does not contain the required function "
-            "'generate_launch_description()'"
-        )
+        raise InvalidPythonLaunchFileError(_without_function(path, module))
     description = generate()
     if not hasattr(description, 'visit'):
         raise AttributeError(
@@ -74,6 +71,16 @@ def _generate(path: str) -> LaunchDescription:
         )
     result: LaunchDescription = description
     return result
+
+
+def _without_function(path: str, module: ModuleType) -> str:
+    """Say that a launch file lacks its function, and which one is meant for it perhaps."""
+    from launch._did_you_mean import did_you_mean
+
+    functions = [name for name, value in vars(module).items() if isinstance(value, FunctionType)]
+    text = f"launch file at '{path}' does not contain the required function '{_FUNCTION}()'"
+    close = did_you_mean(_FUNCTION, functions)
+    return f'{text}\n{close} The function must be called {_FUNCTION}.' if close else text
 
 
 def _point_at_line(path: str, error: Exception) -> None:

@@ -41,6 +41,11 @@ class LaunchConfiguration(Substitution):
         """Return the parts of the name."""
         return self.__variable_name
 
+    def __repr__(self) -> str:
+        """Return the parts of the name as they stand in a launch file."""
+        name = ' + '.join(sub.describe() for sub in self.__variable_name)
+        return f'{type(self).__name__}({name})'
+
     def describe(self) -> str:
         """Return a short description for people."""
         return f'LaunchConfig({" + ".join(sub.describe() for sub in self.__variable_name)})'

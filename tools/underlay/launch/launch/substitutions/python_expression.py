@@ -64,7 +64,20 @@ class PythonExpression(Substitution):
         """Evaluate the expression, which comes from the launch file, and return its text."""
         expression = perform_substitutions(context, self.__expression)
         names = [context.perform_substitution(sub) for sub in self.__python_modules]
-        return str(eval(expression, {}, _namespace(names)))  # noqa: S307
+        try:
+            return str(eval(expression, {}, _namespace(names)))  # noqa: S307
+        except NameError as error:
+            raise NameError(_with_advice(error, expression)) from error
+        except SyntaxError as error:
+            raise SyntaxError(_with_advice(error, expression)) from error
+
+
+def _with_advice(error: Exception, expression: str) -> str:
+    """Add the expression to an error that is often about a text without quotes."""
+    return (
+        f'{error}\nThe expression is: {expression}\nA text in it needs quotes of its own, also '
+        "around a substitution: [\"'\", LaunchConfiguration('x'), \"' == 'y'\"]"
+    )
 
 
 def _namespace(module_names: list[str]) -> dict[str, Any]:

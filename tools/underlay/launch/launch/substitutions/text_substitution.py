@@ -30,6 +30,10 @@ class TextSubstitution(Substitution):
         """Return the text."""
         return self.__text
 
+    def __repr__(self) -> str:
+        """Return the text as it stands in a launch file."""
+        return f'{type(self).__name__}({self.__text!r})'
+
     def describe(self) -> str:
         """Return the text in quotes."""
         return f"'{self.__text}'"

@@ -8,6 +8,7 @@ from typing import Optional, TYPE_CHECKING
 from launch.launch_context import LaunchContext
 from launch.logging import get_logger
 from launch_ros.utilities.parameter_file_keys import key_matches, parameter_file_keys
+from launch_ros.utilities.parameter_file_problem import parameter_file_problem
 from launch_ros.utilities.track_node_names import get_node_names
 
 if TYPE_CHECKING:
@@ -28,7 +29,9 @@ class ParameterFilesCheck:
         self._readers.setdefault(path, []).append(names)
 
     def __call__(self, context: LaunchContext) -> None:
-        """Warn of each file that matches nothing; nodes whose names are not known may match."""
+        """Warn of each file that is wrong, or matches nothing as far as the names are known."""
+        for path in self._readers:
+            _warn_of_problem(path)
         nodes = self._known_nodes(context)
         for path, readers in self._readers.items():
             if nodes is None or any(names.name is None for names in readers):
@@ -64,6 +67,14 @@ def _names_of_waiting_nodes(context: LaunchContext) -> Optional[set[FullName]]:
                 return None
             found.add((name, None))
     return found
+
+
+def _warn_of_problem(path: str) -> None:
+    problem = parameter_file_problem(path)
+    if problem is not None:
+        get_logger('launch_ros.actions.node').warning(
+            "the parameter file '%s' cannot be used: line %d, %s", path, *problem
+        )
 
 
 def _warn(path: str, keys: list[str], nodes: set[FullName]) -> None:

@@ -9,7 +9,7 @@ from typing import Optional
 _KEY = re.compile(
     r"""^( *)(?:"([^"]*)"|'([^']*)'|([^\s#"'{\[&*!|>%@`?-][^#]*?|/[^#]*?|\*\*)) *:(?:\s|$)"""
 )
-_PARAMETERS = 'ros__parameters'
+PARAMETERS = 'ros__parameters'
 
 
 def parameter_file_keys(path: str) -> list[str]:
@@ -19,26 +19,37 @@ def parameter_file_keys(path: str) -> list[str]:
     Only the lines are looked at, because reading large files as YAML takes long; a file that
     is not in block style has no names here.
     """
+    return _keys(read_lines(path))
+
+
+def read_lines(path: str) -> list[str]:
+    """Return the lines of a file, none if it cannot be read."""
     try:
         with open(path, encoding='utf-8') as file:
-            lines = file.read().splitlines()
+            return file.read().splitlines()
     except (OSError, UnicodeDecodeError):
         return []
-    return _keys(lines)
+
+
+def key_of(line: str) -> Optional[tuple[str, str]]:
+    """Return the spaces before the name that a line begins with, and the name."""
+    match = _KEY.match(line)
+    if match is None:
+        return None
+    return match[1], next(each for each in match.groups()[1:] if each is not None)
 
 
 def _keys(lines: list[str]) -> list[str]:
     keys: list[str] = []
     above: list[tuple[int, str]] = []
     for line in lines:
-        match = _KEY.match(line)
-        if match is None:
+        key = key_of(line)
+        if key is None:
             continue
-        indent = len(match[1])
+        indent, name = len(key[0]), key[1]
         while above and above[-1][0] >= indent:
             above.pop()
-        name = next(each for each in match.groups()[1:] if each is not None)
-        if name == _PARAMETERS:
+        if name == PARAMETERS:
             keys.append('/'.join(each for _, each in above))
         above.append((indent, name))
     return keys

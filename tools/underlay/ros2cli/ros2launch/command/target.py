@@ -4,8 +4,11 @@
 from __future__ import annotations
 
 import os
+from typing import NoReturn
 
 from ros2launch.api.share_files import get_share_file_path_from_package, MultipleLaunchFilesError
+
+_SUFFIXES = ('.launch', '.py', '.xml', '.yaml', '.yml')
 
 
 def find_target(
@@ -17,11 +20,19 @@ def find_target(
     if os.path.isfile(package_or_path):
         first = [file_name] if file_name is not None else []
         return package_or_path, first + arguments
-    if os.sep in package_or_path:
-        from launch._missing_file import explain_missing_file
-
-        raise RuntimeError(explain_missing_file('launch file', package_or_path))
+    if os.sep in package_or_path or package_or_path.endswith(_SUFFIXES):
+        _refuse_file(package_or_path)
     return _find_in_package(package_or_path, file_name), list(arguments)
+
+
+def _refuse_file(path: str) -> NoReturn:
+    """Raise an error about a file that is not there."""
+    from launch._missing_file import explain_missing_file
+
+    lines = [explain_missing_file('launch file', path)]
+    if not os.path.isabs(path) and not os.path.lexists(path):
+        lines.append(f"It is looked up from '{os.getcwd()}'.")
+    raise RuntimeError('\n'.join(lines))
 
 
 def _find_in_package(package: str, file_name: str | None) -> str:

@@ -45,9 +45,8 @@ class Prefork:
         """Start a program; if it cannot be forked, it is executed."""
         environment = os.environ if program.env is None else program.env
         kind = kind_of(program, environment)
+        await self._take_turn(program, kind)
         if kind is not None:
-            if self._template is None:
-                await self._decide(program, kind)
             child = await self._fork(program, kind, stdout, stderr)
             if child is not None:
                 return child
@@ -67,14 +66,20 @@ class Prefork:
             )
             return None
 
-    async def _decide(self, program: Program, kind: Kind) -> None:
-        """Wait until all that starts at the same time is known, and decide for all of it."""
+    async def _take_turn(self, program: Program, kind: Optional[Kind]) -> None:
+        """Wait for the decision about those before this one, so that they are executed first."""
+        if kind is not None and self._template is None:
+            self._ask(program, kind)
+        if self._decision is not None:
+            await asyncio.shield(self._decision)
+
+    def _ask(self, program: Program, kind: Kind) -> None:
+        """Have it decided, when all that starts at the same time is known, for all of it."""
         loop = asyncio.get_running_loop()
         self._waiting.append(_Waiting(program, kind))
         if self._decision is None:
             self._decision = loop.create_future()
             loop.call_soon(self._close_the_list, self._decision)
-        await asyncio.shield(self._decision)
 
     def _close_the_list(self, decision: asyncio.Future[None]) -> None:
         waiting, self._waiting, self._decision = self._waiting, [], None
