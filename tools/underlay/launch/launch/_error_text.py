@@ -5,7 +5,7 @@ from __future__ import annotations
 
 _TOO_DEEP = (
     '{error}\nThe launch file nests groups or other actions too deep, or a function in it calls '
-    'itself for ever: nest less, or put what lies inside into a file that is included.'
+    'itself for ever.'
 )
 
 
