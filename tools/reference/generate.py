@@ -9,6 +9,7 @@ import re
 import subprocess
 
 import launch_names
+from own_packages import is_own_package
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / 'docs' / 'reference'
@@ -46,9 +47,11 @@ def commands_page() -> str:
 
 
 def launch_page() -> str:
-    """Describe every launch file of src/ and its arguments."""
+    """Describe every launch file of the project's own packages and its arguments."""
     parts = [NOTE, '# The launch files\n']
     for path in sorted(ROOT.glob('src/*/launch/*.launch.*')):
+        if not is_own_package(path.parents[1]):
+            continue
         package = path.parents[1].name
         arguments = output('ros2', 'launch', package, path.name, '--show-args')
         parts += [f'## ros2 launch {package} {path.name}\n', block(arguments)]

@@ -11,9 +11,8 @@ import pytest
 
 
 @pytest.fixture
-def generate(root: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+def generate(root: Path) -> ModuleType:
     """Return the generator."""
-    monkeypatch.syspath_prepend(str(root / 'tools' / 'reference'))
     path = root / 'tools' / 'reference' / 'generate.py'
     spec = importlib.util.spec_from_file_location('generate', path)
     assert spec is not None and spec.loader is not None
@@ -26,6 +25,19 @@ def test_the_launch_files_are_described_as_they_are(root: Path, generate: Module
     """An argument that was added is in the reference: otherwise `make docs` was forgotten."""
     written = (root / 'docs' / 'reference' / 'launch_files.md').read_text()
     assert written == generate.launch_page()
+
+
+def test_packages_of_others_are_not_described(
+    generate: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A package that somebody makes in src/ has another maintainer, and is no part of it."""
+    folder = tmp_path / 'src' / 'arm'
+    (folder / 'launch').mkdir(parents=True)
+    (folder / 'launch' / 'arm.launch.py').touch()
+    manifest = '<package><maintainer email="me@example.com">Me</maintainer></package>'
+    (folder / 'package.xml').write_text(manifest)
+    monkeypatch.setattr(generate, 'ROOT', tmp_path)
+    assert '## ros2 launch' not in generate.launch_page()
 
 
 def test_the_names_of_launch_files_are_described(root: Path, generate: ModuleType) -> None:

@@ -28,6 +28,7 @@ class EventProcessor:
     def __init__(self, context: LaunchContext, loop: asyncio.AbstractEventLoop) -> None:
         """Create the processor of one run."""
         self.return_code = 0
+        self.first_error: Optional[BaseException] = None
         self._context = context
         self._loop = loop
         self._thread = threading.get_ident()
@@ -68,6 +69,7 @@ class EventProcessor:
     def fail(self, error: BaseException) -> None:
         """Report an error and shut the launch down, with 1 as its return code."""
         self.return_code = 1
+        self.first_error = self.first_error or error
         report_failure(self._logger, error)
         if self._context._before_start is not None:
             for text in self._context._before_start.explain_failure(self._context):

@@ -9,9 +9,11 @@ import logging
 def report_failure(logger: logging.Logger, error: BaseException) -> None:
     """Log an error and the line of the launch file that it comes from."""
     from launch._call_site import raising_line
+    from launch._error_text import error_text
     from launch._failure_place import FailurePlace, place_of
 
-    logger.error('Caught exception in launch (see debug for traceback): %s', error)
+    text = error_text(error)
+    logger.error('Caught exception in launch (see debug for traceback): %s', text)
     place = place_of(error)
     line = raising_line(error) if place is None else None
     if place is None and line is not None:

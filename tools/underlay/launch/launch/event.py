@@ -3,8 +3,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 
 class Event:
     """Something that happened while the launch runs."""
 
     name = 'launch.Event'
+
+    def _outline(self) -> dict[str, Any]:
+        """Return the facts about the event that a rehearsal shows."""
+        return {'event': type(self).__name__}

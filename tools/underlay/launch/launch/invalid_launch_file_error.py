@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from launch._error_text import error_text
+
 
 class InvalidLaunchFileError(Exception):
     """No loader could read a launch file; the text tells what each of them found."""
@@ -19,8 +21,8 @@ class InvalidLaunchFileError(Exception):
         if not self.likely_errors:
             return 'The launch file may have a syntax error, or its format is unknown'
         if len(self.likely_errors) == 1:
-            return str(self.likely_errors[0])
+            return error_text(self.likely_errors[0])
         head = f'Caught multiple exceptions when trying to load file of format [{self.extension}]:'
-        texts = [f'{type(error).__name__}: {error}' for error in self.likely_errors]
+        texts = [f'{type(each).__name__}: {error_text(each)}' for each in self.likely_errors]
         lines = [' - ' + text.replace('\n', '\n   ') for text in texts]
         return '\n'.join([head, *lines])

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 import os
+import sys
 from typing import Any
 
 from launch import (
@@ -14,7 +15,7 @@ from launch import (
     LaunchDescriptionSource,
     LaunchService,
 )
-from launch.actions import IncludeLaunchDescription, LogInfo, SetEnvironmentVariable
+from launch.actions import GroupAction, IncludeLaunchDescription, LogInfo, SetEnvironmentVariable
 from launch.launch_description_sources import (
     AnyLaunchDescriptionSource,
     load_python_launch_file_as_module,
@@ -193,6 +194,15 @@ def test_broken_files(run: Run, write: Write, body: str, text: str) -> None:
     head = 'Caught multiple exceptions when trying to load file of format [py]:\n - '
     assert head in result.text
     assert text in result.text
+
+
+def test_tree_that_is_too_deep(run: Run) -> None:
+    """Python's limit is explained."""
+    entity: Any = LogInfo(msg='deep')
+    for _ in range(sys.getrecursionlimit()):
+        entity = GroupAction([entity])
+    result = run(entity)
+    assert result.status == 1 and 'The launch file nests groups or other actions' in result.text
 
 
 def test_misspelt_function(run: Run, write: Write) -> None:

@@ -14,6 +14,7 @@ from launch._rehearsal.rehearsal import rehearse
 from launch._rehearsal.tree_text import tree_lines
 from launch.actions import (
     DeclareLaunchArgument,
+    EmitEvent,
     ExecuteProcess,
     GroupAction,
     IncludeLaunchDescription,
@@ -25,7 +26,8 @@ from launch.actions import (
     TimerAction,
 )
 from launch.conditions import IfCondition
-from launch.event_handlers import OnProcessExit, OnShutdown
+from launch.event_handlers import OnProcessExit, OnProcessIO, OnShutdown
+from launch.events import Shutdown
 from launch.substitutions import Command, LaunchConfiguration
 import pytest
 
@@ -117,9 +119,23 @@ def test_text() -> None:
 
 def test_failure(capfd: pytest.CaptureFixture[str]) -> None:
     """The error and the status are those of a real run."""
-    _, status = _rehearse(ExecuteProcess(cmd=['no_such_program']))
+    root, status = _rehearse(ExecuteProcess(cmd=['no_such_program']))
     assert status == 1
+    assert root.as_data()['error'].startswith("the program 'no_such_program' was not found")
     assert "the program 'no_such_program' was not found" in capfd.readouterr().out
+
+
+def test_reactions_and_events() -> None:
+    """A handler that calls a function is told, too; an event that is emitted later has a name."""
+    process = ExecuteProcess(cmd=['ls'], name='it')
+    emit = EmitEvent(event=Shutdown(reason='over'))
+    text = _text(
+        process,
+        RegisterEventHandler(OnProcessIO(target_action=process, on_stdout=lambda event: None)),
+        RegisterEventHandler(OnProcessExit(target_action=process, on_exit=[emit])),
+    )
+    assert f"  waiting for ProcessIO of '{process.name}'; what follows is not known yet\n" in text
+    assert '    EmitEvent Shutdown' in text
 
 
 def test_data() -> None:

@@ -6,6 +6,7 @@ As data (`ros2 launch --dry-run --json`) each action has these keys, of which th
 apply are left out; new ones may be added:
 
 action      the name of its class; `launch` for the whole, which has also `status`
+error       of the whole: the text of what has failed
 file, line  where the launch file creates it
 condition   expression, expanded (text or null) and value (true, false; null: not known yet)
 actions     what was visited below it, a list of actions
@@ -15,6 +16,7 @@ source, target
             what the action sets, logs, includes, calls or emits
 label, argv, shell, cwd, environment
             of a process; the environment has what differs from that of the launcher (null: unset)
+transition  of the event ChangeState
 command     of a process that waits: its words, described
 node_name, node_namespace, parameter_files, parameters, remappings
             of a node; the parameters are those that it sees, from all files and dictionaries

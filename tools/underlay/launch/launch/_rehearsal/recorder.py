@@ -64,8 +64,7 @@ class Recorder(VisitObserver):
     def note_waiting(self, event: str, entities: Iterable[LaunchDescriptionEntity]) -> None:
         """Note what the action leaves waiting for an event."""
         records = [_outline(each) for each in entities if isinstance(each, Action)]
-        if records:
-            self._open[-1].waiting.append((event, records))
+        self._open[-1].waiting.append((event, records))
 
     def environment_changes(self, environment: dict[str, str]) -> dict[str, Optional[str]]:
         """Return the variables that a process has otherwise; None are those that it lacks."""

@@ -6,6 +6,7 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING
 
+from launch._error_text import error_text
 from launch._event_processor import EventProcessor
 from launch._rehearsal.recorder import Recorder
 from launch.events.include_launch_description import IncludeLaunchDescription
@@ -42,4 +43,6 @@ def rehearse(service: LaunchService) -> tuple[Record, int]:
         context._attach(None, None)
         cancel_all_tasks(loop)
         loop.close()
+    if processor.first_error is not None:
+        recorder.root.facts['error'] = error_text(processor.first_error)
     return recorder.root, processor.return_code

@@ -40,7 +40,8 @@ def _lines(record: Record, indent: str) -> Iterator[str]:
     for child in record.children:
         yield from _lines(child, inner)
     for event, records in record.waiting:
-        yield from _wrapped(f'waiting for {event}:', inner)
+        end = ':' if records else '; what follows is not known yet'
+        yield from _wrapped(f'waiting for {event}{end}', inner)
         for each in records:
             yield from _lines(each, inner + _STEP)
 

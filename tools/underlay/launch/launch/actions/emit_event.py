@@ -34,4 +34,7 @@ class EmitEvent(Action):
         """Emit it."""
         context.emit_event_sync(self.__event)
         if context._observer is not None:
-            context._observer.note(event=type(self.__event).__name__)
+            context._observer.note(**self._outline())
+
+    def _outline(self) -> dict[str, Any]:
+        return self.__event._outline()

@@ -35,8 +35,7 @@ class RegisterEventHandler(Action):
                 context._observer.note_waiting(event, entities)
 
     def _outline_of_waiting(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        entities = self.__event_handler.describe()[1]
-        return [(self.__event_handler._awaited(), entities)] if entities else []
+        return [(self.__event_handler._awaited(), self.__event_handler.describe()[1])]
 
     def describe_conditional_sub_entities(
         self,

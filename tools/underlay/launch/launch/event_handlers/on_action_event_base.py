@@ -56,13 +56,7 @@ class OnActionEventBase(BaseEventHandler):
         return super().describe()[0], list(self.__entities)
 
     def _awaited(self) -> str:
-        target = self.__target
-        if target is None:
-            whose = 'any action'
-        else:
-            name = getattr(target, 'name', None)
-            whose = f"'{name}'" if isinstance(name, str) else type(target).__name__
-        return f'{self.__target_event_cls.__name__} of {whose}'
+        return f'{self.__target_event_cls.__name__} of {target_in_words(self.__target)}'
 
     def _is_meant(self, event: Event) -> bool:
         """Return whether the event belongs to the target."""
@@ -82,6 +76,14 @@ class OnActionEventBase(BaseEventHandler):
         if self.__reaction is not None:
             return self.__reaction(event, context)
         return self.__entities
+
+
+def target_in_words(target: Any) -> str:
+    """Return whose events a handler waits for; None stands for all."""
+    if target is None:
+        return 'any action'
+    name = getattr(target, 'name', None)
+    return f"'{name}'" if isinstance(name, str) else type(target).__name__
 
 
 def checked_reaction(

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any, Optional, TYPE_CHECKING
 
 from launch.event_handler import EventHandler
+from launch.event_handlers.on_action_event_base import target_in_words
 from launch.some_entities_type import SomeEntitiesType
 from launch_ros.events.lifecycle.state_transition import StateTransition
 
@@ -69,6 +70,12 @@ class OnStateTransition(EventHandler):
         if self.__target is not None:
             conditions.insert(0, f'event.action == {self.__target}')
         return ' and '.join(['event is StateTransition', *conditions])
+
+    def _awaited(self) -> str:
+        wanted = ''.join(
+            f", {name.replace('_', ' ')} '{value}'" for name, value in self.__wanted.items()
+        )
+        return f'StateTransition of {target_in_words(self.__target)}{wanted}'
 
     def _is_meant(self, event: Any) -> bool:
         return (

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
 from launch.event import Event
 
@@ -45,6 +45,10 @@ class ChangeState(Event):
             )
         self.__lifecycle_node_matcher = lifecycle_node_matcher
         self.__transition_id = transition_id
+
+    def _outline(self) -> dict[str, Any]:
+        transition = self.valid_transitions[self.__transition_id]
+        return {**super()._outline(), 'transition': transition}
 
     @property
     def lifecycle_node_matcher(self) -> Callable[[LifecycleNode], bool]:

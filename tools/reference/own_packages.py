@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tell the packages of this project from those that somebody adds to src/."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+MAINTAINER = 'maintainers@humanoid-workspace.dev'
+
+
+def is_own_package(folder: Path) -> bool:
+    """Return whether a package's manifest names the project's own maintainer."""
+    manifest = ElementTree.parse(folder / 'package.xml')
+    return any(each.get('email') == MAINTAINER for each in manifest.iter('maintainer'))
