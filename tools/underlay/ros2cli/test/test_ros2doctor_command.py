@@ -170,8 +170,8 @@ def faulty_graph(ros_environment_variables: dict[str, str]) -> Iterator[None]:
         assert process.stdout.readline() == 'ready\n'
         yield
     finally:
-        process.kill()
-        process.communicate()
+        process.terminate()
+        process.communicate(timeout=PATIENCE_S)
 
 
 @pytest.mark.usefixtures('faulty_graph')
