@@ -9,6 +9,7 @@ import os
 from pathlib import Path
 import pty
 import select
+from shlex import quote
 import shutil
 import signal
 import subprocess
@@ -56,7 +57,7 @@ class Terminal:
     def children(self) -> list[str]:
         """Return the processes that the shell has started and that still run."""
         path = Path(f'/proc/{self.pid}/task/{self.pid}/children')
-        return path.read_text().split()
+        return [pid for pid in path.read_text().split() if _state(pid) not in ('', 'Z')]
 
     def close(self) -> None:
         """End the shell."""
@@ -65,17 +66,25 @@ class Terminal:
         os.close(self._descriptor)
 
 
+def _state(pid: str) -> str:
+    """Return the state of a process, empty if there is none: Z has ended but not been noticed."""
+    try:
+        return Path(f'/proc/{pid}/stat').read_text().rpartition(')')[2].split()[0]
+    except OSError:
+        return ''
+
+
 @pytest.fixture
 def bash(tmp_path: Path, ros_environment_variables: dict[str, str]) -> Iterator[Terminal]:
     """Run an interactive bash with the completion of `ros2`."""
     program = tmp_path / 'bin' / 'ros2'
     program.parent.mkdir()
-    program.write_text(f'#!/bin/sh\nexec {sys.executable} -m ros2cli "$@"\n')
+    program.write_text(f'#!/bin/sh\nexec {quote(sys.executable)} -m ros2cli "$@"\n')
     program.chmod(0o755)
     rc = tmp_path / 'rc'
     rc.write_text(
         f"PS1='{PROMPT}'\nbind 'set bell-style none' 'set enable-bracketed-paste off'\n"
-        f'source {SCRIPTS / "ros2.bash"}\n'
+        f'source {quote(str(SCRIPTS / "ros2.bash"))}\n'
     )
     environment = {
         **ros_environment_variables,
@@ -128,9 +137,10 @@ def test_two_tabs_show_the_choices(bash: Terminal) -> None:
 def test_interrupt_while_completing(bash: Terminal) -> None:
     """Ctrl-C during completion leaves no process and no text of one."""
     bash.press('ros2 topic echo /\t')
-    bash.read(0.2)
-    bash.press(INTERRUPT)
     end = time.monotonic() + TIMEOUT_S
+    while not bash.children() and time.monotonic() < end:
+        bash.read(0.005)
+    bash.press(INTERRUPT)
     while bash.children() and time.monotonic() < end:
         bash.read(0.1)
     assert bash.children() == []
@@ -143,7 +153,11 @@ def test_nothing_happens_without_a_terminal(shell: str) -> None:
     if not shutil.which(shell):
         pytest.skip(f'there is no {shell}')
     result = subprocess.run(
-        [shell, '-euc', f'. {SCRIPTS}/ros2.{shell}; typeset -f _ros2_complete || echo none'],
+        [
+            shell,
+            '-euc',
+            f'. {quote(str(SCRIPTS))}/ros2.{shell}; typeset -f _ros2_complete || echo none',
+        ],
         capture_output=True,
         text=True,
     )

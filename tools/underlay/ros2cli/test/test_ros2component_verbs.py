@@ -5,6 +5,7 @@ from collections.abc import Callable
 from functools import partial
 import os
 from pathlib import Path
+from shlex import quote
 import signal
 from subprocess import CompletedProcess
 import sys
@@ -97,7 +98,7 @@ def prefix(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     )
     program = tmp_path / 'lib' / 'rclcpp_components' / 'component_container'
     program.parent.mkdir(parents=True)
-    program.write_text(f'#!/bin/sh\nexec {sys.executable} {CONTAINER} "$@"\n')
+    program.write_text(f'#!/bin/sh\nexec {quote(sys.executable)} {quote(str(CONTAINER))} "$@"\n')
     program.chmod(0o755)
     path = os.pathsep.join([str(tmp_path), os.environ.get('AMENT_PREFIX_PATH', '')])
     monkeypatch.setenv('AMENT_PREFIX_PATH', path)

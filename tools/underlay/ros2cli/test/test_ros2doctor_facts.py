@@ -24,6 +24,9 @@ from ros_environment.source_tree import SourcePackage
 BUILT_S = 1_000_000
 BEFORE, AFTER = BUILT_S - 100, BUILT_S + 100
 
+# A first line cannot name a path with spaces, to which `.venv` may be a link from there.
+PYTHON = os.path.join(os.path.realpath(sys.prefix), 'bin', os.path.basename(sys.executable))
+
 
 def write(path: Path, text: str, time_s: float) -> Path:
     """Write a file of a certain time."""
@@ -84,7 +87,7 @@ def test_workspace_around_the_folder(
 @pytest.mark.parametrize(
     'line, interpreter, expected',
     [
-        (f'#!{sys.executable}', sys.executable, (True, True, True, True)),
+        (f'#!{PYTHON}', PYTHON, (True, True, True, True)),
         ('#!/gone/python3 -s', '/gone/python3', (True, False, True, False)),
         ('#!/bin/sh', '/bin/sh', (True, True, False, False)),
         ('#!/usr/bin/env nothing_of_this_name', 'nothing_of_this_name', (False, False)),
