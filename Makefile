@@ -49,6 +49,7 @@ fix: setup ## Format the code and mend what ruff can
 bench: build ## Measure what the commands and launches cost
 	@$(RUN) python3 tools/benchmarks/command_times.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/launch.py $(ARGS)
+	@$(RUN) python3 tools/benchmarks/prefork_times.py $(ARGS)
 
 docs: build ## Write docs/reference anew from the commands and launch files
 	@tools/in_environment python3 tools/reference/generate.py

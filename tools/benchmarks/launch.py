@@ -36,6 +36,8 @@ MODULES = (
     'import launch',
     'from launch import LaunchService',
     'from launch_ros.actions import Node',
+    'from launch_xml.launch_description_sources import XMLLaunchDescriptionSource',
+    'from launch_yaml.launch_description_sources import YAMLLaunchDescriptionSource',
     'import rclpy',
 )
 
