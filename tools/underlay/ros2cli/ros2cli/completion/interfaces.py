@@ -5,15 +5,13 @@ from __future__ import annotations
 
 import argparse
 
-from ament_index_python.resources import get_resource, get_resources
 from ros2cli.completion.graph import types_of_service, types_of_topic
-
-RESOURCE = 'rosidl_interfaces'
+from ros2interface.api import get_interface_packages, get_interfaces
 
 
 def packages(prefix: str, args: argparse.Namespace) -> list[str]:
     """Return the packages that define interfaces."""
-    return sorted(get_resources(RESOURCE))
+    return get_interface_packages()
 
 
 def interfaces(prefix: str, args: argparse.Namespace) -> list[str]:
@@ -44,18 +42,12 @@ def services_of_name(prefix: str, args: argparse.Namespace) -> list[str]:
 
 def _packages_first(prefix: str, kinds: tuple[str, ...]) -> list[str]:
     package, slash, _ = prefix.partition('/')
-    names = [package] if slash else packages(prefix, argparse.Namespace())
     found = {
-        name: types for name in names if name.startswith(package) if (types := _types(name, kinds))
+        name: types
+        for name in get_interface_packages()
+        if (name == package if slash else name.startswith(package))
+        and (types := get_interfaces(name, kinds))
     }
     if len(found) > 1:
         return [f'{name}/' for name in found]
     return [text for types in found.values() for text in types]
-
-
-def _types(package: str, kinds: tuple[str, ...]) -> list[str]:
-    if package not in get_resources(RESOURCE):
-        return []
-    lines, _ = get_resource(RESOURCE, package)
-    names = {line.rpartition('.')[0] for line in lines.splitlines()}
-    return sorted(f'{package}/{name}' for name in names if name.partition('/')[0] in kinds)
