@@ -72,8 +72,8 @@ def _offer(monkeypatch: pytest.MonkeyPatch, group: str, value: str) -> None:
     """Let an entry point be there."""
     points = [EntryPoint(name='mine', value=value, group=group)]
     monkeypatch.setattr(
-        'importlib.metadata.entry_points',
-        lambda **kwargs: points if kwargs['group'] == group else [],
+        'launch.frontend._extensions.entry_points_of',
+        lambda wanted: points if wanted == group else [],
     )
 
 

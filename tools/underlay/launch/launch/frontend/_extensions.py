@@ -6,6 +6,8 @@ from __future__ import annotations
 from functools import cache
 from typing import Any, TYPE_CHECKING
 
+from launch._entry_points import entry_points_of
+
 if TYPE_CHECKING:
     from launch.frontend.parser import Parser
 
@@ -29,10 +31,8 @@ def extension_parsers() -> dict[str, type[Parser]]:
 
 def _load_group(group: str, known: Any) -> dict[str, Any]:
     """Load what an entry point group offers; one that cannot be loaded is warned about."""
-    from importlib.metadata import entry_points
-
     loaded = {}
-    for point in entry_points(group=group):
+    for point in entry_points_of(group):
         if point.name in known:
             continue
         try:
