@@ -33,11 +33,6 @@ class Keyboard:
             termios.tcsetattr(sys.stdin, termios.TCSADRAIN, raw)
         return self
 
-    @property
-    def is_active(self) -> bool:
-        """Tell if keys can come."""
-        return self._before is not None
-
     def pressed(self) -> str:
         """Return what was pressed since the last call; '' is nothing."""
         if self._before is None or not select.select([sys.stdin], [], [], 0)[0]:

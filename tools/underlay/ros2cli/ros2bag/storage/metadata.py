@@ -58,10 +58,6 @@ class MessageSpan:
         """Return the time from the first to the last message."""
         return max(0, self.end_ns - self.start_ns)
 
-    def with_message(self, time_ns: int) -> MessageSpan:
-        """Return the span with one more message."""
-        return self.joined(MessageSpan(1, time_ns, time_ns))
-
     def joined(self, other: MessageSpan) -> MessageSpan:
         """Return the span of both."""
         return MessageSpan(
