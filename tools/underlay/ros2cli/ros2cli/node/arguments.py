@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.argument_types import positive_number
-from ros2cli.node.discovery import DEFAULT_SPIN_TIME
+from ros2cli.graph import DEFAULT_SPIN_TIME_S
 
 
 def add_node_arguments(parser: argparse.ArgumentParser) -> None:
@@ -14,9 +14,9 @@ def add_node_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '--spin-time',
         type=positive_number,
-        default=DEFAULT_SPIN_TIME,
+        default=DEFAULT_SPIN_TIME_S,
         metavar='SECONDS',
-        help='time to wait for discovery if no other node answers (default: %(default)s)',
+        help='time to wait for nodes on other machines (default: %(default)s)',
     )
     parser.add_argument(
         '-s', '--use-sim-time', action='store_true', help='use the time of the topic /clock'

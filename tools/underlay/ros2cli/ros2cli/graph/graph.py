@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The graph at one moment, with the methods by which an rclpy node tells about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cached_property
+from typing import Any
+
+from ros2cli.graph.names import REQUEST, RESPONSE, ros_name, ros_type, service_type, TOPIC
+from ros2cli.rtps.endpoint import Endpoint
+from ros2cli.rtps.entities import NodeEntities
+
+NamesAndTypes = list[tuple[str, list[str]]]
+
+
+class Graph:
+    """
+    Nodes and endpoints, without those of the command that asks.
+
+    :param nodes: as their participants tell them
+    :param endpoints: all readers and writers
+    """
+
+    def __init__(self, nodes: Iterable[NodeEntities], endpoints: Iterable[Endpoint]) -> None:
+        """Keep what is known."""
+        self._nodes = list(nodes)
+        self._endpoints = list(endpoints)
+
+    def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
+        """Return the name and the namespace of each node."""
+        return [(node.name, node.namespace) for node in self._nodes]
+
+    def get_topic_names_and_types(self) -> NamesAndTypes:
+        """Return the topics that somebody publishes or subscribes to."""
+        return _topics(self._endpoints)
+
+    def get_service_names_and_types(self) -> NamesAndTypes:
+        """Return the services that somebody offers or calls."""
+        return _services(self._endpoints, (REQUEST, RESPONSE))
+
+    def get_publisher_names_and_types_by_node(self, name: str, namespace: str) -> NamesAndTypes:
+        """Return the topics that a node publishes."""
+        return _topics(self._of_node(name, namespace, are_writers=True))
+
+    def get_subscriber_names_and_types_by_node(self, name: str, namespace: str) -> NamesAndTypes:
+        """Return the topics that a node subscribes to."""
+        return _topics(self._of_node(name, namespace, are_writers=False))
+
+    def get_service_names_and_types_by_node(self, name: str, namespace: str) -> NamesAndTypes:
+        """Return the services that a node offers."""
+        return _services(self._of_node(name, namespace, are_writers=False), (REQUEST,))
+
+    def get_client_names_and_types_by_node(self, name: str, namespace: str) -> NamesAndTypes:
+        """Return the services that a node calls."""
+        return _services(self._of_node(name, namespace, are_writers=False), (RESPONSE,))
+
+    def count_services(self, name: str) -> int:
+        """Return how many offer a service."""
+        return len(self._readers(REQUEST, name))
+
+    def count_clients(self, name: str) -> int:
+        """Return how many call a service."""
+        return len(self._readers(RESPONSE, name))
+
+    def get_publishers_info_by_topic(self, topic: str) -> list[Any]:
+        """Return who publishes to a topic, in the class of rclpy."""
+        return [self._info(each) for each in self._ends(TOPIC, topic) if each.is_writer]
+
+    def get_subscriptions_info_by_topic(self, topic: str) -> list[Any]:
+        """Return who subscribes to a topic, in the class of rclpy."""
+        return [self._info(each) for each in self._readers(TOPIC, topic)]
+
+    def _readers(self, kind: str, name: str) -> list[Endpoint]:
+        return [each for each in self._ends(kind, name) if not each.is_writer]
+
+    def _ends(self, kind: str, name: str) -> list[Endpoint]:
+        return [each for each in self._endpoints if ros_name(each.topic) == (kind, name)]
+
+    def _of_node(self, name: str, namespace: str, *, are_writers: bool) -> list[Endpoint]:
+        ids: set[bytes] = set()
+        for node in self._nodes:
+            if (node.name, node.namespace) == (name, namespace):
+                ids |= node.writers if are_writers else node.readers
+        return [each for each in self._endpoints if each.guid in ids]
+
+    def _info(self, endpoint: Endpoint) -> Any:
+        from ros2cli.graph.endpoint_info import endpoint_info
+
+        return endpoint_info(endpoint, self._owners.get(endpoint.guid))
+
+    @cached_property
+    def _owners(self) -> dict[bytes, NodeEntities]:
+        return {guid: node for node in self._nodes for guid in node.readers | node.writers}
+
+
+def _topics(endpoints: Iterable[Endpoint]) -> NamesAndTypes:
+    found: dict[str, set[str]] = {}
+    for each in endpoints:
+        known = ros_name(each.topic)
+        if known and known.kind == TOPIC:
+            found.setdefault(known.name, set()).add(ros_type(each.type_name))
+    return _sorted(found)
+
+
+def _services(endpoints: Iterable[Endpoint], kinds: tuple[str, ...]) -> NamesAndTypes:
+    found: dict[str, set[str]] = {}
+    for each in endpoints:
+        known = ros_name(each.topic)
+        if known and known.kind in kinds:
+            found.setdefault(known.name, set()).add(service_type(each.type_name))
+    return _sorted(found)
+
+
+def _sorted(found: dict[str, set[str]]) -> NamesAndTypes:
+    return [(name, sorted(types)) for name, types in sorted(found.items())]

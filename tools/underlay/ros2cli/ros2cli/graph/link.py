@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The socket through which the graph is read."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from contextlib import suppress
+import select
+import socket
+import time
+
+from ros2cli.graph.interfaces import read_interfaces
+from ros2cli.graph.participants import participant_ports
+from ros2cli.graph.reach import OFF, Reach
+from ros2cli.rtps.identifiers import MULTICAST_ADDRESS, multicast_port, unicast_ports
+from ros2cli.rtps.observer import Observer, THIS_HOST
+from ros2cli.rtps.parameters import Address
+
+COUNT_PERIOD_S = 0.1
+GREETINGS_S = (0.0, 0.1, 0.25)  # of whom cannot be counted, since a greeting may be lost
+PEERS_PER_HOST = 32
+MAX_DATAGRAM_BYTES = 65536
+RECEIVE_BUFFER_BYTES = 1 << 20
+DATAGRAMS_AT_ONCE = 20
+
+
+class Link:
+    """
+    Carries the datagrams of an observer.
+
+    :ivar observer: what has been heard
+    :ivar can_count: whether it is known how many participants this machine has
+    """
+
+    def __init__(self, reach: Reach) -> None:
+        """Open a socket; nobody is asked yet."""
+        self._reach = reach
+        self._hosts = _own_hosts(reach)
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, RECEIVE_BUFFER_BYTES)
+        self._socket.bind((THIS_HOST if reach.is_local else '', 0))
+        self._socket.setblocking(False)
+        port = self._socket.getsockname()[1]
+        self.observer = Observer([(host, port) for host in self._hosts], self._send)
+        self.can_count = True
+        self._waiting: deque[tuple[bytes, str]] = deque()
+        self._start_s = self._count_s = time.monotonic()
+        self._greetings = list(GREETINGS_S)
+
+    def close(self) -> None:
+        """Take leave."""
+        self.observer.leave()
+        self._socket.close()
+
+    def exchange(self, *, waits: bool) -> None:
+        """Ask what is to be asked, and hear what has come, or comes until the next question."""
+        if self._reach.extent == OFF:
+            return
+        now_s = time.monotonic()
+        if now_s >= self._count_s:
+            self._count(now_s)
+        if self._greetings and now_s >= self._start_s + self._greetings[0]:
+            del self._greetings[0]
+            self._greet_distant()
+        self.observer.ask(now_s)
+        if not self._waiting:
+            wait_s = min(self.observer.due_s, self._count_s) - now_s if waits else 0.0
+            select.select([self._socket], [], [], max(0.0, wait_s))
+        self._receive()
+
+    def _count(self, now_s: float) -> None:
+        self._count_s = now_s + COUNT_PERIOD_S
+        ports = participant_ports(self._reach.domain_id)
+        self.can_count = ports is not None
+        self.observer.expect([(THIS_HOST, port) for port in ports or ()])
+
+    def _greet_distant(self) -> None:
+        if not self._reach.is_local:
+            for host in self._hosts:
+                interface = socket.inet_aton(host)
+                self._socket.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, interface)
+                self.observer.greet((MULTICAST_ADDRESS, multicast_port(self._reach.domain_id)))
+        for address in self._peers():
+            self.observer.greet(address)
+
+    def _peers(self) -> Iterator[Address]:
+        for peer in self._reach.peers:
+            for port in unicast_ports(self._reach.domain_id)[:PEERS_PER_HOST]:
+                yield peer, port
+
+    def _receive(self) -> None:
+        """Handle what has come; the socket, which holds little, is emptied again and again."""
+        self._waiting.extend(self._received())
+        for _ in range(min(DATAGRAMS_AT_ONCE, len(self._waiting))):
+            datagram, host = self._waiting.popleft()
+            self.observer.handle(datagram, THIS_HOST if host in self._hosts else host)
+            self._waiting.extend(self._received())
+
+    def _received(self) -> Iterator[tuple[bytes, str]]:
+        with suppress(BlockingIOError):
+            while True:
+                datagram, (host, _port) = self._socket.recvfrom(MAX_DATAGRAM_BYTES)
+                yield datagram, host
+
+    def _send(self, datagram: bytes, address: Address) -> None:
+        """Send; what cannot be sent now is asked again, and unreachable hosts do not answer."""
+        with suppress(OSError):
+            self._socket.sendto(datagram, address)
+
+
+def _own_hosts(reach: Reach) -> list[str]:
+    """Return the addresses of this machine, as those see them whom we ask."""
+    if reach.is_local:
+        return [THIS_HOST]
+    found = [each.address for each in read_interfaces() if each.is_up and not each.is_loopback]
+    return [address for address in found if address] or [THIS_HOST]

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which nodes a process of this shell reaches: its domain, and how far discovery goes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import os
+from typing import NamedTuple
+
+LOCALHOST, SUBNET, SYSTEM_DEFAULT, OFF = 'LOCALHOST', 'SUBNET', 'SYSTEM_DEFAULT', 'OFF'
+MAX_DOMAIN_ID = 232
+
+
+class Reach(NamedTuple):
+    """
+    The domain, how far discovery goes, and hosts that it asks besides.
+
+    :param extent: a value of ROS_AUTOMATIC_DISCOVERY_RANGE
+    """
+
+    domain_id: int
+    extent: str
+    peers: tuple[str, ...] = ()
+
+    @property
+    def is_local(self) -> bool:
+        """Tell if no other machine is reached, so that all participants can be counted."""
+        return self.extent in (LOCALHOST, OFF) and not self.peers
+
+
+def read_reach(environment: Mapping[str, str] = os.environ) -> Reach:
+    """Return what the environment says; RuntimeError if the domain is not a number in range."""
+    return Reach(_domain_id(environment), _extent(environment), _peers(environment))
+
+
+def _domain_id(environment: Mapping[str, str]) -> int:
+    text = environment.get('ROS_DOMAIN_ID') or '0'
+    if not text.isdecimal() or int(text) > MAX_DOMAIN_ID:
+        raise RuntimeError(
+            f"ROS_DOMAIN_ID is '{text}', which is not a number from 0 to {MAX_DOMAIN_ID}; "
+            'set it anew, or remove it with: unset ROS_DOMAIN_ID'
+        )
+    return int(text)
+
+
+def _extent(environment: Mapping[str, str]) -> str:
+    if environment.get('ROS_LOCALHOST_ONLY') == '1':
+        return LOCALHOST
+    extent = environment.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '').upper()
+    return extent if extent in (LOCALHOST, SYSTEM_DEFAULT, OFF) else SUBNET
+
+
+def _peers(environment: Mapping[str, str]) -> tuple[str, ...]:
+    texts = environment.get('ROS_STATIC_PEERS', '').split(';')
+    return tuple(text.strip() for text in texts if text.strip())

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Read the graph, and see it change."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import sys
+import time
+from types import TracebackType
+from typing import TypeVar
+
+from ros2cli.graph import DEFAULT_SPIN_TIME_S
+from ros2cli.graph.graph import Graph
+from ros2cli.graph.link import Link
+from ros2cli.graph.reach import read_reach
+from ros2cli.patience import Patience
+from ros2cli.rtps.greeting import LEASE_S
+
+T = TypeVar('T')
+
+PATIENCE = 8  # times as long as the spin time, for processes that are there but do not answer
+INCOMPLETE = (
+    'WARNING: a ROS process on this machine does not answer (is it stopped, or just starting?); '
+    'what follows may be incomplete'
+)
+
+
+class GraphWatch:
+    """Knows the graph; rclpy is not needed. Use it in a `with` statement, or close it."""
+
+    def __init__(self, spin_time_s: float = DEFAULT_SPIN_TIME_S) -> None:
+        """Choose how long to wait for those who cannot be counted: nodes on other machines."""
+        self._reach = read_reach()
+        self._spin_time_s = spin_time_s
+        self._open()
+
+    def _open(self) -> None:
+        self._link = Link(self._reach)
+        self._start_s = self._latest_s = time.monotonic()
+
+    def __enter__(self) -> GraphWatch:
+        """Nobody is asked yet."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close it."""
+        self.close()
+
+    def close(self) -> None:
+        """Take leave of those who were asked."""
+        self._link.close()
+
+    @property
+    def graph(self) -> Graph:
+        """Return what is known now, complete or not."""
+        neighbours = self._link.observer.neighbours
+        return Graph(
+            (node for each in neighbours for node in each.nodes),
+            (end for each in neighbours for end in each.endpoints.values()),
+        )
+
+    def settled(self, is_done: Callable[[Graph], object] = lambda _: False) -> Graph:
+        """Return the graph when it is complete, or has what is looked for."""
+        end_s = time.monotonic() + PATIENCE * self._spin_time_s
+        patience = Patience('the answers of all ROS processes on this machine')
+        self._exchange(waits=False)
+        while not self._is_settled() and not is_done(self.graph):
+            if time.monotonic() > end_s:
+                print(INCOMPLETE, file=sys.stderr)
+                break
+            patience.check()
+            self._exchange(waits=True)
+        return self.graph
+
+    def wait_for(self, find: Callable[[Graph], T], patience: Patience, timeout_s: float) -> T:
+        """Return what is found in the graph in time, or what `find` says of nothing."""
+        end_s = time.monotonic() + timeout_s
+        found = find(self.settled(find))
+        while not found and time.monotonic() < end_s:
+            patience.check()
+            self._exchange(waits=True)
+            found = find(self.graph)
+        return found
+
+    def _exchange(self, *, waits: bool) -> None:
+        """Hear what is new; after a pause, in which others have given us up, ask all anew."""
+        now_s = time.monotonic()
+        if now_s - self._latest_s > LEASE_S / 2:
+            self.close()
+            self._open()
+        self._latest_s = now_s
+        self._link.exchange(waits=waits)
+
+    def _is_settled(self) -> bool:
+        """Tell if all is known of those who can be counted, and others have had their time."""
+        is_over = time.monotonic() >= self._start_s + self._spin_time_s
+        return self._link.observer.is_complete and (
+            is_over or (self._reach.is_local and self._link.can_count)
+        )

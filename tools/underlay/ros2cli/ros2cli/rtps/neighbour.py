@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Another participant: what it has told us, and what we still have to ask."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2cli.rtps.endpoint import Endpoint, endpoint_of, guid_of
+from ros2cli.rtps.entities import decode_entities, NodeEntities, TOPIC
+from ros2cli.rtps.identifiers import (
+    ENTITIES_READER,
+    PREFIX_BYTES,
+    PUBLICATIONS_READER,
+    PUBLICATIONS_WRITER,
+    SUBSCRIPTIONS_READER,
+    SUBSCRIPTIONS_WRITER,
+)
+from ros2cli.rtps.parameters import Address, decode_parameters
+from ros2cli.rtps.stream import Stream
+from ros2cli.rtps.wire import Data, Gap, Heartbeat, info_destination, message, Submessage
+
+PATIENCE_S = 0.13  # longer than the 0.1 s that Fast DDS takes to answer a request
+MAX_PATIENCE_S = 0.5
+
+
+class Neighbour:
+    """
+    One participant; it makes and reads datagrams, but neither sends nor receives any.
+
+    :param own_prefix: of our GUIDs
+    :param prefix: of its GUIDs
+    :param discovery: where it hears about participants and endpoints
+    :param user: where it hears about messages
+    """
+
+    def __init__(
+        self, own_prefix: bytes, prefix: bytes, discovery: Address, user: Address
+    ) -> None:
+        """Know nothing but the addresses."""
+        self.prefix = prefix
+        self.discovery = discovery
+        self.endpoints: dict[bytes, Endpoint] = {}
+        self.nodes: tuple[NodeEntities, ...] = ()
+        self._own_prefix = own_prefix
+        self._user = user
+        self._publications = Stream(PUBLICATIONS_READER, PUBLICATIONS_WRITER)
+        self._subscriptions = Stream(SUBSCRIPTIONS_READER, SUBSCRIPTIONS_WRITER)
+        self._entities: Stream | None = None
+        self._latest_entities = 0
+        self._patience_s = PATIENCE_S
+        self._ask_again_s = 0.0
+        self._is_acknowledged = False
+
+    @property
+    def is_complete(self) -> bool:
+        """Tell if all its endpoints and nodes are known."""
+        return all(stream.is_complete for stream in self._streams())
+
+    @property
+    def due_s(self) -> float:
+        """Return when to ask again."""
+        return float('inf') if self._is_acknowledged else self._ask_again_s
+
+    def handle(self, news: Submessage) -> None:
+        """Take in what it says; ValueError if that is damaged."""
+        stream = self._stream(news)
+        if stream is None:
+            return
+        if isinstance(news, Heartbeat):
+            if stream.on_heartbeat(news.first, news.last):
+                self._ask_again_s = 0.0
+                self._is_acknowledged = False
+        elif isinstance(news, Gap):
+            stream.settle(news.numbers)
+        elif isinstance(news, Data) and not stream.has(news.number):
+            self._take(news)
+            stream.settle([news.number])
+        if self.is_complete and not self._is_acknowledged:
+            self._ask_again_s = 0.0
+
+    def requests(self, now_s: float) -> Iterator[tuple[bytes, Address]]:
+        """
+        Yield the datagrams that ask for what is missing, and whereto.
+
+        Each time it takes longer until the next request; when all is there, it is acknowledged.
+        """
+        self._is_acknowledged = self.is_complete
+        self._ask_again_s = now_s + self._patience_s
+        self._patience_s = min(2 * self._patience_s, MAX_PATIENCE_S)
+        built_in = [self._publications.request(), self._subscriptions.request()]
+        yield self._message(*built_in), self.discovery
+        if self._entities:
+            yield self._message(self._entities.request()), self._user
+
+    def _streams(self) -> list[Stream]:
+        streams = (self._publications, self._subscriptions, self._entities)
+        return [stream for stream in streams if stream]
+
+    def _message(self, *parts: bytes) -> bytes:
+        return message(self._own_prefix, info_destination(self.prefix), *parts)
+
+    def _stream(self, news: Submessage) -> Stream | None:
+        if news.reader == ENTITIES_READER and not self._entities:
+            self._entities = Stream(ENTITIES_READER, news.writer)
+        return next((each for each in self._streams() if each.writer == news.writer), None)
+
+    def _take(self, news: Data) -> None:
+        if self._entities and news.writer == self._entities.writer:
+            if news.number > self._latest_entities:
+                self._latest_entities = news.number
+                self.nodes = decode_entities(news.payload)
+        elif news.is_disposed:
+            described = decode_parameters(news.payload) if news.payload else news.inline
+            self.endpoints.pop(guid_of(described), None)
+        else:
+            self._add(
+                endpoint_of(
+                    decode_parameters(news.payload), is_writer=news.writer == PUBLICATIONS_WRITER
+                )
+            )
+
+    def _add(self, endpoint: Endpoint) -> None:
+        self.endpoints[endpoint.guid] = endpoint
+        if endpoint.is_writer and endpoint.topic == TOPIC and not self._entities:
+            self._entities = Stream(ENTITIES_READER, endpoint.guid[PREFIX_BYTES:])

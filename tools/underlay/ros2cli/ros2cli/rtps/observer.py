@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Ask all participants, one after the other.
+
+Each answers with dozens of datagrams; if all did that at once, our socket would overflow and most
+would have to be sent again, which takes seconds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+
+from ros2cli.rtps.greeting import farewell, greeting, LEASE_S, new_prefix
+from ros2cli.rtps.identifiers import (
+    PARTICIPANTS_WRITER,
+    PID_DEFAULT_UNICAST_LOCATOR,
+    PID_METATRAFFIC_UNICAST_LOCATOR,
+)
+from ros2cli.rtps.neighbour import Neighbour
+from ros2cli.rtps.parameters import Address, decode_parameters, Parameters
+from ros2cli.rtps.wire import Data, sender, Submessage, submessages
+
+THIS_HOST = '127.0.0.1'
+PACE_S = 0.004
+GREET_AGAIN_S = 0.1
+NEVER_S = float('-inf')
+
+
+class Observer:
+    """
+    Gathers what the participants of a domain tell; its `send` is the only way out.
+
+    :param addresses: of our own socket, as others reach it
+    :param send: sends a datagram to an address
+    """
+
+    def __init__(
+        self, addresses: Sequence[Address], send: Callable[[bytes, Address], None]
+    ) -> None:
+        """Know nobody."""
+        self._prefix = new_prefix()
+        self._greeting = greeting(self._prefix, addresses)
+        self._send = send
+        self._neighbours: dict[bytes, Neighbour] = {}
+        self._silent: dict[Address, float] = {}  # who has not answered, and when it was greeted
+        self._next_greeting_s = NEVER_S
+        self._alive_s = NEVER_S
+        self._latest = b''
+
+    @property
+    def neighbours(self) -> list[Neighbour]:
+        """Return those who have answered."""
+        return list(self._neighbours.values())
+
+    @property
+    def is_complete(self) -> bool:
+        """Tell if all whom we know of have told everything."""
+        return not self._silent and all(each.is_complete for each in self.neighbours)
+
+    @property
+    def due_s(self) -> float:
+        """Return when there is something to send."""
+        greeting_s = min(self._silent.values(), default=float('inf')) + GREET_AGAIN_S
+        question_s = min((each.due_s for each in self.neighbours), default=float('inf'))
+        return min(max(greeting_s, self._next_greeting_s), question_s)
+
+    def expect(self, addresses: Iterable[Address]) -> None:
+        """Set who must be there on this machine; who has left is forgotten."""
+        expected = set(addresses)
+        for each in self.neighbours:
+            if each.discovery[0] == THIS_HOST and each.discovery not in expected:
+                del self._neighbours[each.prefix]
+        answered = {each.discovery for each in self.neighbours}
+        self._silent = {
+            address: self._silent.get(address, NEVER_S) for address in expected - answered
+        }
+
+    def greet(self, address: Address) -> None:
+        """Ask whoever hears at an address to tell about itself."""
+        self._send(self._greeting, address)
+
+    def ask(self, now_s: float) -> None:
+        """Send what is due: the next greeting, questions, and signs of life."""
+        for address, greeted_s in self._silent.items():
+            if max(greeted_s + GREET_AGAIN_S, self._next_greeting_s) <= now_s:
+                self.greet(address)
+                self._silent[address] = now_s
+                self._next_greeting_s = now_s + PACE_S
+        for neighbour in self.neighbours:
+            if neighbour.due_s <= now_s:
+                for datagram, address in neighbour.requests(now_s):
+                    self._send(datagram, address)
+        if now_s - self._alive_s > LEASE_S / 4:
+            self._alive_s = now_s
+            for neighbour in self.neighbours:
+                self.greet(neighbour.discovery)
+
+    def handle(self, datagram: bytes, host: str) -> None:
+        """Take in a datagram from a host; damaged ones are as good as lost."""
+        prefix = sender(datagram)
+        if prefix is None or prefix == self._prefix or datagram == self._latest:
+            return
+        self._latest = datagram  # which often comes a second time, through another interface
+        with suppress(ValueError):
+            for news in submessages(datagram, self._prefix):
+                self._handle(news, prefix, host)
+
+    def leave(self) -> None:
+        """Take leave of all, so that nobody keeps anything for us."""
+        addresses = {each.discovery for each in self.neighbours}
+        greeted = {address for address, when in self._silent.items() if when > NEVER_S}
+        for address in addresses | greeted:
+            self._send(farewell(self._prefix), address)
+
+    def _handle(self, news: Submessage, prefix: bytes, host: str) -> None:
+        if news.writer != PARTICIPANTS_WRITER:
+            if prefix in self._neighbours:
+                self._neighbours[prefix].handle(news)
+        elif isinstance(news, Data) and news.is_disposed:
+            self._neighbours.pop(prefix, None)
+        elif isinstance(news, Data) and prefix not in self._neighbours:
+            self._meet(prefix, host, decode_parameters(news.payload))
+
+    def _meet(self, prefix: bytes, host: str, described: Parameters) -> None:
+        discovery = described.ports(PID_METATRAFFIC_UNICAST_LOCATOR)
+        user = described.ports(PID_DEFAULT_UNICAST_LOCATOR)
+        if not discovery or not user:
+            return
+        address = (host, discovery[0])
+        for each in self.neighbours:
+            if each.discovery == address:
+                del self._neighbours[each.prefix]
+        self._neighbours[prefix] = Neighbour(self._prefix, prefix, address, (host, user[0]))
+        self._silent.pop(address, None)

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Lists of parameters, in which participants and endpoints describe themselves (9.4.2.11)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import socket
+import struct
+from typing import NamedTuple
+
+from ros2cli.rtps.identifiers import PID_SENTINEL
+
+PL_CDR_LE = b'\x00\x03\x00\x00'
+UDP_V4 = 1
+NO_PARAMETER = b''
+INFINITE = (0x7FFFFFFF, 0xFFFFFFFF)
+INFINITE_NS = 2**63 - 1
+Address = tuple[str, int]
+
+
+class Parameters(NamedTuple):
+    """The values of a list by their identifiers, and the byte order in which they are."""
+
+    values: dict[int, list[bytes]]
+    order: str
+
+    def first(self, identifier: int) -> bytes:
+        """Return a value, or nothing."""
+        return self.values.get(identifier, [NO_PARAMETER])[0]
+
+    def text(self, identifier: int) -> str:
+        """Return a string, or ''."""
+        raw = self.octets(identifier)
+        return raw.rstrip(b'\0').decode('utf-8', 'replace')
+
+    def octets(self, identifier: int) -> bytes:
+        """Return a sequence of bytes, or nothing."""
+        raw = self.first(identifier)
+        if not raw:
+            return b''
+        (size,) = struct.unpack_from(f'{self.order}I', raw)
+        return raw[4 : 4 + size]
+
+    def number(self, identifier: int, default: int) -> int:
+        """Return an enumerator."""
+        raw = self.first(identifier)
+        return int(struct.unpack_from(f'{self.order}I', raw)[0]) if raw else default
+
+    def duration_ns(self, identifier: int, offset: int = 0) -> int:
+        """Return a duration; it is infinite if it is not there."""
+        raw = self.first(identifier)
+        if not raw:
+            return INFINITE_NS
+        seconds, fraction = struct.unpack_from(f'{self.order}iI', raw, offset)
+        if (seconds, fraction) == INFINITE:
+            return INFINITE_NS
+        return int(seconds) * 10**9 + round(fraction * 10**9 / 2**32)
+
+    def ports(self, identifier: int) -> list[int]:
+        """Return the UDP ports of locators."""
+        found = [
+            struct.unpack_from(f'{self.order}iI', raw) for raw in self.values.get(identifier, [])
+        ]
+        return [int(port) for kind, port in found if kind == UDP_V4]
+
+
+def decode_parameters(payload: bytes) -> Parameters:
+    """Read a list with its encapsulation header; ValueError if it is damaged."""
+    order = '<' if payload[1:2] in (b'\x01', b'\x03') else '>'
+    try:
+        return read_parameters(payload, 4, order)[0]
+    except struct.error as error:
+        raise ValueError(f'damaged list of parameters: {error}') from error
+
+
+def read_parameters(data: bytes, offset: int, order: str) -> tuple[Parameters, int]:
+    """Read a list from an offset on; return where it ends, too."""
+    values: dict[int, list[bytes]] = {}
+    while True:
+        kind, length = struct.unpack_from(f'{order}HH', data, offset)
+        offset += 4
+        if kind == PID_SENTINEL:
+            return Parameters(values, order), offset
+        values.setdefault(kind, []).append(data[offset : offset + length])
+        offset += length
+
+
+def encode_parameters(parameters: Iterable[tuple[int, bytes]]) -> bytes:
+    """Return a list with its encapsulation header."""
+    return PL_CDR_LE + encode_inline(parameters)
+
+
+def encode_inline(parameters: Iterable[tuple[int, bytes]]) -> bytes:
+    """Return a list as it stands in front of a payload."""
+    return b''.join(_parameter(*each) for each in (*parameters, (PID_SENTINEL, b'')))
+
+
+def _parameter(identifier: int, value: bytes) -> bytes:
+    value += bytes(-len(value) % 4)
+    return struct.pack('<HH', identifier, len(value)) + value
+
+
+def text_value(text: str) -> bytes:
+    """Return a string as a value."""
+    raw = text.encode() + b'\0'
+    return struct.pack('<I', len(raw)) + raw
+
+
+def number_value(number: int) -> bytes:
+    """Return an enumerator or a set of bits as a value."""
+    return struct.pack('<I', number)
+
+
+def duration_value(seconds: int) -> bytes:
+    """Return a duration as a value."""
+    return struct.pack('<iI', seconds, 0)
+
+
+def locator_value(address: Address) -> bytes:
+    """Return a UDP address as a value."""
+    host, port = address
+    return struct.pack('<iI', UDP_V4, port) + bytes(12) + socket.inet_aton(host)
