@@ -9,12 +9,11 @@ import io
 import os
 import sys
 
-from ros2cli.command_table import COMMANDS
+from ros2cli.command_table import COMMAND_GROUP, COMMANDS
 from ros2cli.exit_status import run_to_status
 from ros2cli.parser import HelpFormatter, Parser
 from ros2cli.subparsers import add_lazy_subparsers
 
-COMMAND_GROUP = 'ros2cli.command'
 COMPLETION_VARIABLE = '_ARGCOMPLETE'
 
 
