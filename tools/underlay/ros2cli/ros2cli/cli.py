@@ -9,11 +9,11 @@ import io
 import os
 import sys
 
-from ros2cli.command_table import COMMANDS
+from ros2cli.command_table import COMMAND_GROUP, COMMANDS
 from ros2cli.exit_status import run_to_status
+from ros2cli.parser import HelpFormatter, Parser
 from ros2cli.subparsers import add_lazy_subparsers
 
-COMMAND_GROUP = 'ros2cli.command'
 COMPLETION_VARIABLE = '_ARGCOMPLETE'
 
 
@@ -28,7 +28,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _complete() -> None:
     from ros2cli.completion import answer
 
-    answer(create_parser)
+    answer(lambda words: create_parser(words, argparse.ArgumentParser))
 
 
 def _run_command(argv: list[str]) -> int | str | None:
@@ -44,12 +44,14 @@ def _run_command(argv: list[str]) -> int | str | None:
     return status
 
 
-def create_parser(argv: Sequence[str]) -> argparse.ArgumentParser:
+def create_parser(
+    argv: Sequence[str], parser_class: type[argparse.ArgumentParser] = Parser
+) -> argparse.ArgumentParser:
     """Return the root parser, complete for the command that `argv` names."""
-    parser = argparse.ArgumentParser(
+    parser = parser_class(
         prog='ros2',
         description='ros2 is an extensible command-line tool for ROS 2.',
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=HelpFormatter,
     )
     parser.add_argument(
         '--use-python-default-buffering',

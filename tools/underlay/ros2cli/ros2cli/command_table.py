@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from ros2cli.entry import Entry
 
+COMMAND_GROUP = 'ros2cli.command'
 COMMANDS = {
     'action': Entry(
         'ros2action.command.action:ActionCommand', 'Various action related sub-commands'
@@ -19,6 +20,14 @@ COMMANDS = {
     ),
     'doctor': Entry(
         'ros2doctor.command.doctor:DoctorCommand', 'Check ROS setup and other potential issues'
+    ),
+    'extension_points': Entry(
+        'ros2cli.command.extension_points:ExtensionPointsCommand',
+        'List extension points',
+        hidden=True,
+    ),
+    'extensions': Entry(
+        'ros2cli.command.extensions:ExtensionsCommand', 'List extensions', hidden=True
     ),
     'interface': Entry(
         'ros2interface.command.interface:InterfaceCommand', 'Show information about ROS interfaces'

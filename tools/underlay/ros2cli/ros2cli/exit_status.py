@@ -8,6 +8,7 @@ import errno
 import os
 import signal
 import sys
+import warnings
 
 BROKEN_PIPE_STATUS = 128 + signal.SIGPIPE
 
@@ -22,6 +23,8 @@ def run_to_status(call: Callable[[], int | str | None]) -> int:
         return _after_broken_pipe()
     except KeyboardInterrupt:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
+        # Where rclpy is interrupted it may leave a coroutine behind that never starts.
+        warnings.simplefilter('ignore', RuntimeWarning)
         return int(signal.SIGINT)
     except OSError as error:
         if error.errno != errno.ENOSPC:

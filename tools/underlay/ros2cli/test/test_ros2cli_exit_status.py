@@ -47,6 +47,21 @@ def test_interrupt_is_silent(
     assert handlers == [(signal.SIGINT, signal.SIG_IGN)]
 
 
+def test_interrupt_leaves_no_warning(recwarn: pytest.WarningsRecorder) -> None:
+    """A coroutine which is interrupted before it starts is not complained about."""
+
+    async def never() -> None:
+        """Do nothing."""
+
+    def interrupted() -> int:
+        coroutine = never()
+        assert coroutine is not None
+        raise KeyboardInterrupt
+
+    assert run_to_status(interrupted) == 2
+    assert not recwarn.list
+
+
 def test_exit_of_parser_is_status() -> None:
     """The exit of the argument parser keeps its status."""
     assert run_to_status(raising(SystemExit(2))) == 2

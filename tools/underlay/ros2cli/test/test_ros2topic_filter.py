@@ -64,7 +64,22 @@ def test_everything_else_is_refused(text: str) -> None:
         MessageFilter(text)
 
 
-@pytest.mark.parametrize('text', ['m.nope', 'm.position[9]', 'm.name + 1', '1 / 0', 'len(1)'])
+@pytest.mark.parametrize(
+    'text',
+    [
+        'm.nope',
+        'm.name.clear',
+        'm.get_fields_and_field_types',
+        'm.header.SLOT_TYPES',
+        'm.position[9]',
+        'm.name + 1',
+        'm.name * 99999999999',
+        "'a' * 99999999999",
+        "'%99999999999d' % 1",
+        '1 / 0',
+        'len(1)',
+    ],
+)
 def test_filter_that_does_not_fit_is_explained(text: str) -> None:
     """A condition that the message cannot answer is a sentence."""
     with pytest.raises(RuntimeError, match='does not fit: '):

@@ -7,6 +7,9 @@ from subprocess import CompletedProcess
 from typing import Any
 
 import pytest
+from rclpy.duration import Infinite
+from rclpy.qos import LivelinessPolicy, qos_check_compatible, QoSCompatibility, QoSProfile
+from ros2topic.api.incompatibility import as_discovered
 
 Ros2 = Callable[..., CompletedProcess[str]]
 Start = Callable[..., Any]
@@ -35,10 +38,71 @@ def test_pub_names_the_subscription(ros2_here: Ros2) -> None:
         *('--qos-reliability', 'best_effort', '--once', '--max-wait-time-secs', '3'),
     )
     assert result.returncode == 1
-    warning, timeout = result.stderr.splitlines()
+    warning, waiting, timeout = result.stderr.splitlines()
     assert warning.startswith("WARNING: no message passes from '/_ros2cli_")
     assert " to '/talker' on '/orders': Best effort publisher and reliable" in warning
-    assert timeout.startswith('Timed out waiting for subscribers: Expected 1 subcribers but')
+    assert waiting == "Still waiting for subscriptions of '/orders' (Ctrl-C to stop)"
+    assert timeout == (
+        'Timed out waiting for subscribers: Expected 1 subcribers but only got 0 subscribers'
+    )
+
+
+def test_only_real_differences_are_named() -> None:
+    """What both ends leave open is no reason, though only one of them says so in words."""
+    ours = as_discovered(QoSProfile(depth=10))
+    theirs = QoSProfile(
+        depth=10,
+        deadline=Infinite,
+        lifespan=Infinite,
+        liveliness_lease_duration=Infinite,
+        liveliness=LivelinessPolicy.MANUAL_BY_TOPIC,
+    )
+    status, reason = qos_check_compatible(ours, theirs)
+    assert status == QoSCompatibility.ERROR
+    assert reason == (
+        "ERROR: Publisher's liveliness is automatic and subscription's is manual by topic;"
+    )
+
+
+def test_other_type_is_named(ros2_here: Ros2) -> None:
+    """A type that nobody uses on the topic is echoed in vain, and a warning says so."""
+    words = ('topic', 'echo', '/temperature', 'std_msgs/msg/String', '--timeout', '0.2')
+    result = ros2_here(*words)
+    assert (result.returncode, result.stdout, result.stderr) == (
+        0,
+        '',
+        "WARNING: '/temperature' has the type sensor_msgs/msg/Temperature, so that no "
+        'std_msgs/msg/String passes.\n',
+    )
+
+
+def test_pub_of_other_type_is_explained(ros2_here: Ros2) -> None:
+    """Waiting for subscriptions that have another type is explained after a while."""
+    words = ('topic', 'pub', '/orders', 'std_msgs/msg/Int8', '--once', '--max-wait-time-secs', '3')
+    result = ros2_here(*words)
+    assert result.returncode == 1
+    assert result.stderr.splitlines()[0] == (
+        "Still waiting for subscriptions of '/orders' (Ctrl-C to stop) '/orders' has the type "
+        'std_msgs/msg/String, so that no std_msgs/msg/Int8 passes.'
+    )
+
+
+def test_topic_of_two_types(ros2_here: Ros2, start_ros2: Start) -> None:
+    """Both types are shown, and echo does not choose between them."""
+    other = start_ros2('topic', 'pub', '-p', '0', '/orders', 'std_msgs/msg/Int8')
+    assert other.stdout.readline() == 'publisher: beginning loop\n'
+    types = ['std_msgs/msg/Int8', 'std_msgs/msg/String']
+    assert ros2_here('topic', 'type', '/orders').stdout.splitlines() == types
+    assert ros2_here('topic', 'info', '/orders').stdout == (
+        f'Type: {types}\nPublisher count: 1\nSubscription count: 1\n'
+    )
+    for verb in ('echo', 'hz'):
+        result = ros2_here('topic', verb, '/orders')
+        assert (result.returncode, result.stdout) == (1, '')
+        assert result.stderr == (
+            "Cannot echo topic '/orders', as it contains more than one type: "
+            f'[{", ".join(types)}]\n'
+        )
 
 
 def test_misspelt_topic_suggests(ros2_here: Ros2, start_ros2: Start) -> None:

@@ -102,3 +102,11 @@ def test_delay_needs_a_header(ros2_here: Ros2) -> None:
     result = ros2_here('topic', 'delay', '/robot_description')
     assert result.returncode == 1
     assert result.stderr.endswith('msg does not have header\n')
+
+
+@pytest.mark.parametrize('name', ['/x/', '1x', '/a b', '~/1x', '~~', '{node}', ''])
+def test_what_is_no_topic_is_refused(name: str, ros2_here: Ros2) -> None:
+    """A name that no topic can have is an error of one sentence, before anything is published."""
+    result = ros2_here('topic', 'pub', name, 'std_msgs/msg/String')
+    assert (result.returncode, result.stdout) == (1, '')
+    assert 'is no name of a topic: parts of letters, digits and underscores' in result.stderr

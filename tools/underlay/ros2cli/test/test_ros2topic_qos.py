@@ -79,4 +79,27 @@ def test_choices_are_those_of_rclpy() -> None:
     """The choices, which are listed without importing rclpy, are all known to it."""
     assert set(PROFILES) <= set(QoSPresetProfiles.short_keys())
     for name, choices in POLICIES.items():
-        assert set(choices) == set(POLICY_TYPES[name].short_keys())
+        assert set(choices) == set(POLICY_TYPES[name].short_keys()) - {'unknown'}
+
+
+@pytest.mark.parametrize(
+    ('words', 'reason'),
+    [
+        (['--qos-profile', 'unknown'], 'argument --qos-profile: invalid choice'),
+        (['--qos-history', 'unknown'], 'argument --qos-history: invalid choice'),
+        (['--qos-depth', '0'], "'0' is not a whole number above zero"),
+        (['--qos-depth', '1000001'], 'a queue of 1000001 messages is too long: at most 1000000'),
+        (
+            ['--qos-liveliness-lease-duration-seconds', '1e30'],
+            '1e30 seconds are too long: at most 1000000000',
+        ),
+        (['--qos-liveliness-lease-duration-seconds', 'nan'], "'nan' is not a number above zero"),
+    ],
+)
+def test_what_the_middleware_refuses_is_a_usage_error(
+    words: list[str], reason: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Values that no publisher or subscription can have are refused with the reason."""
+    with pytest.raises(SystemExit):
+        parse(*words)
+    assert reason in capsys.readouterr().err

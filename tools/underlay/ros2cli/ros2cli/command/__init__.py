@@ -23,6 +23,10 @@ class CommandExtension:
     ) -> None:
         """Add the command's own arguments to its parser."""
 
+    def extension_points(self) -> Mapping[str, Mapping[str, Entry]]:
+        """Return the groups of entry points that extend this command, with what they have."""
+        return {}
+
     def main(
         self, *, parser: argparse.ArgumentParser, args: argparse.Namespace
     ) -> int | str | None:
@@ -50,6 +54,10 @@ class VerbCommand(CommandExtension):
             dest='_verb',
             argv=argv,
         )
+
+    def extension_points(self) -> Mapping[str, Mapping[str, Entry]]:
+        """Return the group of the verbs."""
+        return {self.VERB_GROUP: self.VERBS}
 
     def main(
         self, *, parser: argparse.ArgumentParser, args: argparse.Namespace

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from ros2cli.command import VerbCommand
 from ros2cli.entry import Entry
@@ -42,6 +42,12 @@ class DoctorCommand(VerbCommand):
             '-iw', '--include-warnings', action='store_true', help='Let warnings be failures'
         )
         super().add_arguments(parser, cli_name, argv=argv)
+
+    def extension_points(self) -> Mapping[str, Mapping[str, Entry]]:
+        """Return the groups of the verbs, checks and reports."""
+        from ros2doctor.api.table import CHECK_GROUP, CHECKS, REPORT_GROUP, REPORTS
+
+        return {**super().extension_points(), CHECK_GROUP: CHECKS, REPORT_GROUP: REPORTS}
 
     def main(
         self, *, parser: argparse.ArgumentParser, args: argparse.Namespace

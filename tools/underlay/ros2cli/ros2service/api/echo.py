@@ -14,6 +14,7 @@ from ros2cli.patience import Patience
 from ros2service.api import get_service_types, unknown_service_text
 from ros2topic.api.echo import Listener
 from ros2topic.api.printing import chosen_shortening, SEPARATOR
+from ros2topic.api.waiting import settle
 from service_msgs.msg import ServiceEventInfo
 
 EVENT_SUFFIX = '/_service_event'
@@ -38,6 +39,7 @@ def echo(node: Any, service: str, args: argparse.Namespace) -> None:
         )
 
     patience = Patience(f"events of the service '{service}'", hint)
+    settle(node)
     Listener(node, topic, event_type, args, event_formatter(args)).listen(float('inf'), patience)
 
 

@@ -10,6 +10,7 @@ import time
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
+from ros2cli.node.graph import foreign_publishers
 from ros2cli.patience import Patience
 from ros2topic.api import closest_topic
 from ros2topic.api.draining import drain
@@ -17,7 +18,6 @@ from ros2topic.api.incompatibility import Incompatibility
 from ros2topic.api.losses import LossCounter, lost_text
 from ros2topic.api.printing import formatter
 from ros2topic.api.qos import choose_qos
-from ros2topic.api.waiting import settled_publishers
 
 PERIOD_S = 0.1
 
@@ -47,7 +47,7 @@ class Listener:
         format_message: Callable[[Any, Any], str] | None = None,
     ) -> None:
         """Subscribe with the quality of service that the publishers offer."""
-        profile, notices = choose_qos(args, settled_publishers(node, topic))
+        profile, notices = choose_qos(args, foreign_publishers(node, topic))
         for notice in notices:
             print(notice)
         self.count = 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.argument_types import whole_number
+from ros2cli.argument_types import positive_number, whole_number
 from ros2topic.api.filter_argument import add_filter_argument
 
 DEFAULT_TRUNCATE_LENGTH = 128
@@ -65,4 +65,4 @@ def _add_limits(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add('--no-lost-messages', action='store_true', help="Don't report when a message is lost")
     add('--once', action='store_true', help='Print the first message received and then exit')
-    add('--timeout', metavar='SECONDS', type=float, help='Stop after this time')
+    add('--timeout', metavar='SECONDS', type=positive_number, help='Stop after this time')

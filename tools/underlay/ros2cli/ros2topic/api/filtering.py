@@ -12,11 +12,25 @@ from __future__ import annotations
 import argparse
 import ast
 from collections.abc import Callable, Iterator, Mapping
+from numbers import Number
 import operator
 from typing import Any
 
 Names = Mapping[str, Any]
 Part = Callable[[Names], Any]
+
+
+def _of_numbers(operate: Callable[..., Any]) -> Callable[..., Any]:
+    """Keep an operation from texts and lists, which it would make as long as memory is."""
+
+    def operate_on_numbers(*operands: Any) -> Any:
+        for operand in operands:
+            if not isinstance(operand, Number):
+                raise TypeError(f'only numbers can be calculated with, not {operand!r}')
+        return operate(*operands)
+
+    return operate_on_numbers
+
 
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     'abs': abs,
@@ -27,12 +41,12 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     'min': min,
 }
 OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
-    ast.Add: operator.add,
-    ast.Sub: operator.sub,
-    ast.Mult: operator.mul,
-    ast.Div: operator.truediv,
-    ast.FloorDiv: operator.floordiv,
-    ast.Mod: operator.mod,
+    ast.Add: _of_numbers(operator.add),
+    ast.Sub: _of_numbers(operator.sub),
+    ast.Mult: _of_numbers(operator.mul),
+    ast.Div: _of_numbers(operator.truediv),
+    ast.FloorDiv: _of_numbers(operator.floordiv),
+    ast.Mod: _of_numbers(operator.mod),
     ast.BitAnd: operator.and_,
     ast.BitOr: operator.or_,
     ast.Eq: operator.eq,
@@ -96,7 +110,14 @@ def _attribute(node: ast.Attribute, known: set[str]) -> Part:
     value, name = _compile(node.value, known), node.attr
     if name.startswith('_'):
         raise argparse.ArgumentTypeError(f'{ast.unparse(node)!r} is no field of a message')
-    return lambda names: getattr(value(names), name)
+    return lambda names: _field(value(names), name)
+
+
+def _field(message: Any, name: str) -> Any:
+    """Return a field of a message; what is no message has none, only methods."""
+    if name not in getattr(message, 'get_fields_and_field_types', dict)():
+        raise AttributeError(f'{type(message).__name__!r} object has no field {name!r}')
+    return getattr(message, name)
 
 
 def _subscript(node: ast.Subscript, known: set[str]) -> Part:

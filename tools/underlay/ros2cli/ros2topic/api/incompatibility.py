@@ -6,8 +6,12 @@ from __future__ import annotations
 import sys
 from typing import Any
 
-from rclpy.qos import qos_check_compatible, QoSCompatibility, QoSProfile
+from rclpy.duration import Duration, Infinite
+from rclpy.qos import LivelinessPolicy, qos_check_compatible, QoSCompatibility, QoSProfile
 from ros2cli.node.graph import foreign_publishers, foreign_subscriptions, UNKNOWN_NODE_NAME
+from ros2topic.api.qos import copy_profile
+
+DURATIONS = ('deadline', 'lifespan', 'liveliness_lease_duration')
 
 
 class Incompatibility:
@@ -19,7 +23,7 @@ class Incompatibility:
         """Remember our end; nothing is looked up before the middleware reports a mismatch."""
         self._node = node
         self._topic = topic
-        self._profile = profile
+        self._profile = as_discovered(profile)
         self._publishes = publishes
         self._told: set[bytes] = set()
         self._is_due = False
@@ -62,3 +66,14 @@ class Incompatibility:
             f'WARNING: no message passes from {publisher} to {subscriber} on '
             f"'{self._topic}': {reason}. {cure}"
         )
+
+
+def as_discovered(profile: QoSProfile) -> QoSProfile:
+    """Return a profile of ours as others see it: what is left open there has a value."""
+    seen = copy_profile(profile)
+    for name in DURATIONS:
+        if getattr(seen, name) == Duration():
+            setattr(seen, name, Infinite)
+    if seen.liveliness == LivelinessPolicy.SYSTEM_DEFAULT:
+        seen.liveliness = LivelinessPolicy.AUTOMATIC
+    return seen

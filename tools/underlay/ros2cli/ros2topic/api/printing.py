@@ -16,7 +16,7 @@ SEPARATOR = '---'
 def formatter(args: argparse.Namespace) -> Callable[[Any, Any], str]:
     """Return the function that turns a message and its info into what the options ask for."""
     shortening = chosen_shortening(args)
-    end = '\n' if args.csv else f'{SEPARATOR}\n'
+    end = '\n' if args.csv and not args.raw else f'{SEPARATOR}\n'
 
     def format_message(message: Any, info: Any) -> str:
         value = nested_field(message, args.field) if args.field else message
@@ -45,8 +45,10 @@ def nested_field(message: Any, path: str) -> Any:
 
 def value_text(value: Any, shortening: Shortening, args: argparse.Namespace) -> str:
     """Return a message or the value of a field as YAML or with commas."""
-    if args.csv:
+    if args.csv and not args.raw:
         return to_csv(value, shortening)
-    if args.raw or isinstance(value, (bool, int, float, str, bytes)):
+    if isinstance(value, bytes):
+        return f'{value!r}\n'
+    if isinstance(value, (bool, int, float, str)):
         return f'{value}\n'
     return to_yaml(value, shortening, flow_style=args.flow_style)

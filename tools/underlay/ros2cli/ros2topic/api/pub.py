@@ -11,8 +11,11 @@ from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.qos import QoSPresetProfiles
 from ros2cli.messages.outgoing import OutgoingMessage
 from ros2cli.node.waiting import spin_until
+from ros2cli.patience import Patience
+from ros2topic.api import closest_topic
 from ros2topic.api.incompatibility import Incompatibility
 from ros2topic.api.qos import copy_profile, override
+from ros2topic.api.type_mismatch import type_mismatch
 
 ANNOUNCE_S = 1.0
 PERIOD_S = 0.02
@@ -37,6 +40,7 @@ class Publication:
         override(profile, args)
         topic = node.resolve_topic_name(args.topic_name)
         self._node = node
+        self._topic = topic
         self._message = message
         self._args = args
         self._incompatibility = Incompatibility(node, topic, profile, publishes=True)
@@ -73,18 +77,24 @@ class Publication:
         if wanted is None:
             wanted = 1 if self._args.once or self._args.times else 0
         start = announced = time.monotonic()
+        patience = Patience(f"subscriptions of '{self._topic}'", self._hint)
         while self._publisher.get_subscription_count() < wanted:
             now = time.monotonic()
-            self._check_patience(now - start, wanted)
+            self._check_limit(now - start, wanted)
             if now >= announced:
                 print(f'Waiting for at least {wanted} matching subscription(s)...')
                 announced = now + ANNOUNCE_S
+            patience.check()
             self._node.spin_once(PERIOD_S)
             self._incompatibility.check()
         if wanted:
             spin_until(self._node, time.monotonic() + SETTLE_S)
 
-    def _check_patience(self, waited_s: float, wanted: int) -> None:
+    def _hint(self) -> str:
+        mismatch = type_mismatch(self._node, self._topic, type(self._message.message))
+        return mismatch or closest_topic(self._node, self._topic)
+
+    def _check_limit(self, waited_s: float, wanted: int) -> None:
         limit_s = self._args.max_wait_time_secs
         if limit_s is not None and waited_s > limit_s:
             raise RuntimeError(

@@ -5,10 +5,9 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.argument_types import positive_number, whole_number
+from ros2cli.argument_types import positive_int, positive_number
 
 PROFILES = (
-    'unknown',
     'default',
     'system_default',
     'sensor_data',
@@ -19,12 +18,13 @@ PROFILES = (
     'best_available',
 )
 POLICIES = {
-    'history': ('system_default', 'keep_last', 'keep_all', 'unknown'),
-    'reliability': ('system_default', 'reliable', 'best_effort', 'unknown', 'best_available'),
-    'durability': ('system_default', 'transient_local', 'volatile', 'unknown', 'best_available'),
-    'liveliness': ('system_default', 'automatic', 'manual_by_topic', 'unknown', 'best_available'),
+    'history': ('system_default', 'keep_last', 'keep_all'),
+    'reliability': ('system_default', 'reliable', 'best_effort', 'best_available'),
+    'durability': ('system_default', 'transient_local', 'volatile', 'best_available'),
+    'liveliness': ('system_default', 'automatic', 'manual_by_topic', 'best_available'),
 }
 LARGEST_DEPTH = 1_000_000
+LONGEST_LEASE_S = 1e9
 
 
 def add_qos_arguments(parser: argparse.ArgumentParser, role: str) -> None:
@@ -47,15 +47,24 @@ def add_qos_arguments(parser: argparse.ArgumentParser, role: str) -> None:
     parser.add_argument(
         '--qos-liveliness-lease-duration-seconds',
         metavar='SECONDS',
-        type=positive_number,
+        type=_lease_duration,
         help=f'Quality of service liveliness lease duration setting of the {role}',
     )
 
 
 def _queue_depth(text: str) -> int:
-    depth = whole_number(text)
+    depth = positive_int(text)
     if depth > LARGEST_DEPTH:
         raise argparse.ArgumentTypeError(
             f'a queue of {text} messages is too long: at most {LARGEST_DEPTH}'
         )
     return depth
+
+
+def _lease_duration(text: str) -> float:
+    duration_s = positive_number(text)
+    if duration_s > LONGEST_LEASE_S:
+        raise argparse.ArgumentTypeError(
+            f'{text} seconds are too long: at most {LONGEST_LEASE_S:.0f}'
+        )
+    return duration_s

@@ -3,17 +3,25 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 from ros2cli.messages.lookup import get_passed_type
 from ros2topic.api import closest_topic
+from ros2topic.api.type_mismatch import type_mismatch
 from ros2topic.api.waiting import find_types
 
 
-def resolve_type(node: Any, topic: str, type_name: str | None) -> Any:
+def resolve_type(node: Any, topic: str, name: str | None) -> Any:
     """Return the class of a topic's messages; RuntimeError says why it cannot be known."""
-    name = type_name or _discovered_type(node, topic)
-    return get_passed_type(name, 'msg')
+    if not name:
+        return get_passed_type(_discovered_type(node, topic), 'msg')
+    message_type = get_passed_type(name, 'msg')
+    find_types(node, topic)
+    mismatch = type_mismatch(node, topic, message_type)
+    if mismatch:
+        print(f'WARNING: {mismatch}', file=sys.stderr)
+    return message_type
 
 
 def _discovered_type(node: Any, topic: str) -> str:

@@ -7,13 +7,14 @@ from collections.abc import Callable
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
+from ros2cli.node.graph import foreign_publishers
 from ros2cli.patience import Patience
 from ros2topic.api import closest_topic, get_topic_types
 from ros2topic.api.draining import drain
 from ros2topic.api.incompatibility import Incompatibility
 from ros2topic.api.qos import matching_qos
 from ros2topic.api.subscription_type import resolve_type
-from ros2topic.api.waiting import find_types, settled_publishers
+from ros2topic.api.waiting import find_types
 
 PERIOD_S = 0.02
 
@@ -28,7 +29,7 @@ def subscribe_when_published(
     """Wait for a topic as long as it takes, subscribe to it and return what may be wrong."""
     _wait_until_published(node, topic)
     message_type = resolve_type(node, topic, None)
-    profile, _ = matching_qos(settled_publishers(node, topic))
+    profile, _ = matching_qos(foreign_publishers(node, topic))
     incompatibility = Incompatibility(node, topic, profile)
 
     def receive(message: Any) -> None:

@@ -10,6 +10,8 @@ from ros2topic.api.pub_arguments import add_pub_arguments
 from ros2topic.api.qos_arguments import add_qos_arguments
 from ros2topic.verb import VerbExtension
 
+PRIVATE = '~'
+
 
 class PubVerb(VerbExtension):
     """Publish a message to a topic."""
@@ -30,8 +32,8 @@ class PubVerb(VerbExtension):
         from ros2topic.api.pub import publish
 
         message_type = get_passed_type(args.message_type, 'msg')
-        if not args.topic_name.startswith('~'):
-            absolute(args.topic_name)
+        if args.topic_name != PRIVATE:
+            absolute(args.topic_name.removeprefix(PRIVATE))
         message = OutgoingMessage(message_type(), values_text(args))
         with DirectNode(args, node_name=args.node_name, wait=False) as node:
             publish(node, message, args)

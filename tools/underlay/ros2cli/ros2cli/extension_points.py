@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All that `ros2` consists of: its own commands and verbs, and those of other packages."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ros2cli.command_table import COMMAND_GROUP, COMMANDS
+from ros2cli.entry import Entry
+from ros2cli.entry_points import entries_of_group
+
+Table = Mapping[str, Entry]
+
+
+def extension_points() -> dict[str, Table]:
+    """Return the groups of entry points that are looked up, sorted, with what this one has."""
+    groups: dict[str, Table] = {COMMAND_GROUP: COMMANDS}
+    for entry in COMMANDS.values():
+        groups.update(entry.create().extension_points())
+    return dict(sorted(groups.items()))
+
+
+def extensions(group: str, own: Table) -> dict[str, Entry]:
+    """Return the extensions of a group, sorted; what has been there first keeps its name."""
+    return dict(sorted({**entries_of_group(group), **own}.items()))
+
+
+def why_not(entry: Entry) -> str:
+    """Return why an extension cannot be used, or ''."""
+    try:
+        entry.create()
+    except Exception as error:
+        return f'{type(error).__name__}: {error}'
+    return ''
