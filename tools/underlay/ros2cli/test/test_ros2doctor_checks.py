@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
+import shlex
 from typing import Any
 
 import pytest
@@ -19,7 +20,7 @@ from ros2doctor.check.neighbours import NeighboursCheck
 from ros2doctor.check.network import network_findings
 from ros2doctor.check.nodes import name_findings
 from ros2doctor.check.qos import pair_findings
-from ros2doctor.check.scripts import script_findings
+from ros2doctor.check.scripts import mending_command, script_findings
 from ros2doctor.check.wheels import wheel_findings
 from ros2doctor.check.workspace import workspace_findings
 from ros2doctor.facts.environment import Environment
@@ -30,8 +31,9 @@ from ros2doctor.facts.libraries import Libraries, LibraryFolder
 from ros2doctor.facts.network import Network
 from ros2doctor.facts.scripts import Script
 from ros2doctor.facts.transforms import Transform
-from ros2doctor.facts.wheels import Wheels
+from ros2doctor.facts.wheels import install_command, Wheels
 from ros2doctor.facts.workspace import PackageState, Workspace
+import yaml
 
 SET_UP = 'source install/setup.bash'
 LOOPBACK = Interface('lo', '127.0.0.1', True, True, False)
@@ -108,31 +110,25 @@ def test_programs(environment: Environment, change: dict[str, Any], sentence: st
 
 def test_rclpy_that_does_not_start() -> None:
     """The reason is part of the sentence."""
-    found = sentences(client_library_findings('ImportError: x', SET_UP))
+    found = sentences(client_library_findings('ImportError: x', 'make setup'))
     assert found == ['ERROR: rclpy does not start: ImportError: x']
-    assert sentences(client_library_findings('', SET_UP)) == []
+    assert sentences(client_library_findings('', 'make setup')) == []
 
 
 def test_wheels() -> None:
     """Missing wheels and wrong ones of ROS are errors, other versions are warnings."""
     pinned = {'numpy': '2.0', 'ros-rcl': '9.2.8', 'xacro': '2.1'}
     installed = {'numpy': '2.1', 'ros-rcl': '9.2.7', 'setuptools': '80.1'}
-    assert sentences(wheel_findings(Wheels(installed, pinned, Path('/w s')))) == [
+    assert sentences(wheel_findings(Wheels(installed, pinned, Path('/w s'), 'make setup'))) == [
         'ERROR: wheels are missing: xacro',
         'ERROR: wheels of ROS have versions that do not belong together: '
         'ros-rcl 9.2.7 instead of 9.2.8',
         'WARNING: wheels have other versions than the tested ones: numpy 2.1 instead of 2.0',
     ]
-    assert sentences(wheel_findings(Wheels(pinned, pinned, Path('/ws')))) == []
-    assert sentences(wheel_findings(Wheels(installed, {}, None))) == [
+    assert sentences(wheel_findings(Wheels(pinned, pinned, Path('/ws'), 'make setup'))) == []
+    assert sentences(wheel_findings(Wheels(installed, {}, None, 'pip install'))) == [
         'WARNING: setuptools is 80.1'
     ]
-
-
-def test_wheels_are_mended_in_their_workspace() -> None:
-    """The command works from anywhere, also if the path has a space."""
-    finding = next(wheel_findings(Wheels({}, {'numpy': '2.0'}, Path('/w s'))))
-    assert finding.mend.startswith("cd '/w s' && rm -f .venv/stamp/wheels")
 
 
 def test_libraries() -> None:
@@ -167,17 +163,26 @@ def test_scripts_are_grouped_by_interpreter() -> None:
         replace(system, path='/a/own', is_own=True),
         Script('/a/shell', '/bin/sh', True, True, False, False),
     ]
-    assert sentences(script_findings(scripts, SET_UP)) == [
+    assert sentences(script_findings(scripts, str)) == [
         "ERROR: the interpreter '/gone/python3' does not exist, but is named by: /a/x, /a/y",
         "ERROR: '/usr/bin/python3' is not the Python of this environment, but runs: /a/z",
     ]
+
+
+def test_scripts_are_mended_where_they_are() -> None:
+    """What colcon has installed is built anew in its workspace, the rest is installed anew."""
+    gone = Script('/venv/bin/colcon', '/gone/python3', True, False, True, False)
+    built = replace(gone, path='/w s/install/arm/lib/arm/node', workspace=Path('/w s'))
+    first, second = script_findings([gone, built], mending_command)
+    assert first.mend == install_command()
+    assert second.mend.startswith("cd '/w s' && rm -rf build install && source ")
 
 
 def test_workspace() -> None:
     """What is not built, not sourced or older than its sources is named with its cure."""
 
     def found(*packages: PackageState) -> list[str]:
-        return sentences(workspace_findings([Workspace(Path('/ws'), packages)]))
+        return sentences(workspace_findings([Workspace(Path('/ws'), packages, True)]))
 
     arm = PackageState('arm', Path('/ws/src/arm'), True, True)
     leg = PackageState('leg', Path('/ws/src/leg'), False, False)
@@ -189,6 +194,18 @@ def test_workspace() -> None:
     assert found(replace(arm, changed=('launch/a.launch.py',)), leg) == [
         "WARNING: 'arm' is older than its sources: launch/a.launch.py",
         "WARNING: the package 'leg' in '/ws/src/leg' is not built",
+    ]
+
+
+def test_workspace_that_is_just_near() -> None:
+    """A workspace that is neither sourced nor around the current folder is left alone."""
+    arm = PackageState('arm', Path('/ws/src/arm'), True, False)
+    leg = PackageState('leg', Path('/ws/src/leg'), False, True)
+    near = Workspace(Path('/ws'), (arm,), False)
+    assert sentences(workspace_findings([near])) == []
+    sourced = replace(near, packages=(replace(arm, is_known=True), replace(leg, is_known=False)))
+    assert sentences(workspace_findings([sourced])) == [
+        "WARNING: the package 'leg' in '/ws/src/leg' is not built"
     ]
 
 
@@ -339,6 +356,16 @@ def test_frames(edges: list[str], expected: list[str]) -> None:
     found = sentences(frame_findings(transforms))
     assert [text[: len(start)] for text, start in zip(found, expected)] == expected
     assert len(found) == len(expected)
+
+
+def test_trees_are_joined_by_a_command() -> None:
+    """The command publishes the transform that is missing; tf2 finds it on the static topic."""
+    [finding] = frame_findings([Transform('/tf', 'odom', 'base'), Transform('/tf', 'x', 'y')])
+    command = shlex.split(finding.mend.splitlines()[-1])
+    assert command[:5] == ['ros2', 'topic', 'pub', '-r', '1']
+    assert command[-3:-1] == ['/tf_static', 'tf2_msgs/msg/TFMessage']
+    [transform] = yaml.safe_load(command[-1])['transforms']
+    assert (transform['header']['frame_id'], transform['child_frame_id']) == ('odom', 'x')
 
 
 def test_frames_of_two_robots_are_two_trees() -> None:

@@ -62,6 +62,15 @@ def test_changed_files_are_found(package: SourcePackage) -> None:
     assert changes(package) == ['arm/node.py', 'launch/a.launch.py', 'setup.py', 'src/driver.cpp']
 
 
+def test_new_files_are_found(package: SourcePackage) -> None:
+    """A new file counts where others of its kind are installed."""
+    write(package.folder / 'launch/b.launch.py', 'new', AFTER)
+    write(package.folder / 'arm/other.py', 'new', AFTER)
+    write(package.folder / 'LICENSE', 'new', AFTER)
+    write(package.folder / 'doc/a.md', 'new', AFTER)
+    assert changes(package) == ['arm/other.py', 'launch/b.launch.py']
+
+
 def test_what_is_no_change(package: SourcePackage) -> None:
     """Touched files, those of before the build, and those that are never installed, are not."""
     write(package.folder / 'launch/a.launch.py', 'old', AFTER)

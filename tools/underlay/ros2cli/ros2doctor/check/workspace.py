@@ -27,7 +27,7 @@ class WorkspaceCheck(DoctorCheck):
 
 def workspace_findings(facts: Iterable[Workspace]) -> Iterator[Finding]:
     """Yield what has to be built or sourced in some workspaces."""
-    for workspace in facts:
+    for workspace in filter(_is_used, facts):
         built = [package for package in workspace.packages if package.is_built]
         if not built:
             yield _not_built(workspace.folder)
@@ -36,6 +36,11 @@ def workspace_findings(facts: Iterable[Workspace]) -> Iterator[Finding]:
             yield _not_sourced(workspace.folder)
         for package in workspace.packages:
             yield from _package_findings(workspace.folder, package)
+
+
+def _is_used(workspace: Workspace) -> bool:
+    """Tell whether a workspace is around the current folder, or sourced, not just near."""
+    return workspace.is_current or any(package.is_known for package in workspace.packages)
 
 
 def _package_findings(folder: Path, package: PackageState) -> Iterator[Finding]:
