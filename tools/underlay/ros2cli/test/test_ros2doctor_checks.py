@@ -5,12 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+import errno
 from pathlib import Path
 import shlex
 from typing import Any
 
 import pytest
-from ros2doctor.api.finding import Finding
+from ros2doctor.api.finding import Finding, Severity
 from ros2doctor.check.client_library import client_library_findings
 from ros2doctor.check.environment import environment_findings
 from ros2doctor.check.frames import frame_findings
@@ -191,6 +192,9 @@ def test_workspace() -> None:
     assert found(replace(arm, is_known=False)) == [
         "ERROR: the workspace '/ws' is built, but not sourced in this terminal"
     ]
+    assert found(arm, replace(leg, is_built=True)) == [
+        "WARNING: the package 'leg' was built after this terminal was set up"
+    ]
     assert found(replace(arm, changed=('launch/a.launch.py',)), leg) == [
         "WARNING: 'arm' is older than its sources: launch/a.launch.py",
         "WARNING: the package 'leg' in '/ws/src/leg' is not built",
@@ -215,7 +219,7 @@ def network() -> Network:
     return Network(
         variables={'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET'},
         interfaces=(LOOPBACK, CABLE),
-        multicast={'lo': True, 'eth0': True},
+        multicast={'lo': None, 'eth0': None},
         ephemeral_ports=(32768, 60999),
         shared_memory_bytes=10**9,
     )
@@ -253,15 +257,33 @@ def test_safe_domains(network: Network, domain: str) -> None:
 
 def test_interfaces(network: Network) -> None:
     """Multicast matters where nodes use it; the loopback matters always."""
-    deaf = replace(network, multicast={'lo': True, 'eth0': False})
+    deaf = replace(network, multicast={'lo': None, 'eth0': TimeoutError()})
     assert sentences(network_findings(deaf)) == [
-        "WARNING: multicast does not work on the interface 'eth0' (192.0.2.1)"
+        "WARNING: on the interface 'eth0' (192.0.2.1), multicast does not work: packets do not "
+        'arrive'
     ]
     local = replace(deaf, variables={'ROS_AUTOMATIC_DISCOVERY_RANGE': 'localhost'})
     assert sentences(network_findings(local)) == []
     assert sentences(network_findings(replace(network, interfaces=(CABLE,)))) == [
         'ERROR: the loopback interface is down'
     ]
+    nameless = replace(network, interfaces=(replace(LOOPBACK, address=''), CABLE))
+    assert sentences(network_findings(nameless)) == [
+        'ERROR: the loopback interface has no address'
+    ]
+
+
+def test_multicast_that_works_nowhere(network: Network) -> None:
+    """Then nodes of this machine are not found either; the cure depends on the reason."""
+    error = OSError(errno.ENOBUFS, 'No buffer space available')
+    deaf = replace(network, interfaces=(LOOPBACK,), multicast={'lo': error})
+    [finding] = network_findings(deaf)
+    assert finding.severity is Severity.ERROR
+    assert finding.what == (
+        'no network interface delivers multicast (lo: multicast does not work: No buffer space '
+        'available)'
+    )
+    assert finding.mend.startswith('sudo sysctl net.ipv4.igmp_max_memberships=20, or ')
 
 
 def test_shared_memory(network: Network) -> None:

@@ -14,7 +14,7 @@ from ros2doctor.facts.client_library import why_rclpy_does_not_start
 from ros2doctor.facts.environment import read_environment
 from ros2doctor.facts.graphics import read_graphics
 from ros2doctor.facts.libraries import read_libraries
-from ros2doctor.facts.multicast import is_delivered
+from ros2doctor.facts.multicast import multicast_error
 from ros2doctor.facts.network import read_network
 from ros2doctor.facts.scripts import read_script
 from ros2doctor.facts.wheels import normal_name, pins, read_wheels
@@ -147,4 +147,4 @@ def test_this_network() -> None:
     facts = read_network()
     assert [each.address for each in facts.interfaces if each.is_loopback] == ['127.0.0.1']
     assert 'lo' in facts.multicast
-    assert not is_delivered('192.0.2.77')
+    assert isinstance(multicast_error('192.0.2.77'), OSError)

@@ -34,6 +34,7 @@ def workspace_findings(facts: Iterable[Workspace]) -> Iterator[Finding]:
             continue
         if not any(package.is_known for package in built):
             yield _not_sourced(workspace.folder)
+            continue
         for package in workspace.packages:
             yield from _package_findings(workspace.folder, package)
 
@@ -50,6 +51,13 @@ def _package_findings(folder: Path, package: PackageState) -> Iterator[Finding]:
             f"the package '{package.name}' in '{package.folder}' is not built",
             '`ros2 run` and `ros2 launch` do not find it',
             build_command(folder, package.name),
+        )
+    elif not package.is_known:
+        yield Finding(
+            Severity.WARNING,
+            f"the package '{package.name}' was built after this terminal was set up",
+            '`ros2 run` and `ros2 launch` do not find it here',
+            source_command(folder),
         )
     elif package.changed:
         yield Finding(
