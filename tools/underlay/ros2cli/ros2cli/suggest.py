@@ -8,7 +8,13 @@ from collections.abc import Iterable
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """Return a question that names the closest known name, or '' if none is close."""
+    found = closest_name(name, known)
+    return f'Did you mean {found!r}?' if found else ''
+
+
+def closest_name(name: str, known: Iterable[str]) -> str:
+    """Return the closest known name, or '' if none is close."""
     from difflib import get_close_matches
 
     matches = get_close_matches(name, list(known), n=1)
-    return f'Did you mean {matches[0]!r}?' if matches else ''
+    return matches[0] if matches else ''

@@ -84,15 +84,17 @@ def test_rejected_goal(ros2_robot: Ros2) -> None:
     assert (result.returncode, result.stderr) == (0, '')
 
 
-def test_interrupt_cancels_the_goal(start_at_robot: Start) -> None:
-    """Ctrl-C cancels an active goal before the command ends with the signal's status."""
+@pytest.mark.parametrize(('number', 'status'), [(signal.SIGINT, 2), (signal.SIGTERM, 15)])
+def test_signal_cancels_the_goal(number: int, status: int, start_at_robot: Start) -> None:
+    """Ctrl-C or SIGTERM cancels an active goal before the command ends with its status."""
     process = start_at_robot('action', 'send_goal', '/look', TYPE, '{target_frame: wait}')
     while not process.stdout.readline().startswith('Goal accepted'):
         pass
-    process.send_signal(signal.SIGINT)
+    process.send_signal(number)
     text = process.stdout.read().lstrip()
     assert text == 'Canceling goal...\nGoal canceled.\n', process.stderr.read()
-    assert process.wait(timeout=20.0) == 2
+    assert process.wait(timeout=20.0) == status
+    assert process.stderr.read() == ''
 
 
 @pytest.mark.parametrize(

@@ -78,9 +78,19 @@ def test_now_is_a_time() -> None:
             '{nope: 1}',
             "Failed to populate field: 'String' object has no attribute 'nope'",
         ),
-        ('std_msgs/msg/Int32', '{data: x}', 'Failed to populate field: invalid literal'),
-        ('std_msgs/msg/UInt8', '{data: 300}', '300 is no uint8, .* from 0 to 255'),
-        ('std_msgs/msg/Int8', '{data: 1.5}', '1.5 is no int8, .* from -128 to 127'),
+        (
+            'std_msgs/msg/UInt8',
+            '{data: x}',
+            r"Failed to populate field: 'data' needs a whole number from 0 to 255 \(uint8\), "
+            "but got 'x'",
+        ),
+        ('std_msgs/msg/UInt8', '{data: 300}', r'from 0 to 255 \(uint8\), but got 300'),
+        ('std_msgs/msg/Int8', '{data: 1.5}', r'from -128 to 127 \(int8\), but got 1.5'),
+        ('std_msgs/msg/Int8', '{data: .inf}', r'from -128 to 127 \(int8\), but got inf'),
+        ('std_msgs/msg/Float32', '{data: x}', "'data' needs a number, but got 'x'"),
+        ('std_msgs/msg/Byte', '{data: 256}', r'from 0 to 255 \(byte\), but got 256'),
+        ('std_msgs/msg/Bool', '{data: [1]}', r"'data' needs true or false, but got \[1\]"),
+        ('std_msgs/msg/String', '{data: {a: 1}}', "'data' needs a text, but got {'a': 1}"),
         (
             'sensor_msgs/msg/JointState',
             '{name: a}',

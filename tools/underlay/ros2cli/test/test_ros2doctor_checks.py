@@ -5,11 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+import errno
 from pathlib import Path
+import shlex
 from typing import Any
 
 import pytest
-from ros2doctor.api.finding import Finding
+from ros2doctor.api.finding import Finding, Severity
 from ros2doctor.check.client_library import client_library_findings
 from ros2doctor.check.environment import environment_findings
 from ros2doctor.check.frames import frame_findings
@@ -19,7 +21,7 @@ from ros2doctor.check.neighbours import NeighboursCheck
 from ros2doctor.check.network import network_findings
 from ros2doctor.check.nodes import name_findings
 from ros2doctor.check.qos import pair_findings
-from ros2doctor.check.scripts import script_findings
+from ros2doctor.check.scripts import mending_command, script_findings
 from ros2doctor.check.wheels import wheel_findings
 from ros2doctor.check.workspace import workspace_findings
 from ros2doctor.facts.environment import Environment
@@ -30,8 +32,9 @@ from ros2doctor.facts.libraries import Libraries, LibraryFolder
 from ros2doctor.facts.network import Network
 from ros2doctor.facts.scripts import Script
 from ros2doctor.facts.transforms import Transform
-from ros2doctor.facts.wheels import Wheels
+from ros2doctor.facts.wheels import install_command, Wheels
 from ros2doctor.facts.workspace import PackageState, Workspace
+import yaml
 
 SET_UP = 'source install/setup.bash'
 LOOPBACK = Interface('lo', '127.0.0.1', True, True, False)
@@ -108,31 +111,25 @@ def test_programs(environment: Environment, change: dict[str, Any], sentence: st
 
 def test_rclpy_that_does_not_start() -> None:
     """The reason is part of the sentence."""
-    found = sentences(client_library_findings('ImportError: x', SET_UP))
+    found = sentences(client_library_findings('ImportError: x', 'make setup'))
     assert found == ['ERROR: rclpy does not start: ImportError: x']
-    assert sentences(client_library_findings('', SET_UP)) == []
+    assert sentences(client_library_findings('', 'make setup')) == []
 
 
 def test_wheels() -> None:
     """Missing wheels and wrong ones of ROS are errors, other versions are warnings."""
     pinned = {'numpy': '2.0', 'ros-rcl': '9.2.8', 'xacro': '2.1'}
     installed = {'numpy': '2.1', 'ros-rcl': '9.2.7', 'setuptools': '80.1'}
-    assert sentences(wheel_findings(Wheels(installed, pinned, Path('/w s')))) == [
+    assert sentences(wheel_findings(Wheels(installed, pinned, Path('/w s'), 'make setup'))) == [
         'ERROR: wheels are missing: xacro',
         'ERROR: wheels of ROS have versions that do not belong together: '
         'ros-rcl 9.2.7 instead of 9.2.8',
         'WARNING: wheels have other versions than the tested ones: numpy 2.1 instead of 2.0',
     ]
-    assert sentences(wheel_findings(Wheels(pinned, pinned, Path('/ws')))) == []
-    assert sentences(wheel_findings(Wheels(installed, {}, None))) == [
+    assert sentences(wheel_findings(Wheels(pinned, pinned, Path('/ws'), 'make setup'))) == []
+    assert sentences(wheel_findings(Wheels(installed, {}, None, 'pip install'))) == [
         'WARNING: setuptools is 80.1'
     ]
-
-
-def test_wheels_are_mended_in_their_workspace() -> None:
-    """The command works from anywhere, also if the path has a space."""
-    finding = next(wheel_findings(Wheels({}, {'numpy': '2.0'}, Path('/w s'))))
-    assert finding.mend.startswith("cd '/w s' && rm -f .venv/stamp/wheels")
 
 
 def test_libraries() -> None:
@@ -167,17 +164,26 @@ def test_scripts_are_grouped_by_interpreter() -> None:
         replace(system, path='/a/own', is_own=True),
         Script('/a/shell', '/bin/sh', True, True, False, False),
     ]
-    assert sentences(script_findings(scripts, SET_UP)) == [
+    assert sentences(script_findings(scripts, str)) == [
         "ERROR: the interpreter '/gone/python3' does not exist, but is named by: /a/x, /a/y",
         "ERROR: '/usr/bin/python3' is not the Python of this environment, but runs: /a/z",
     ]
+
+
+def test_scripts_are_mended_where_they_are() -> None:
+    """What colcon has installed is built anew in its workspace, the rest is installed anew."""
+    gone = Script('/venv/bin/colcon', '/gone/python3', True, False, True, False)
+    built = replace(gone, path='/w s/install/arm/lib/arm/node', workspace=Path('/w s'))
+    first, second = script_findings([gone, built], mending_command)
+    assert first.mend == install_command()
+    assert second.mend.startswith("cd '/w s' && rm -rf build install && source ")
 
 
 def test_workspace() -> None:
     """What is not built, not sourced or older than its sources is named with its cure."""
 
     def found(*packages: PackageState) -> list[str]:
-        return sentences(workspace_findings([Workspace(Path('/ws'), packages)]))
+        return sentences(workspace_findings([Workspace(Path('/ws'), packages, True)]))
 
     arm = PackageState('arm', Path('/ws/src/arm'), True, True)
     leg = PackageState('leg', Path('/ws/src/leg'), False, False)
@@ -186,9 +192,24 @@ def test_workspace() -> None:
     assert found(replace(arm, is_known=False)) == [
         "ERROR: the workspace '/ws' is built, but not sourced in this terminal"
     ]
+    assert found(arm, replace(leg, is_built=True)) == [
+        "WARNING: the package 'leg' was built after this terminal was set up"
+    ]
     assert found(replace(arm, changed=('launch/a.launch.py',)), leg) == [
         "WARNING: 'arm' is older than its sources: launch/a.launch.py",
         "WARNING: the package 'leg' in '/ws/src/leg' is not built",
+    ]
+
+
+def test_workspace_that_is_just_near() -> None:
+    """A workspace that is neither sourced nor around the current folder is left alone."""
+    arm = PackageState('arm', Path('/ws/src/arm'), True, False)
+    leg = PackageState('leg', Path('/ws/src/leg'), False, True)
+    near = Workspace(Path('/ws'), (arm,), False)
+    assert sentences(workspace_findings([near])) == []
+    sourced = replace(near, packages=(replace(arm, is_known=True), replace(leg, is_known=False)))
+    assert sentences(workspace_findings([sourced])) == [
+        "WARNING: the package 'leg' in '/ws/src/leg' is not built"
     ]
 
 
@@ -198,7 +219,7 @@ def network() -> Network:
     return Network(
         variables={'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET'},
         interfaces=(LOOPBACK, CABLE),
-        multicast={'lo': True, 'eth0': True},
+        multicast={'lo': None, 'eth0': None},
         ephemeral_ports=(32768, 60999),
         shared_memory_bytes=10**9,
     )
@@ -236,15 +257,33 @@ def test_safe_domains(network: Network, domain: str) -> None:
 
 def test_interfaces(network: Network) -> None:
     """Multicast matters where nodes use it; the loopback matters always."""
-    deaf = replace(network, multicast={'lo': True, 'eth0': False})
+    deaf = replace(network, multicast={'lo': None, 'eth0': TimeoutError()})
     assert sentences(network_findings(deaf)) == [
-        "WARNING: multicast does not work on the interface 'eth0' (192.0.2.1)"
+        "WARNING: on the interface 'eth0' (192.0.2.1), multicast does not work: packets do not "
+        'arrive'
     ]
     local = replace(deaf, variables={'ROS_AUTOMATIC_DISCOVERY_RANGE': 'localhost'})
     assert sentences(network_findings(local)) == []
     assert sentences(network_findings(replace(network, interfaces=(CABLE,)))) == [
         'ERROR: the loopback interface is down'
     ]
+    nameless = replace(network, interfaces=(replace(LOOPBACK, address=''), CABLE))
+    assert sentences(network_findings(nameless)) == [
+        'ERROR: the loopback interface has no address'
+    ]
+
+
+def test_multicast_that_works_nowhere(network: Network) -> None:
+    """Then nodes of this machine are not found either; the cure depends on the reason."""
+    error = OSError(errno.ENOBUFS, 'No buffer space available')
+    deaf = replace(network, interfaces=(LOOPBACK,), multicast={'lo': error})
+    [finding] = network_findings(deaf)
+    assert finding.severity is Severity.ERROR
+    assert finding.what == (
+        'no network interface delivers multicast (lo: multicast does not work: No buffer space '
+        'available)'
+    )
+    assert finding.mend.startswith('sudo sysctl net.ipv4.igmp_max_memberships=20, or ')
 
 
 def test_shared_memory(network: Network) -> None:
@@ -339,6 +378,16 @@ def test_frames(edges: list[str], expected: list[str]) -> None:
     found = sentences(frame_findings(transforms))
     assert [text[: len(start)] for text, start in zip(found, expected)] == expected
     assert len(found) == len(expected)
+
+
+def test_trees_are_joined_by_a_command() -> None:
+    """The command publishes the transform that is missing; tf2 finds it on the static topic."""
+    [finding] = frame_findings([Transform('/tf', 'odom', 'base'), Transform('/tf', 'x', 'y')])
+    command = shlex.split(finding.mend.splitlines()[-1])
+    assert command[:5] == ['ros2', 'topic', 'pub', '-r', '1']
+    assert command[-3:-1] == ['/tf_static', 'tf2_msgs/msg/TFMessage']
+    [transform] = yaml.safe_load(command[-1])['transforms']
+    assert (transform['header']['frame_id'], transform['child_frame_id']) == ('odom', 'x')
 
 
 def test_frames_of_two_robots_are_two_trees() -> None:

@@ -207,7 +207,8 @@ def test_rclpy_that_ends_the_process(ros2: Ros2, tmp_path: Path) -> None:
         result.stdout
     )
     assert 'ERROR (rclpy): rclpy does not start: ' in result.stdout
-    assert 'WARNING (qos): not checked, since rclpy does not start' in result.stdout
+    assert 'the running nodes were not examined' in result.stdout
+    assert '2/11 check(s) failed\n\nFailed modules: environment rclpy\n' in result.stdout
 
 
 def test_hello_hears_itself(ros2: Ros2) -> None:

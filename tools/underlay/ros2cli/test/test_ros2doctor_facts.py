@@ -14,7 +14,7 @@ from ros2doctor.facts.client_library import why_rclpy_does_not_start
 from ros2doctor.facts.environment import read_environment
 from ros2doctor.facts.graphics import read_graphics
 from ros2doctor.facts.libraries import read_libraries
-from ros2doctor.facts.multicast import is_delivered
+from ros2doctor.facts.multicast import multicast_error
 from ros2doctor.facts.network import read_network
 from ros2doctor.facts.scripts import read_script
 from ros2doctor.facts.wheels import normal_name, pins, read_wheels
@@ -60,6 +60,15 @@ def test_changed_files_are_found(package: SourcePackage) -> None:
     write(package.folder / 'src/driver.cpp', 'new', AFTER)
     write(package.folder / 'setup.py', 'new', AFTER)
     assert changes(package) == ['arm/node.py', 'launch/a.launch.py', 'setup.py', 'src/driver.cpp']
+
+
+def test_new_files_are_found(package: SourcePackage) -> None:
+    """A new file counts where others of its kind are installed."""
+    write(package.folder / 'launch/b.launch.py', 'new', AFTER)
+    write(package.folder / 'arm/other.py', 'new', AFTER)
+    write(package.folder / 'LICENSE', 'new', AFTER)
+    write(package.folder / 'doc/a.md', 'new', AFTER)
+    assert changes(package) == ['arm/other.py', 'launch/b.launch.py']
 
 
 def test_what_is_no_change(package: SourcePackage) -> None:
@@ -138,4 +147,4 @@ def test_this_network() -> None:
     facts = read_network()
     assert [each.address for each in facts.interfaces if each.is_loopback] == ['127.0.0.1']
     assert 'lo' in facts.multicast
-    assert not is_delivered('192.0.2.77')
+    assert isinstance(multicast_error('192.0.2.77'), OSError)

@@ -87,6 +87,24 @@ def test_show_reads_the_type_from_stdin(ros2_here: Ros2, monkeypatch: pytest.Mon
     ]
 
 
+def test_show_of_empty_stdin(ros2_here: Ros2, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An empty line names no interface."""
+    monkeypatch.setattr('sys.stdin', io.StringIO('\nstd_srvs/srv/Trigger\n'))
+    result = ros2_here('interface', 'show', '-')
+    assert (result.returncode, result.stdout) == (1, '')
+    assert result.stderr == 'Standard input has no name of an interface in its first line\n'
+
+
+def test_show_of_a_terminal(ros2_here: Ros2, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where nothing is piped, the command says what it expects instead of waiting for it."""
+    terminal = io.StringIO('std_srvs/srv/Trigger\n')
+    monkeypatch.setattr(terminal, 'isatty', lambda: True, raising=False)
+    monkeypatch.setattr('sys.stdin', terminal)
+    result = ros2_here('interface', 'show', '-')
+    assert (result.returncode, result.stdout) == (1, '')
+    assert 'Write: echo std_msgs/msg/String | ros2 interface show -\n' in result.stderr
+
+
 @pytest.mark.parametrize(
     ('type_name', 'error', 'hint'),
     [

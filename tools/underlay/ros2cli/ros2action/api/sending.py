@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
+import sys
 from textwrap import indent
 from typing import Any
 
 from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
 from rclpy.action import ActionClient
+from rclpy.executors import ExternalShutdownException
 from ros2action.api import get_action_names_and_types, get_action_servers
+from ros2action.api.termination import sigterm_as_exception
 from ros2cli.messages.lookup import type_name
 from ros2cli.messages.outgoing import OutgoingMessage
 from ros2cli.messages.text import to_yaml
@@ -29,6 +32,15 @@ STATUS_NAMES = {
         'ABORTED',
     )
 }
+
+ENDS = (GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_CANCELED, GoalStatus.STATUS_ABORTED)
+CANCEL_TEXTS = {
+    CancelGoal.Response.ERROR_NONE: 'Goal canceled.',
+    CancelGoal.Response.ERROR_REJECTED: 'Failed to cancel goal: the server refuses',
+    CancelGoal.Response.ERROR_GOAL_TERMINATED: 'Failed to cancel goal: it has already ended',
+}
+CANCEL_FAILURE = 'Failed to cancel goal: the server does not know it'
+LAST_WORDS_S = 5.0
 
 
 class GoalSender:
@@ -50,19 +62,22 @@ class GoalSender:
         wait_until(self._node, self._client.server_is_ready, patience)
 
     def send(self, message: OutgoingMessage) -> None:
-        """Send the goal and print its result; an interrupt cancels it first."""
+        """Send the goal and print its result; SIGINT and SIGTERM cancel it before they end us."""
         goal = message.stamped(self._node.get_clock().now().to_msg())
         print(f'Sending goal:\n{_indented(goal, 5)}')
+        with sigterm_as_exception():
+            self._send(goal)
+
+    def _send(self, goal: Any) -> None:
         sending = self._client.send_goal_async(goal, self._feedback)
-        handle = None
         try:
             handle = self._wait(sending, 'the acceptance of the goal')
             if handle.accepted:
                 self._follow(handle)
             else:
                 print('Goal was rejected.')
-        except KeyboardInterrupt:
-            self._cancel(handle or self._wait(sending, 'the acceptance of the goal'))
+        except (KeyboardInterrupt, ExternalShutdownException):
+            self._cancel(sending)
             raise
 
     def _follow(self, handle: Any) -> None:
@@ -73,28 +88,29 @@ class GoalSender:
         print(f'Result:\n{_indented(response.result, 4)}')
         print(f'Goal finished with status: {STATUS_NAMES[response.status]}')
 
-    def _cancel(self, handle: Any) -> None:
-        if not handle.accepted or handle.status in (
-            GoalStatus.STATUS_SUCCEEDED,
-            GoalStatus.STATUS_CANCELED,
-            GoalStatus.STATUS_ABORTED,
-        ):
-            return
-        print('Canceling goal...')
-        response = self._wait(handle.cancel_goal_async(), 'the end of the goal')
-        if response.return_code == CancelGoal.Response.ERROR_NONE:
-            print('Goal canceled.')
-        else:
-            print(f'Failed to cancel goal: the server answers {response.return_code}')
+    def _cancel(self, sending: Any) -> None:
+        """Cancel the goal if it is active; a server that does not answer is not waited for."""
+        try:
+            handle = self._wait(sending, 'the acceptance of the goal', LAST_WORDS_S)
+            if handle.accepted and handle.status not in ENDS:
+                print('Canceling goal...')
+                future = handle.cancel_goal_async()
+                response = self._wait(future, 'the end of the goal', LAST_WORDS_S)
+                print(CANCEL_TEXTS.get(response.return_code, CANCEL_FAILURE))
+        except RuntimeError as error:
+            print(f'The goal may still be active: {error}', file=sys.stderr)
 
-    def _wait(self, future: Any, what: str, *, tells: bool = True) -> Any:
-        """Return the result of a future; RuntimeError if the server has gone away."""
+    def _wait(
+        self, future: Any, what: str, timeout_s: float = float('inf'), *, tells: bool = True
+    ) -> Any:
+        """Return the result of a future; RuntimeError if the server does not give it."""
 
         def is_over() -> bool:
             return bool(future.done() or not self._client.server_is_ready())
 
-        text = f"{what} from '{self._name}'"
-        wait_until(self._node, is_over, Patience(text) if tells else None)
+        patience = Patience(f"{what} from '{self._name}'") if tells else None
+        if not wait_until(self._node, is_over, patience, timeout_s):
+            raise RuntimeError(f"'{self._name}' has not answered within {timeout_s:g} s")
         if not future.done():
             raise RuntimeError(f"The server of '{self._name}' has gone away before {what} came")
         return future.result()

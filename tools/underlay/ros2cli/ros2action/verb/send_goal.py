@@ -28,7 +28,7 @@ class SendGoalVerb(VerbExtension):
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Send the goal and print what comes of it; Ctrl-C cancels the goal."""
+        """Send the goal and print what comes of it; Ctrl-C or SIGTERM cancels the goal."""
         from ros2action.api.sending import GoalSender
         from ros2cli.messages.lookup import get_passed_type
         from ros2cli.messages.outgoing import OutgoingMessage

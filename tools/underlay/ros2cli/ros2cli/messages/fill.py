@@ -17,6 +17,12 @@ SCALARS: dict[str, Callable[[Any], Any]] = {
     'double': float,
     'octet': lambda value: bytes([value]),
 }
+NEEDED = {
+    'boolean': 'true or false',
+    'float': 'a number',
+    'double': 'a number',
+    'octet': 'a whole number from 0 to 255 (byte)',
+}
 
 Stamp = Callable[[Any], None]
 
@@ -52,7 +58,7 @@ def _stamp(message: Any, name: str, field_type: str, value: Any) -> Stamp | None
 
 def _cast(name: str, field_type: str, value: Any) -> Any:
     if not field_type.startswith('sequence<') and not field_type.endswith(']'):
-        return _scalar(field_type, value)
+        return _scalar(name, field_type, value)
     if not isinstance(value, list):
         raise TypeError(f"'{name}' needs a list, for example [1, 2], but got {value!r}")
     _check_length(name, field_type, len(value))
@@ -71,31 +77,53 @@ def _check_length(name: str, field_type: str, length: int) -> None:
 
 def _element(name: str, type_name: str, value: Any) -> Any:
     if '/' not in type_name:
-        return _scalar(type_name, value)
+        return _scalar(name, type_name, value)
     element = get_message(type_name)()
     fill(element, _mapping(name, value))
     return element
 
 
-def _scalar(type_name: str, value: Any) -> Any:
-    if type_name.startswith(('string', 'wstring')):
+def _scalar(name: str, type_name: str, value: Any) -> Any:
+    try:
+        return _cast_scalar(type_name, value)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"'{name}' needs {_needed(type_name)}, but got {value!r}") from error
+
+
+def _cast_scalar(type_name: str, value: Any) -> Any:
+    if value is None or isinstance(value, (dict, list)):
+        raise TypeError(value)
+    if _is_text(type_name):
         return str(value)
     if type_name in SCALARS:
         return SCALARS[type_name](value)
-    return _integer(type_name, value)
-
-
-def _integer(type_name: str, value: Any) -> int:
-    """Return a whole number that fits a type such as `int8` or `uint64`."""
+    lowest, highest = _limits(type_name)
     number = int(value)
-    bits = int(type_name.rpartition('int')[2])
-    lowest, count = (0, 2**bits) if type_name.startswith('u') else (-(2 ** (bits - 1)), 2**bits)
     is_whole = not isinstance(value, float) or value.is_integer()
-    if not is_whole or not lowest <= number < lowest + count:
-        raise ValueError(
-            f'{value!r} is no {type_name}, a whole number from {lowest} to {lowest + count - 1}'
-        )
+    if not is_whole or not lowest <= number <= highest:
+        raise ValueError(value)
     return number
+
+
+def _needed(type_name: str) -> str:
+    if _is_text(type_name):
+        return 'a text'
+    if type_name in NEEDED:
+        return NEEDED[type_name]
+    lowest, highest = _limits(type_name)
+    return f'a whole number from {lowest} to {highest} ({type_name})'
+
+
+def _is_text(type_name: str) -> bool:
+    return type_name.startswith(('string', 'wstring'))
+
+
+def _limits(type_name: str) -> tuple[int, int]:
+    """Return the least and the greatest number of a type such as `int8` or `uint64`."""
+    bits = int(type_name.rpartition('int')[2])
+    if type_name.startswith('u'):
+        return 0, 2**bits - 1
+    return -(2 ** (bits - 1)), 2 ** (bits - 1) - 1
 
 
 def _mapping(name: str, value: Any) -> dict[str, Any]:

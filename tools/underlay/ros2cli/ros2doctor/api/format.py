@@ -27,7 +27,8 @@ def finding_text(category: str, finding: Finding) -> str:
     if finding.why:
         lines.append(f'{INDENT}why it matters: {finding.why}')
     if finding.mend:
-        lines.append(f'{INDENT}to mend it: {finding.mend}')
+        mend = finding.mend.replace('\n', f'\n{INDENT}')
+        lines.append(f'{INDENT}to mend it: {mend}')
     return '\n'.join(lines)
 
 

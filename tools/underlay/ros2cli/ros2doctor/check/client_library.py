@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from ros2doctor.api.extension import DoctorCheck
 from ros2doctor.api.finding import Finding, Result, Severity
 from ros2doctor.facts.client_library import why_rclpy_does_not_start
-from ros2doctor.facts.environment import set_up_command
+from ros2doctor.facts.wheels import install_command
 
 
 class ClientLibraryCheck(DoctorCheck):
@@ -20,15 +20,15 @@ class ClientLibraryCheck(DoctorCheck):
 
     def check(self) -> Result:
         """Return why no node can start."""
-        return Result(client_library_findings(why_rclpy_does_not_start(), set_up_command()))
+        return Result(client_library_findings(why_rclpy_does_not_start(), install_command()))
 
 
-def client_library_findings(why_not: str, set_up: str) -> Iterator[Finding]:
+def client_library_findings(why_not: str, install_again: str) -> Iterator[Finding]:
     """Yield why rclpy does not start, if it does not."""
     if why_not:
         yield Finding(
             Severity.ERROR,
             f'rclpy does not start: {why_not}',
-            'no Python node can start, nor can commands that look at running nodes',
-            f'mend the errors above first; else open a new terminal and run: {set_up}',
+            'no Python node can start; the running nodes were not examined',
+            f'mend the errors above first; if there are none: {install_again}',
         )

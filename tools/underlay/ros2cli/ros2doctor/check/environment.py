@@ -96,7 +96,7 @@ def _two_installations(facts: Environment) -> Iterator[Finding]:
 def _vanished_folders(facts: Environment) -> Iterator[Finding]:
     for variable in ('AMENT_PREFIX_PATH', 'COLCON_PREFIX_PATH'):
         for folder in facts.folders(variable):
-            if not os.path.isdir(folder):
+            if not os.path.isdir(folder) and not folder.startswith(SYSTEM_FOLDER):
                 yield Finding(
                     Severity.WARNING,
                     f"{variable} names the folder '{folder}', which does not exist (any more)",
@@ -129,7 +129,7 @@ def _client_library(facts: Environment) -> Iterator[Finding]:
 
 def _build_tool(facts: Environment) -> Iterator[Finding]:
     colcon = facts.colcon
-    if colcon is not None and not colcon.is_own:
+    if colcon is not None and not _is_below(colcon.path, facts.prefix):
         yield Finding(
             Severity.WARNING,
             f"`colcon` is '{colcon.path}', which runs with '{colcon.interpreter}'",

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from ros2doctor.api.finding import Finding, Severity
 from ros2doctor.check.graph_check import GraphCheck
 from ros2doctor.facts.graph import Graph
-from ros2doctor.facts.transforms import Transform
+from ros2doctor.facts.transforms import STATIC_SUFFIX, Transform, TRANSFORM_TYPE
 
 Parents = dict[str, set[str]]
 
@@ -64,8 +64,20 @@ def _two_roots(topic: str, found: list[str]) -> Finding:
         Severity.WARNING,
         f"on '{topic}' there are {len(found)} trees of frames, with the roots {', '.join(found)}",
         'there is no transform between frames of different trees',
-        'start the node that publishes what is missing, or publish it once by hand with a static '
-        f'transform from {found[0]} to {found[1]}',
+        'start the node that publishes what is missing, or publish it by hand until Ctrl-C (here '
+        f"'{found[1]}' at the origin of '{found[0]}'; change that):\n"
+        f'{_publish_command(topic, found[0], found[1])}',
+    )
+
+
+def _publish_command(topic: str, parent: str, child: str) -> str:
+    transform = (
+        f'{{header: {{frame_id: {parent}}}, child_frame_id: {child}, '
+        'transform: {translation: {x: 0.0}, rotation: {w: 1.0}}}'
+    )
+    return (
+        f'ros2 topic pub -r 1 --qos-durability transient_local {topic}{STATIC_SUFFIX} '
+        f"{TRANSFORM_TYPE} '{{transforms: [{transform}]}}'"
     )
 
 

@@ -6,18 +6,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ros2doctor.api.extension import DoctorCheck
-from ros2doctor.api.finding import Finding, Result, Severity
+from ros2doctor.api.finding import Finding, Result
 from ros2doctor.facts.client_library import why_rclpy_does_not_start
 from ros2doctor.facts.graph import Graph, read_graph
 
 
 class GraphCheck(DoctorCheck):
-    """A check of the graph; where rclpy does not start there is none to look at."""
+    """A check of the graph; where rclpy does not start, which has a check, there is none."""
 
     def check(self) -> Result:
         """Return what is wrong with the graph."""
         if why_rclpy_does_not_start():
-            return Result([Finding(Severity.WARNING, 'not checked, since rclpy does not start')])
+            return Result()
         return Result(self.findings(read_graph()))
 
     def findings(self, graph: Graph) -> Iterator[Finding]:

@@ -8,9 +8,11 @@ import os
 
 from ros2doctor.api.extension import DoctorCheck
 from ros2doctor.api.finding import Finding, Result, Severity
+from ros2doctor.check.multicast import multicast_findings
 from ros2doctor.facts.network import Network, read_network
 
 RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')
+WITHOUT_MULTICAST = ('LOCALHOST', 'OFF')
 LAST_DOMAIN = 232
 PORT_BASE = 7400
 PORTS_PER_DOMAIN = 250
@@ -50,8 +52,8 @@ def _range(facts: Network) -> Iterator[Finding]:
         yield Finding(
             Severity.ERROR,
             f"ROS_AUTOMATIC_DISCOVERY_RANGE is '{found}', which is none of {', '.join(RANGES)}",
-            'nodes ignore it and look for others in the whole subnet',
-            'export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST',
+            'nodes take it for LOCALHOST, so they do not find those of other machines',
+            'export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET, or LOCALHOST',
         )
     elif found == 'OFF':
         yield Finding(
@@ -93,27 +95,18 @@ def _domain(facts: Network) -> Iterator[Finding]:
 
 
 def _interfaces(facts: Network) -> Iterator[Finding]:
-    loopback = [each for each in facts.interfaces if each.is_loopback and each.is_up]
-    if not loopback:
+    usable = [each for each in facts.interfaces if each.is_loopback and each.is_up]
+    if not any(each.address for each in usable):
         yield Finding(
             Severity.ERROR,
-            'the loopback interface is down',
+            'the loopback interface has no address'
+            if usable
+            else 'the loopback interface is down',
             'nodes on this machine do not find each other',
-            'sudo ip link set lo up',
+            'sudo ip addr add 127.0.0.1/8 dev lo' if usable else 'sudo ip link set lo up',
         )
-    if discovery_range(facts) == 'LOCALHOST':
-        return
-    others = [each for each in facts.interfaces if each.name in facts.multicast]
-    for each in others:
-        if not facts.multicast[each.name]:
-            yield Finding(
-                Severity.WARNING,
-                f"multicast does not work on the interface '{each.name}' ({each.address})",
-                'nodes announce themselves by multicast, so those behind it are not found',
-                f'sudo ip link set {each.name} multicast on, allow UDP in the firewall (sudo ufw '
-                'allow in proto udp to 224.0.0.0/4), or name the other machine: '
-                'export ROS_STATIC_PEERS=ADDRESS',
-            )
+    elif discovery_range(facts) not in WITHOUT_MULTICAST:
+        yield from multicast_findings(facts)
 
 
 def _profiles(facts: Network) -> Iterator[Finding]:

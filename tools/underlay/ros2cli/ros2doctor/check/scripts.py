@@ -4,12 +4,15 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+import shlex
 
 from ros2doctor.api.extension import DoctorCheck
 from ros2doctor.api.finding import Finding, Result, Severity
-from ros2doctor.facts.environment import set_up_command
+from ros2doctor.facts.prefix import environment_prefix
 from ros2doctor.facts.scripts import read_scripts, Script
+from ros2doctor.facts.wheels import install_command
 from ros_environment.advice import listing
 
 
@@ -22,31 +25,46 @@ class ScriptsCheck(DoctorCheck):
 
     def check(self) -> Result:
         """Return which installed scripts run with a wrong interpreter."""
-        return Result(script_findings(read_scripts(), set_up_command()))
+        return Result(script_findings(read_scripts(), mending_command))
 
 
-def script_findings(scripts: Iterable[Script], set_up: str) -> Iterator[Finding]:
-    """Yield one finding an interpreter that is missing or belongs to another environment."""
-    wrong: dict[str, list[Script]] = defaultdict(list)
+def script_findings(
+    scripts: Iterable[Script], mend: Callable[[Path | None], str]
+) -> Iterator[Finding]:
+    """Yield one finding an interpreter and workspace that do not fit; `mend` has the cure."""
+    wrong: dict[tuple[str, Path | None], list[Script]] = defaultdict(list)
     for script in scripts:
         is_wrong = not script.exists or (script.is_python and not script.is_own)
         if is_wrong and script.is_fixed:
-            wrong[script.interpreter].append(script)
-    mend = f'delete the folders build and install, then, after `{set_up}`: colcon build'
-    for interpreter, found in sorted(wrong.items()):
-        names = listing([script.path for script in found])
-        if not found[0].exists:
-            yield Finding(
-                Severity.ERROR,
-                f"the interpreter '{interpreter}' does not exist, but is named by: {names}",
-                'these programs cannot start: the environment that they were built with has been '
-                'moved or deleted',
-                mend,
-            )
-        else:
-            yield Finding(
-                Severity.ERROR,
-                f"'{interpreter}' is not the Python of this environment, but runs: {names}",
-                'that Python does not have the wheels, so these programs end with an ImportError',
-                mend,
-            )
+            wrong[script.interpreter, script.workspace].append(script)
+    for (interpreter, workspace), found in wrong.items():
+        yield _finding(interpreter, found, mend(workspace))
+
+
+def mending_command(workspace: Path | None) -> str:
+    """Return the command that writes the scripts of a workspace, or the environment, anew."""
+    if workspace is None:
+        return install_command()
+    environment = shlex.quote(f'{environment_prefix()}/setup.bash')
+    return (
+        f'cd {shlex.quote(str(workspace))} && rm -rf build install && source {environment} && '
+        'colcon build && source install/setup.bash'
+    )
+
+
+def _finding(interpreter: str, scripts: list[Script], mend: str) -> Finding:
+    names = listing([script.path for script in scripts])
+    if not scripts[0].exists:
+        return Finding(
+            Severity.ERROR,
+            f"the interpreter '{interpreter}' does not exist, but is named by: {names}",
+            'these programs cannot start: the environment that they were built with has been '
+            'moved or deleted',
+            mend,
+        )
+    return Finding(
+        Severity.ERROR,
+        f"'{interpreter}' is not the Python of this environment, but runs: {names}",
+        'that Python does not have the wheels, so these programs end with an ImportError',
+        mend,
+    )

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-import shlex
 
 from ros2doctor.api.extension import DoctorCheck
 from ros2doctor.api.finding import Finding, Result, Severity
@@ -35,7 +34,7 @@ def wheel_findings(facts: Wheels) -> Iterator[Finding]:
             Severity.ERROR,
             f'wheels are missing: {listing(missing)}',
             'what needs them ends with an ImportError',
-            _install_again(facts),
+            facts.install_again,
         )
     yield from _other_versions(facts)
     if not facts.pinned:
@@ -54,7 +53,7 @@ def _other_versions(facts: Wheels) -> Iterator[Finding]:
             Severity.ERROR,
             f'wheels of ROS have versions that do not belong together: {listing(ros)}',
             'their libraries were compiled for each other: others crash or do not load',
-            _install_again(facts),
+            facts.install_again,
         )
     rest = [text for name, text in others.items() if not name.startswith(ROS_PREFIX)]
     if rest:
@@ -62,7 +61,7 @@ def _other_versions(facts: Wheels) -> Iterator[Finding]:
             Severity.WARNING,
             f'wheels have other versions than the tested ones: {listing(rest)}',
             'builds and programs may behave differently from those of other people',
-            _install_again(facts),
+            facts.install_again,
         )
 
 
@@ -76,9 +75,3 @@ def _setuptools(facts: Wheels) -> Iterator[Finding]:
             'from version 80 on, `colcon build --symlink-install` fails',
             "python3 -m pip install 'setuptools<80'",
         )
-
-
-def _install_again(facts: Wheels) -> str:
-    """Return the command that installs the pins anew, also where the set-up seems complete."""
-    folder = shlex.quote(str(facts.root))
-    return f'cd {folder} && rm -f .venv/stamp/wheels .venv/stamp/underlay && make setup'

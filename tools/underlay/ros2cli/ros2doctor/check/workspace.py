@@ -27,15 +27,21 @@ class WorkspaceCheck(DoctorCheck):
 
 def workspace_findings(facts: Iterable[Workspace]) -> Iterator[Finding]:
     """Yield what has to be built or sourced in some workspaces."""
-    for workspace in facts:
+    for workspace in filter(_is_used, facts):
         built = [package for package in workspace.packages if package.is_built]
         if not built:
             yield _not_built(workspace.folder)
             continue
         if not any(package.is_known for package in built):
             yield _not_sourced(workspace.folder)
+            continue
         for package in workspace.packages:
             yield from _package_findings(workspace.folder, package)
+
+
+def _is_used(workspace: Workspace) -> bool:
+    """Tell whether a workspace is around the current folder, or sourced, not just near."""
+    return workspace.is_current or any(package.is_known for package in workspace.packages)
 
 
 def _package_findings(folder: Path, package: PackageState) -> Iterator[Finding]:
@@ -45,6 +51,13 @@ def _package_findings(folder: Path, package: PackageState) -> Iterator[Finding]:
             f"the package '{package.name}' in '{package.folder}' is not built",
             '`ros2 run` and `ros2 launch` do not find it',
             build_command(folder, package.name),
+        )
+    elif not package.is_known:
+        yield Finding(
+            Severity.WARNING,
+            f"the package '{package.name}' was built after this terminal was set up",
+            '`ros2 run` and `ros2 launch` do not find it here',
+            source_command(folder),
         )
     elif package.changed:
         yield Finding(

@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 import os
 from pathlib import Path
+import shlex
 import shutil
 import sys
 
-from ros2doctor.facts.scripts import is_own, read_script, Script
+from ros2doctor.facts.prefix import environment_prefix, is_own
+from ros2doctor.facts.scripts import read_script, Script
 
 PATH_VARIABLES = ('AMENT_PREFIX_PATH', 'CMAKE_PREFIX_PATH', 'COLCON_PREFIX_PATH', 'PYTHONPATH')
 
@@ -22,9 +24,9 @@ class Environment:
     What a shell passes on to the programs that it starts.
 
     :param python_version: major and minor version of the running Python
-    :param prefix: the virtual environment of the running Python
+    :param prefix: the virtual environment with the wheels
     :param rclpy: where rclpy would be imported from, if anywhere
-    :param other_python: what `python3` stands for, if it is not the running one
+    :param other_python: what `python3` stands for, if it is not that of the environment
     :param colcon: the program that `colcon` stands for, if any
     :param set_up: a command that sources what is near, or that makes it
     """
@@ -50,7 +52,7 @@ def read_environment() -> Environment:
     return Environment(
         variables=dict(os.environ),
         python_version=sys.version_info[:2],
-        prefix=sys.prefix,
+        prefix=environment_prefix(),
         rclpy=spec.origin if spec else None,
         other_python=python if python and not is_own(python) else None,
         colcon=read_script(Path(colcon)) if colcon else None,
@@ -59,13 +61,14 @@ def read_environment() -> Environment:
 
 
 def set_up_command() -> str:
-    """Return the command that gives a shell its environment, from what is there."""
-    from ros_environment.advice import source_command
+    """Return the command that gives a new shell its environment, from what is there."""
     from ros_environment.workspace import workspaces
 
     for workspace in workspaces():
-        if (workspace / 'install' / 'setup.bash').is_file():
-            return source_command(workspace)
+        script = workspace / 'install' / 'setup.bash'
+        if script.is_file():
+            return f'source {shlex.quote(str(script))}'
         if (workspace / 'tools' / 'setup').is_dir():
-            return f'cd {workspace} && make build && source install/setup.bash'
+            folder = shlex.quote(str(workspace))
+            return f'cd {folder} && make build && source install/setup.bash'
     return 'source install/setup.bash in the folder of your workspace'

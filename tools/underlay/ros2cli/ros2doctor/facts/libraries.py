@@ -6,7 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 import os
 from pathlib import Path
-import sys
+
+from ros2doctor.facts.prefix import environment_prefix
 
 MIDDLEWARE_LIBRARIES = ('librcl.so', 'librmw.so', 'libfastrtps.so', 'libfastcdr.so')
 SYSTEM_LIBRARIES = ('libstdc++.so.6', 'libssl.so.3', 'libz.so.1')
@@ -45,7 +46,7 @@ def read_libraries() -> Libraries:
     """Return the library path of this process."""
     texts = os.environ.get('LD_LIBRARY_PATH', '').split(os.pathsep)
     return Libraries(
-        own=os.path.join(sys.prefix, 'lib'),
+        own=os.path.join(environment_prefix(), 'lib'),
         search=tuple(_read_folder(Path(text)) for text in texts if text),
         set_by_shell=os.environ.get('_ROS_WHEELS_BOOTSTRAP_COMPLETE') == '1',
     )

@@ -9,17 +9,18 @@ import socket
 DDS_GROUP = '239.255.0.1'
 TIMEOUT_S = 0.5
 STAYS_HERE = 0
+TOKEN_BYTES = 8
 
 
-def is_delivered(address: str) -> bool:
-    """Tell whether a packet to the group of DDS comes back on the interface of an address."""
+def multicast_error(address: str) -> OSError | None:
+    """Return why no packet to the group of DDS comes back on the interface of an address."""
     try:
         with _receiver(address) as receiver, _sender(address) as sender:
-            token = os.urandom(8)
-            sender.sendto(token, (DDS_GROUP, receiver.getsockname()[1]))
-            return receiver.recv(len(token)) == token
-    except OSError:
-        return False
+            sender.sendto(os.urandom(TOKEN_BYTES), (DDS_GROUP, receiver.getsockname()[1]))
+            receiver.recv(TOKEN_BYTES)
+    except OSError as error:
+        return error
+    return None
 
 
 def _receiver(address: str) -> socket.socket:

@@ -10,7 +10,7 @@ from pathlib import Path
 import shutil
 
 from ros2doctor.facts.interfaces import Interface, read_interfaces
-from ros2doctor.facts.multicast import is_delivered
+from ros2doctor.facts.multicast import multicast_error
 
 SHARED_MEMORY = '/dev/shm'
 PORT_RANGE = Path('/proc/sys/net/ipv4/ip_local_port_range')
@@ -22,14 +22,14 @@ class Network:
     """
     What nodes need to find each other.
 
-    :param multicast: whether multicast is delivered, by name of interface
+    :param multicast: why multicast is not delivered, if it is not, by name of interface
     :param ephemeral_ports: the ports that the kernel gives to whoever asks for any
     :param shared_memory_bytes: the room left for messages on this machine; None without any
     """
 
     variables: Mapping[str, str]
     interfaces: tuple[Interface, ...]
-    multicast: Mapping[str, bool]
+    multicast: Mapping[str, OSError | None]
     ephemeral_ports: tuple[int, int]
     shared_memory_bytes: int | None
 
@@ -41,7 +41,7 @@ def read_network() -> Network:
         variables=dict(os.environ),
         interfaces=interfaces,
         multicast={
-            each.name: is_delivered(each.address)
+            each.name: multicast_error(each.address)
             for each in interfaces
             if each.is_up and each.address
         },

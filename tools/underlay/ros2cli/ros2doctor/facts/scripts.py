@@ -8,9 +8,11 @@ from dataclasses import dataclass
 import os
 from pathlib import Path
 import shutil
-import sys
+
+from ros2doctor.facts.prefix import environment_prefix, is_own
 
 LONGEST_LINE = 512
+INSTALL = 'install'
 
 
 @dataclass(frozen=True)
@@ -22,6 +24,7 @@ class Script:
     :param exists: whether there is such an interpreter
     :param is_python: whether it is a Python
     :param is_own: whether it is the one of this environment
+    :param workspace: the folder in which colcon has installed the program, if it has
     """
 
     path: str
@@ -30,6 +33,7 @@ class Script:
     exists: bool
     is_python: bool
     is_own: bool
+    workspace: Path | None = None
 
 
 def read_scripts() -> list[Script]:
@@ -56,18 +60,13 @@ def read_script(path: Path) -> Script | None:
         exists=os.path.exists(program),
         is_python=os.path.basename(program).startswith('python'),
         is_own=is_own(program),
+        workspace=_workspace(path),
     )
 
 
-def is_own(program: str) -> bool:
-    """
-    Tell whether a Python is that of this environment.
-
-    Folders are compared, because the Python of an environment is a link to that of the system.
-    """
-    return os.path.realpath(os.path.dirname(program)) == os.path.realpath(
-        os.path.dirname(sys.executable)
-    )
+def _workspace(path: Path) -> Path | None:
+    """Return the folder with the install folder that a program is in."""
+    return next((each.parent for each in path.parents if each.name == INSTALL), None)
 
 
 def _paths() -> Iterator[Path]:
@@ -75,6 +74,6 @@ def _paths() -> Iterator[Path]:
     from ros_environment.installed import prefixes
 
     for name in ('ros2', 'colcon', 'pytest'):
-        yield Path(sys.executable).with_name(name)
+        yield Path(environment_prefix(), 'bin', name)
     for package in get_package_names() if prefixes() else ():
         yield from map(Path, get_executable_paths(package_name=package))

@@ -8,8 +8,11 @@ from dataclasses import dataclass
 from importlib.metadata import distributions
 from pathlib import Path
 import re
-import sys
+import shlex
 
+from ros2doctor.facts.prefix import environment_prefix
+
+STAMPS = ('wheels', 'underlay')
 PIN = re.compile(r'^([A-Za-z0-9._-]+)==([^ ;]+)(?: *; *(.*))?$')
 
 
@@ -19,11 +22,13 @@ class Wheels:
     Versions by name of distribution.
 
     :param root: the workspace whose requirements.txt has the pins; None if there is none
+    :param install_again: the command that installs what is pinned
     """
 
     installed: Mapping[str, str]
     pinned: Mapping[str, str]
     root: Path | None
+    install_again: str
 
 
 def read_wheels() -> Wheels:
@@ -35,7 +40,18 @@ def read_wheels() -> Wheels:
         for item in reversed(list(distributions()))
         if item.metadata['Name']
     }
-    return Wheels(installed, pins(text), root)
+    return Wheels(installed, pins(text), root, install_command())
+
+
+def install_command() -> str:
+    """Return the command that installs the pins anew, also where the set-up seems complete."""
+    root, environment = _root(), Path(environment_prefix())
+    if root is None:
+        return 'install the wheels of your environment again, with python3 -m pip'
+    stamps = ' '.join(shlex.quote(str(environment / 'stamp' / name)) for name in STAMPS)
+    elsewhere = environment.resolve() != (root / '.venv').resolve()
+    place = f' VENV={shlex.quote(str(environment))}' if elsewhere else ''
+    return f'rm -f {stamps} && make -C {shlex.quote(str(root))} setup{place}'
 
 
 def pins(requirements: str) -> dict[str, str]:
@@ -62,7 +78,7 @@ def _applies(marker: str | None) -> bool:
 def _root() -> Path | None:
     """Return the workspace that has made this environment, if one has."""
     try:
-        home = Path(sys.prefix, 'stamp', 'home').read_text(encoding='utf-8')
+        home = Path(environment_prefix(), 'stamp', 'home').read_text(encoding='utf-8')
     except OSError:
         return None
     root = Path(home.split('\n')[0])

@@ -37,10 +37,15 @@ class PackageState:
 
 @dataclass(frozen=True)
 class Workspace:
-    """A colcon workspace."""
+    """
+    A colcon workspace.
+
+    :param is_current: whether the current folder is in it
+    """
 
     folder: Path
     packages: tuple[PackageState, ...]
+    is_current: bool
 
 
 def read_workspaces() -> list[Workspace]:
@@ -52,7 +57,9 @@ def read_workspaces() -> list[Workspace]:
 def _read_workspace(folder: Path, known: set[str]) -> Workspace:
     packages = source_packages(folder).values()
     return Workspace(
-        folder, tuple(_read_package(folder / 'install', each, known) for each in packages)
+        folder,
+        tuple(_read_package(folder / 'install', each, known) for each in packages),
+        is_current=folder in (Path.cwd(), *Path.cwd().parents),
     )
 
 
@@ -96,8 +103,17 @@ def _source_files(folder: Path) -> Iterator[Path]:
 
 
 def _differs(source: Path, copies: list[Path]) -> bool:
-    """Compare a file with its copies; one without copies counts if others are made from it."""
+    """Compare a file with its copies; one without copies counts if it should have some."""
     existing = [copy for copy in copies if copy.is_file()]
     if not existing:
-        return source.suffix in COMPILED or source.name in BUILD_FILES
+        return _is_built_from(source) or any(map(_has_siblings, copies))
     return not any(filecmp.cmp(source, copy, shallow=False) for copy in existing)
+
+
+def _is_built_from(source: Path) -> bool:
+    return source.suffix in COMPILED or source.name in BUILD_FILES
+
+
+def _has_siblings(copy: Path) -> bool:
+    """Tell whether files of the same kind are where a copy would be."""
+    return bool(copy.suffix) and any(copy.parent.glob(f'*{copy.suffix}'))

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from ros2doctor.api.extension import DoctorReport
 from ros2doctor.api.report import Report
+from ros2doctor.check.multicast import multicast_state
 from ros2doctor.check.network import discovery_range
 from ros2doctor.facts.interfaces import Interface
 from ros2doctor.facts.network import Network, read_network
@@ -35,6 +36,5 @@ class NetworkReport(DoctorReport):
 def _state(facts: Network, interface: Interface) -> str:
     words = [interface.address or 'no IPv4 address', 'up' if interface.is_up else 'down']
     if interface.name in facts.multicast:
-        works = 'works' if facts.multicast[interface.name] else 'does not work'
-        words.append(f'multicast {works}')
+        words.append(multicast_state(facts.multicast[interface.name]))
     return ', '.join(words)

@@ -47,12 +47,11 @@ def _missing_text(name: str, path: str) -> str:
 
 def _closest(name: str) -> str:
     """Return a line with the interface that may be meant, or ''."""
-    from ros2cli.suggest import did_you_mean
+    from ros2cli.suggest import closest_name
 
-    package, _, type_name = name.partition('/')
-    if package not in get_interface_packages() or type_name in HEADINGS:
+    package, _, rest = name.partition('/')
+    if not rest or rest in HEADINGS or package not in get_interface_packages():
         return ''
-    known = get_interfaces(package, HEADINGS)
-    exact = [full_name for full_name in known if full_name.endswith(f'/{type_name}')]
-    hint = did_you_mean(exact[0] if exact else name, known)
-    return f'\n{hint}' if hint else ''
+    known = {each.rpartition('/')[2]: each for each in get_interfaces(package, HEADINGS)}
+    found = closest_name(name.rpartition('/')[2], known)
+    return f'\nDid you mean {known[found]!r}?' if found else ''

@@ -36,10 +36,26 @@ class ShowVerb(VerbExtension):
         from ros2interface.api.definition import read_definition
         from ros2interface.api.expansion import expand
 
-        name = sys.stdin.readline().strip() if args.type == STDIN else args.type
         lines = expand(
-            read_definition(name), all_comments=args.all_comments, no_comments=args.no_comments
+            read_definition(_type_or_stdin(args.type)),
+            all_comments=args.all_comments,
+            no_comments=args.no_comments,
         )
         for line in list(lines):
             print(line)
         return None
+
+
+def _type_or_stdin(text: str) -> str:
+    """Return the name of a type, which may be the first line of standard input."""
+    if text != STDIN:
+        return text
+    if sys.stdin.isatty():
+        raise RuntimeError(
+            f"'{STDIN}' reads the name of an interface from a pipe, but standard input is a "
+            f'terminal. Write: echo std_msgs/msg/String | ros2 interface show {STDIN}'
+        )
+    name = sys.stdin.readline().strip()
+    if not name:
+        raise RuntimeError('Standard input has no name of an interface in its first line')
+    return name

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterValue, SetParametersResult
@@ -18,6 +18,7 @@ __all__ = [
     'list_parameters',
     'set_parameter',
     'unknown_parameter_hint',
+    'unknown_parameter_text',
 ]
 
 LIST_SERVICE = '/list_parameters'
@@ -60,7 +61,14 @@ def set_parameter(
 
 
 def unknown_parameter_hint(node: Any, node_name: str, name: str) -> str:
-    """Return a question that names the parameter of the node which may be meant, or ''."""
+    """Return that a node has no such parameter and which one may be meant; '' if it has it."""
+    known = list_parameters(node, node_name)
+    return '' if name in known else unknown_parameter_text(node_name, name, known)
+
+
+def unknown_parameter_text(node_name: str, name: str, known: Collection[str]) -> str:
+    """Return that a node has no such parameter, and which of its own may be meant."""
     from ros2cli.suggest import did_you_mean
 
-    return did_you_mean(name, list_parameters(node, node_name))
+    text = f"The node '{node_name}' has no parameter '{name}'."
+    return f'{text} {did_you_mean(name, known)}'.rstrip()

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 import re
 from typing import Any
 
@@ -20,17 +20,13 @@ def read_parameters(
     path: str, node_name: str, *, use_wildcard: bool = True
 ) -> dict[str, ParameterValue]:
     """Return a node's parameters; what a file says for many nodes gives way to its own."""
-    sections = dict(_sections(_read(path), ''))
-    exact = [name for name in sections if name == node_name]
-    general = [name for name in sections if WILDCARD in name and matches(name, node_name)]
-    chosen = [*(general if use_wildcard else ()), *exact]
-    if not chosen:
-        raise RuntimeError(
-            f"Param file '{path}' does not contain parameters for {node_name}, only for nodes: "
-            f'{sorted(sections)}'
-        )
-    plain = {name: value for key in chosen for name, value in flatten(sections[key])}
-    return {name: to_value(value, str(value)) for name, value in plain.items()}
+    try:
+        sections = dict(_sections(_read(path), ''))
+        chosen = _chosen(sections, node_name, use_wildcard=use_wildcard)
+        plain = {name: value for key in chosen for name, value in flatten(sections[key])}
+        return {name: _value(name, value) for name, value in plain.items()}
+    except _Mistake as error:
+        raise RuntimeError(f"The parameter file '{path}' {error}") from error
 
 
 def matches(pattern: str, node_name: str) -> bool:
@@ -41,16 +37,34 @@ def matches(pattern: str, node_name: str) -> bool:
     return re.fullmatch(expression, node_name) is not None
 
 
+class _Mistake(Exception):
+    """What is wrong with a file, as the end of a sentence about it."""
+
+
+def _chosen(sections: Collection[str], node_name: str, *, use_wildcard: bool) -> list[str]:
+    """Return the sections that are for a node, its own one last."""
+    exact = [name for name in sections if name == node_name]
+    general = [name for name in sections if WILDCARD in name and matches(name, node_name)]
+    chosen = [*(general if use_wildcard else ()), *exact]
+    if not chosen:
+        raise _Mistake(
+            f'does not contain parameters for {node_name}, only for nodes: {sorted(sections)}'
+        )
+    return chosen
+
+
 def _read(path: str) -> Mapping[Any, Any]:
     try:
         with open(path, encoding='utf-8') as stream:
             document = yaml.safe_load(stream)
-    except (OSError, UnicodeDecodeError) as error:
-        raise RuntimeError(f"The parameter file '{path}' cannot be read: {error}") from error
+    except OSError as error:
+        raise _Mistake(f'cannot be read: {error.strerror}') from error
+    except UnicodeDecodeError as error:
+        raise _Mistake(f'cannot be read: {error}') from error
     except yaml.YAMLError as error:
-        raise RuntimeError(f"The parameter file '{path}' is no YAML: {error}") from error
+        raise _Mistake(f'is no YAML: {error}') from error
     if not isinstance(document, Mapping):
-        raise RuntimeError(f"The parameter file '{path}' has no names of nodes")
+        raise _Mistake('has no names of nodes')
     return document
 
 
@@ -59,11 +73,32 @@ def _sections(document: Mapping[Any, Any], prefix: str) -> Iterator[tuple[str, M
     for key, value in document.items():
         name = f'{prefix}/{str(key).strip("/")}'
         if not isinstance(value, Mapping):
-            raise RuntimeError(
-                f"In a parameter file '{name}' needs a mapping with '{PARAMETERS}', but has "
-                f'{value!r}'
-            )
+            raise _Mistake(_misplaced_text(name, value))
         if PARAMETERS in value:
-            yield name, value[PARAMETERS] or {}
+            yield name, _parameters(name, value[PARAMETERS])
         else:
             yield from _sections(value, name)
+
+
+def _parameters(node_name: str, value: Any) -> Mapping[Any, Any]:
+    if not isinstance(value, Mapping | None):
+        raise _Mistake(
+            f"needs names with values below '{PARAMETERS}' of '{node_name}', not {value!r}"
+        )
+    return value or {}
+
+
+def _misplaced_text(name: str, value: Any) -> str:
+    """Return that a value is outside of the parameters, and which name may be misspelt."""
+    text = f"has the value {value!r} for '{name}', which is not below '{PARAMETERS}'"
+    misspelt = [part for part in name.split('/') if 'parameters' in part]
+    return f"{text}: '{misspelt[-1]}' needs two underscores" if misspelt else text
+
+
+def _value(name: str, value: Any) -> ParameterValue:
+    if value is None:
+        raise _Mistake(f"has no value for the parameter '{name}'")
+    try:
+        return to_value(value, str(value))
+    except RuntimeError as error:
+        raise _Mistake(f"has a wrong value for the parameter '{name}': {error}") from error

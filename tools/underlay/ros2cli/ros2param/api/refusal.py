@@ -3,27 +3,27 @@
 
 from __future__ import annotations
 
-import argparse
 from typing import Any
 
 from rcl_interfaces.msg import ParameterValue
 from ros2param.api import get_parameters, unknown_parameter_hint
-from ros2param.api.values import type_name, TYPES
+from ros2param.api.values import to_plain_value, type_name, TYPES
 
 
-def refusal_hint(
-    node: Any, node_name: str, args: argparse.Namespace, value: ParameterValue, reason: str
-) -> str:
+def refusal_hint(node: Any, node_name: str, name: str, value: ParameterValue, reason: str) -> str:
     """Return what is wrong with a parameter's name, or with the type that a node refuses."""
-    current = get_parameters(node, node_name, [args.parameter_name])[0]
+    current = get_parameters(node, node_name, [name])[0]
     if current.type not in TYPES:
-        return unknown_parameter_hint(node, node_name, args.parameter_name)
+        return unknown_parameter_hint(node, node_name, name)
     if current.type == value.type or 'type' not in reason:
         return ''
     wanted, given = type_name(current.type), type_name(value.type)
-    text = f"'{args.parameter_name}' is of the type {wanted}, but {args.value!r} is {given}."
+    plain = to_plain_value(value)
+    text = f"'{name}' is of the type {wanted}, but {plain!r} is {given}."
     if (wanted, given) == ('double', 'integer'):
-        return f'{text} Write {float(value.integer_value)}.'
+        return f'{text} Write {float(plain)}.'
+    if (wanted, given) == ('double array', 'integer array'):
+        return f'{text} Write {[float(item) for item in plain]}.'
     if wanted == 'string':
-        return f'{text} Put it in two kinds of quotes: "\'{args.value}\'"'
+        return f"{text} Quotes make it a string: '...' in a file, \"'...'\" in a terminal."
     return text

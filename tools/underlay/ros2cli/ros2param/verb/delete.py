@@ -26,14 +26,15 @@ class DeleteVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print what the node says; a refusal is no error, but is told on stderr."""
         from rcl_interfaces.msg import ParameterValue
-        from ros2param.api import set_parameter
+        from ros2param.api import set_parameter, unknown_parameter_hint
         from ros2param.api.remote import remote_node
 
         with remote_node(args) as (node, name):
             result = set_parameter(node, name, args.parameter_name, ParameterValue())
-        reason = f': {result.reason}' if result.reason else ''
-        if result.successful:
-            print(f'Deleted parameter successfully{reason}')
-            return None
-        print(f'Deleting parameter failed{reason}', file=sys.stderr)
+            reason = f': {result.reason}' if result.reason else ''
+            if result.successful:
+                print(f'Deleted parameter successfully{reason}')
+                return None
+            hint = unknown_parameter_hint(node, name, args.parameter_name)
+        print(f'Deleting parameter failed{reason}\n{hint}'.rstrip(), file=sys.stderr)
         return None

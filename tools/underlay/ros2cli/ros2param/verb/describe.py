@@ -21,7 +21,11 @@ class DescribeVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the description of each parameter that the node has."""
-        from ros2param.api import describe_parameters, list_parameters
+        from ros2param.api import (
+            describe_parameters,
+            list_parameters,
+            unknown_parameter_text,
+        )
         from ros2param.api.description import description_lines
         from ros2param.api.remote import remote_node
 
@@ -33,12 +37,5 @@ class DescribeVerb(VerbExtension):
             print('\n'.join(description_lines(descriptor)))
         for each in args.parameter_names:
             if each not in known:
-                print(_unknown_text(name, each, known), file=sys.stderr)
+                print(unknown_parameter_text(name, each, known), file=sys.stderr)
         return None
-
-
-def _unknown_text(node_name: str, parameter: str, known: set[str]) -> str:
-    from ros2cli.suggest import did_you_mean
-
-    text = f"The node '{node_name}' has no parameter '{parameter}'."
-    return f'{text} {did_you_mean(parameter, known)}'.rstrip()

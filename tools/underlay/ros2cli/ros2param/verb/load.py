@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from typing import Any
 
 from ros2param.api.arguments import add_node_name_argument, add_param_arguments
 from ros2param.verb import VerbExtension
@@ -26,7 +27,6 @@ class LoadVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Set the parameters one by one and print what the node says to each."""
-        from ros2param.api import set_parameter
         from ros2param.api.file import read_parameters
         from ros2param.api.remote import remote_node
 
@@ -35,10 +35,18 @@ class LoadVerb(VerbExtension):
                 args.parameter_file, name, use_wildcard=not args.no_use_wildcard
             )
             for parameter, value in values.items():
-                result = set_parameter(node, name, parameter, value)
-                reason = f': {result.reason}' if result.reason else ''
-                if result.successful:
-                    print(f'Set parameter {parameter} successful{reason}')
-                else:
-                    print(f'Set parameter {parameter} failed{reason}', file=sys.stderr)
+                _set(node, name, parameter, value)
         return None
+
+
+def _set(node: Any, node_name: str, parameter: str, value: Any) -> None:
+    from ros2param.api import set_parameter
+    from ros2param.api.refusal import refusal_hint
+
+    result = set_parameter(node, node_name, parameter, value)
+    reason = f': {result.reason}' if result.reason else ''
+    if result.successful:
+        print(f'Set parameter {parameter} successful{reason}')
+        return
+    hint = refusal_hint(node, node_name, parameter, value, reason)
+    print(f'Set parameter {parameter} failed{reason}\n{hint}'.rstrip(), file=sys.stderr)

@@ -38,6 +38,6 @@ class SetVerb(VerbExtension):
             if result.successful:
                 print(f'Set parameter successful{reason}')
                 return None
-            hint = refusal_hint(node, name, args, value, reason)
+            hint = refusal_hint(node, name, args.parameter_name, value, reason)
         print(f'Setting parameter failed{reason}\n{hint}'.rstrip(), file=sys.stderr)
         return None

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Judge by which interfaces nodes can announce themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import errno
+
+from ros2doctor.api.finding import Finding, Severity
+from ros2doctor.facts.interfaces import Interface
+from ros2doctor.facts.network import Network
+
+
+def multicast_findings(facts: Network) -> Iterator[Finding]:
+    """Yield the interfaces on which multicast does not work; on none at all is an error."""
+    tried = [each for each in facts.interfaces if each.name in facts.multicast]
+    deaf = [each for each in tried if facts.multicast[each.name]]
+    if tried and len(deaf) == len(tried):
+        yield _nowhere(deaf, facts)
+        return
+    for each in deaf:
+        if not each.is_loopback:
+            yield _on_interface(each, facts.multicast[each.name])
+
+
+def multicast_state(error: OSError | None) -> str:
+    """Return in a few words whether multicast works."""
+    if error is None:
+        return 'multicast works'
+    reason = 'packets do not arrive' if isinstance(error, TimeoutError) else error.strerror
+    return f'multicast does not work: {reason}'
+
+
+def _nowhere(deaf: list[Interface], facts: Network) -> Finding:
+    states = {each.name: multicast_state(facts.multicast[each.name]) for each in deaf}
+    first = deaf[0]
+    return Finding(
+        Severity.ERROR,
+        'no network interface delivers multicast '
+        f'({", ".join(f"{name}: {state}" for name, state in states.items())})',
+        'nodes announce themselves by multicast: they do not even find those on this machine',
+        f'{_mend(first, facts.multicast[first.name])}, or do without other machines: '
+        'export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST',
+    )
+
+
+def _on_interface(interface: Interface, error: OSError | None) -> Finding:
+    return Finding(
+        Severity.WARNING,
+        f"on the interface '{interface.name}' ({interface.address}), {multicast_state(error)}",
+        'nodes announce themselves by multicast, so those behind it are not found',
+        f'{_mend(interface, error)}, or name the other machine: export ROS_STATIC_PEERS=ADDRESS',
+    )
+
+
+def _mend(interface: Interface, error: OSError | None) -> str:
+    if isinstance(error, TimeoutError):
+        return 'allow it in the firewall: sudo ufw allow in proto udp to 224.0.0.0/4'
+    if error is not None and error.errno == errno.ENOBUFS:
+        return 'sudo sysctl net.ipv4.igmp_max_memberships=20'
+    return f'sudo ip link set {interface.name} multicast on'
