@@ -7,19 +7,31 @@ import argparse
 from collections.abc import Sequence
 import io
 import os
+import signal
 import sys
+from typing import NoReturn
 
 from ros2cli.command_table import COMMANDS
 from ros2cli.exit_status import run_to_status
+from ros2cli.parser import CommandParser
+from ros2cli.standard_streams import open_standard_streams
 from ros2cli.subparsers import add_lazy_subparsers
 
 COMMAND_GROUP = 'ros2cli.command'
 COMPLETION_VARIABLE = '_ARGCOMPLETE'
 
 
+def run() -> NoReturn:
+    """Run the command of this process and end it; Ctrl-C no longer disturbs the end."""
+    status = main()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    sys.exit(status)
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one `ros2` command and return its exit status."""
     words = list(sys.argv[1:] if argv is None else argv)
+    open_standard_streams()
     if COMPLETION_VARIABLE in os.environ:
         return run_to_status(_complete)
     return run_to_status(lambda: _run_command(words))
@@ -46,7 +58,7 @@ def _run_command(argv: list[str]) -> int | str | None:
 
 def create_parser(argv: Sequence[str]) -> argparse.ArgumentParser:
     """Return the root parser, complete for the command that `argv` names."""
-    parser = argparse.ArgumentParser(
+    parser = CommandParser(
         prog='ros2',
         description='ros2 is an extensible command-line tool for ROS 2.',
         formatter_class=argparse.RawDescriptionHelpFormatter,
