@@ -10,7 +10,7 @@ case $- in
         _ARGCOMPLETE=1 _ARGCOMPLETE_SHELL=bash _ARGCOMPLETE_IFS=$'\n' \
         _ARGCOMPLETE_SUPPRESS_SPACE=0 _ARGCOMPLETE_COMP_WORDBREAKS=$COMP_WORDBREAKS \
         COMP_LINE=$COMP_LINE COMP_POINT=$COMP_POINT COMP_TYPE=$COMP_TYPE \
-        "$1" 8>&1 9>/dev/null >/dev/null 2>&1 </dev/null
+        "$1" 8>&1 9>/dev/null >/dev/null 2>&1 </dev/null || :
       )
       COMPREPLY=()
       [ -z "$words" ] || mapfile -t COMPREPLY <<< "$words"

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Run the command line with `python3 -m ros2cli`."""
 
-import sys
+from ros2cli.cli import run
 
-from ros2cli.cli import main
-
-sys.exit(main())
+run()

@@ -7,19 +7,30 @@ import argparse
 from collections.abc import Sequence
 import io
 import os
+import signal
 import sys
+from typing import NoReturn
 
 from ros2cli.command_table import COMMAND_GROUP, COMMANDS
 from ros2cli.exit_status import run_to_status
 from ros2cli.parser import HelpFormatter, Parser
+from ros2cli.standard_streams import open_standard_streams
 from ros2cli.subparsers import add_lazy_subparsers
 
 COMPLETION_VARIABLE = '_ARGCOMPLETE'
 
 
+def run() -> NoReturn:
+    """Run the command of this process and end it; Ctrl-C no longer disturbs the end."""
+    status = main()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    sys.exit(status)
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one `ros2` command and return its exit status."""
     words = list(sys.argv[1:] if argv is None else argv)
+    open_standard_streams()
     if COMPLETION_VARIABLE in os.environ:
         return run_to_status(_complete)
     return run_to_status(lambda: _run_command(words))

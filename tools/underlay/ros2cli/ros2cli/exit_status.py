@@ -61,8 +61,8 @@ def _to_status(result: int | str | None) -> int:
 
 
 def _flush() -> None:
-    """Write what is left; a stream that was closed from the start is None."""
-    if sys.stdout is not None and not sys.stdout.closed:
+    """Write what is left, unless the command has closed the stream."""
+    if not sys.stdout.closed:
         sys.stdout.flush()
 
 

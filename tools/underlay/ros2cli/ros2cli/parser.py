@@ -39,6 +39,10 @@ class Parser(argparse.ArgumentParser):
             words = options_first(words, self._option_string_actions)
         return super().parse_known_args(words, namespace)
 
+    def print_help(self, file: Any = None) -> None:
+        """Print the help like any other output; argparse hides that it cannot be written."""
+        print(self.format_help(), end='', file=file or sys.stdout)
+
     def _takes_any_order(self) -> bool:
         """Tell if there are positionals, and none takes all words, whatever they look like."""
         kinds = [action.nargs for action in self._actions if not action.option_strings]

@@ -110,6 +110,7 @@ def test_command_is_more_precise_than_argument() -> None:
         ('ros2 pkg prefix demo_', ['demo_pkg ']),
         ('ros2 topic find sensor_msgs/msg/JointS', ['sensor_msgs/msg/JointState ']),
         ('ros2 topic find sensor_m', None),
+        ('ros2 pkg create --license Ap', ['Apache-2.0 ']),
         ('ros2 nope ', ['']),
         ('ros2 run nope ', ['']),
         ('ros2 launch demo_pkg nope.launch.py ', ['']),
@@ -135,6 +136,53 @@ def test_file_instead_of_package(complete: Complete, prefix: Path) -> None:
 def test_cursor_inside_the_line(complete: Complete) -> None:
     """Only what is before the cursor counts."""
     assert complete('ros2 launch demo_ -n', len('ros2 launch demo_')) == ['demo_pkg ']
+
+
+@pytest.mark.parametrize('written', ['{}', '"{}', "'{}"])
+def test_path_that_needs_quotes(complete: Complete, prefix: Path, written: str) -> None:
+    """Spaces and apostrophes in a path are quoted in the manner of the line."""
+    path = prefix / "robin's files"
+    path.mkdir()
+    (path / 'demo.launch.py').touch()
+    begin = str(path).replace("'", "'\\''" if written.startswith("'") else "'")
+    if written == '{}':
+        begin = begin.replace("'", "\\'").replace(' ', '\\ ')
+    end = ' ' if written == '{}' else ''
+    assert complete(f'ros2 launch {written.format(begin)}/d') == [f'{begin}/demo.launch.py{end}']
+
+
+def test_variable_in_path(complete: Complete, prefix: Path) -> None:
+    """A path that begins with a variable keeps it."""
+    (prefix / 'bag').mkdir()
+    (prefix / 'bag.mcap').touch()
+    (prefix / 'bag.txt').touch()
+    assert complete('ros2 bag play $ROS_HOME/ba') == ['$ROS_HOME/bag.mcap', '$ROS_HOME/bag/']
+
+
+def test_zsh_quotes_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    """For zsh only what separates a word from its description is escaped."""
+    from ros2cli.completion.finder import Finder
+
+    monkeypatch.setenv('_ARGCOMPLETE_SHELL', 'zsh')
+    assert Finder().quote_completions(["world:=it's here"], '"', None) == ["world\\:=it's here"]
+
+
+def test_nodes_by_what_they_offer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where only nodes with a life cycle, or containers, make sense no others are offered."""
+    from argparse import Namespace
+
+    from ros2cli.completion import graph
+    from ros2cli.completion.names import Names
+
+    services = {
+        '/box/_container/load_node': ['composition_interfaces/srv/LoadNode'],
+        '/lamp/get_state': ['lifecycle_msgs/srv/GetState'],
+        '/arm/get_state': ['demo_msgs/srv/Pose'],
+    }
+    found = Names({}, services, ['/arm', '/box', '/lamp'])
+    monkeypatch.setattr(graph, 'graph_names', lambda: found)
+    assert graph.lifecycle_nodes('', Namespace()) == ['/lamp']
+    assert graph.containers('', Namespace()) == ['/box']
 
 
 @pytest.mark.usefixtures('talker')

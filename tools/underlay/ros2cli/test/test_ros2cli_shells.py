@@ -22,6 +22,7 @@ SCRIPTS = Path(__file__).parents[1] / 'completion'
 PROMPT = 'ready> '
 TIMEOUT_S = 30.0
 INTERRUPT = '\x03'
+DELETE_LINE = '\x15'
 
 pytestmark = pytest.mark.skipif(not shutil.which('bash'), reason='there is no bash')
 
@@ -75,24 +76,52 @@ def _state(pid: str) -> str:
 
 
 @pytest.fixture
-def bash(tmp_path: Path, ros_environment_variables: dict[str, str]) -> Iterator[Terminal]:
-    """Run an interactive bash with the completion of `ros2`."""
+def environment(tmp_path: Path, ros_environment_variables: dict[str, str]) -> dict[str, str]:
+    """Return the environment of a shell that finds this `ros2`."""
     program = tmp_path / 'bin' / 'ros2'
     program.parent.mkdir()
     program.write_text(f'#!/bin/sh\nexec {quote(sys.executable)} -m ros2cli "$@"\n')
     program.chmod(0o755)
-    rc = tmp_path / 'rc'
-    rc.write_text(
-        f"PS1='{PROMPT}'\nbind 'set bell-style none' 'set enable-bracketed-paste off'\n"
-        f'source {quote(str(SCRIPTS / "ros2.bash"))}\n'
-    )
-    environment = {
+    return {
         **ros_environment_variables,
         'PATH': f'{program.parent}:{os.environ["PATH"]}',
         'ROS_HOME': str(tmp_path),
         'TERM': 'dumb',
+        'ZDOTDIR': str(tmp_path),
     }
-    terminal = Terminal(['bash', '--noprofile', '--rcfile', str(rc), '-i'], environment)
+
+
+def start_shell(name: str, folder: Path, environment: dict[str, str]) -> Terminal:
+    """Start an interactive shell with the completion of `ros2`, as strict as a shell can be."""
+    if not shutil.which(name):
+        pytest.skip(f'there is no {name}')
+    script = quote(str(SCRIPTS / f'ros2.{name}'))
+    rc = folder / '.zshrc'
+    options, command = {
+        'bash': (
+            "bind 'set bell-style none' 'set enable-bracketed-paste off'; set -u -o noclobber",
+            ['bash', '--noprofile', '--rcfile', str(rc), '-i'],
+        ),
+        'zsh': ('unsetopt prompt_cr; setopt nounset ksharrays shwordsplit', ['zsh', '-d', '-i']),
+    }[name]
+    rc.write_text(f"PS1='{PROMPT}'\nset -e\nsource {script}\n{options}\n")
+    return Terminal(command, environment)
+
+
+@pytest.fixture
+def bash(tmp_path: Path, environment: dict[str, str]) -> Iterator[Terminal]:
+    """Run bash."""
+    terminal = start_shell('bash', tmp_path, environment)
+    yield terminal
+    terminal.close()
+
+
+@pytest.fixture(params=['bash', 'zsh'])
+def shell(
+    request: pytest.FixtureRequest, tmp_path: Path, environment: dict[str, str]
+) -> Iterator[Terminal]:
+    """Run each of the shells."""
+    terminal = start_shell(request.param, tmp_path, environment)
     yield terminal
     terminal.close()
 
@@ -106,10 +135,12 @@ def test_tab_completes_a_word(bash: Terminal) -> None:
     assert bash.children() == []
 
 
-def test_colons_and_equals_signs_are_kept(bash: Terminal, tmp_path: Path) -> None:
+@pytest.mark.parametrize('quotation', ['', '"', "'"])
+def test_launch_arguments(shell: Terminal, tmp_path: Path, quotation: str) -> None:
     """An argument's name ends with `:=`, directly after which its value is completed."""
-    path = tmp_path / 'x.launch.py'
-    path.write_text(
+    folder = tmp_path / 'two words'
+    folder.mkdir()
+    (folder / 'x.launch.py').write_text(
         'import sys\n'
         "print('noise')\n"
         "print('noise', file=sys.stderr)\n"
@@ -119,11 +150,25 @@ def test_colons_and_equals_signs_are_kept(bash: Terminal, tmp_path: Path) -> Non
         '    return LaunchDescription([\n'
         "        DeclareLaunchArgument('robot', choices=['nao', 'wolfgang'])])\n"
     )
-    bash.press(f'ros2 launch {path} ro\t')
-    bash.wait_for('robot:=')
-    bash.press('w\t')
-    bash.wait_for('wolfgang ')
-    assert 'noise' not in bash.shown
+    begin = str(folder) if quotation else str(folder).replace(' ', '\\ ')
+    shell.press(f'ros2 launch {quotation}{begin}/x\t')
+    shell.wait_for('.launch.py')
+    shell.press(' ro\t')
+    shell.wait_for('bot:=')
+    shell.press('w\t')
+    shell.wait_for('olfgang')
+    assert 'noise' not in shell.shown
+
+
+def test_program_is_missing(shell: Terminal) -> None:
+    """Where there is no `ros2` (any more), TAB does nothing, and the shell lives on."""
+    shell.press('PATH=/nowhere\n')
+    shell.wait_for(PROMPT)
+    shell.press('ros2 la\t')
+    shell.read(1.0)
+    shell.press(f'{DELETE_LINE}echo $((1 + 1))alive\n')
+    shell.wait_for('2alive')
+    assert 'not found' not in shell.shown
 
 
 def test_two_tabs_show_the_choices(bash: Terminal) -> None:

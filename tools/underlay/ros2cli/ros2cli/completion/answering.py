@@ -22,12 +22,12 @@ DEADLINE_S = 4.0
 def answer(create_parser: Callable[[Sequence[str]], argparse.ArgumentParser]) -> None:
     """Write the possible words where the shell waits for them, and end the process."""
     _end_before_it_annoys()
-    import argcomplete
     from argcomplete.lexers import split_line
+    from ros2cli.completion.finder import Finder
 
     line = os.environ['COMP_LINE']
     *_, words, _ = split_line(line, int(os.environ.get('COMP_POINT', len(line))))
-    argcomplete.autocomplete(
+    Finder()(
         create_parser(words[1:]),
         always_complete_options=False,
         default_completer=_complete,

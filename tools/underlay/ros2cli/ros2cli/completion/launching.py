@@ -11,22 +11,22 @@ from pathlib import Path
 from typing import Any
 
 from ament_index_python.packages import get_packages_with_prefixes
+from ros2cli.completion.files import as_path, files, files_of_kind
 from ros2launch.api.arguments import SEPARATOR
 from ros_environment.installed import launch_files, LAUNCH_SUFFIXES
 
-FILE_SUFFIXES = ('launch', 'py', 'xml', 'yaml', 'yml')
+FILE_SUFFIXES = ('.launch', '.py', '.xml', '.yaml', '.yml')
 TRUTHS = ('true', 'false')
 
 
 def packages_or_files(prefix: str, args: argparse.Namespace) -> list[str]:
     """Return the packages with launch files, or launch files if the word looks like a path."""
     if os.sep in prefix or prefix.startswith(('.', '~')):
-        from ros2cli.completion.files import files_of_kind
-
         return files_of_kind(prefix, FILE_SUFFIXES)
     found = get_packages_with_prefixes()
     names = sorted(name for name in found if name.startswith(prefix))
-    return [name for name in names if _has_launch_files(found[name], name)] or names
+    launchable = [name for name in names if _has_launch_files(found[name], name)]
+    return launchable or names or files_of_kind(prefix, FILE_SUFFIXES)
 
 
 def launch_files_of_package(prefix: str, args: argparse.Namespace) -> list[str]:
@@ -37,13 +37,14 @@ def launch_files_of_package(prefix: str, args: argparse.Namespace) -> list[str]:
 
 def arguments(prefix: str, args: argparse.Namespace) -> list[str]:
     """Return the arguments of a launch file that have no value yet, or one's values."""
-    if args.launch_file_name is None and not os.path.isfile(args.package_name):
+    target = as_path(args.package_name)
+    if args.launch_file_name is None and not os.path.isfile(target):
         return []
     name, separator, value = prefix.partition(SEPARATOR)
-    declared = _declared(args.package_name, args.launch_file_name)
+    declared = _declared(target, args.launch_file_name)
     if separator:
         values = [text for each in declared if each.name == name for text in _values(each)]
-        return [f'{name}{separator}{text}' for text in values or _paths(value)]
+        return [f'{name}{separator}{text}' for text in values or files(value)]
     given = {text.partition(SEPARATOR)[0] for text in _given(args)}
     names = dict.fromkeys(each.name for each in declared if each.name not in given)
     return [f'{each}{SEPARATOR}' for each in names]
@@ -85,9 +86,3 @@ def _values(argument: Any) -> list[str]:
     default = argument.default_value or ()
     texts = [getattr(part, 'text', '') for part in default]
     return list(TRUTHS) if ''.join(texts).lower() in TRUTHS else []
-
-
-def _paths(prefix: str) -> list[str]:
-    from ros2cli.completion.files import files
-
-    return files(prefix)

@@ -32,3 +32,10 @@ def executables(prefix: str, args: argparse.Namespace) -> list[str]:
     except PackageNotFoundError:
         return []
     return sorted(map(os.path.basename, paths))
+
+
+def licenses(prefix: str, args: argparse.Namespace) -> list[str]:
+    """Return the licences whose text a new package can have."""
+    from ros2pkg.create.licenses import known_licenses
+
+    return known_licenses()

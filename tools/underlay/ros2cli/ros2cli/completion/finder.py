@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The quoting of words where a shell does it otherwise than argcomplete expects."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from argcomplete import CompletionFinder
+
+
+class Finder(CompletionFinder):
+    """Finds the words that fit, and writes each as the shell wants to have it."""
+
+    def quote_completions(
+        self, completions: list[str], cword_prequote: str, last_wordbreak_pos: int | None
+    ) -> list[str]:
+        """Return the words quoted for bash; zsh quotes itself, in the manner of the line."""
+        if os.environ.get('_ARGCOMPLETE_SHELL') == 'zsh':
+            return [self._for_zsh(word) for word in completions]
+        words: list[Any] = super().quote_completions(
+            completions, cword_prequote, last_wordbreak_pos
+        )
+        return [_with_variable(word) for word in words]
+
+    def _for_zsh(self, word: str) -> str:
+        """Tell a colon of the word from the one before the description."""
+        escaped = word.replace('\\', '\\\\').replace(':', '\\:')
+        self._display_completions[escaped] = self._display_completions.get(word)
+        return escaped
+
+
+def _with_variable(word: str) -> str:
+    """Return a word that begins with a variable, as `$HOME/bags` does, so that it remains one."""
+    return word[1:] if word.startswith('\\$') else word

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Standard streams that the caller has closed, as `ros2 topic list >&-` does."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+NAMES = ('stdin', 'stdout', 'stderr')
+
+
+def open_standard_streams() -> None:
+    """
+    Open streams that are closed on /dev/null.
+
+    Else the next file or socket would get the descriptor, and what is printed would go there.
+    """
+    for descriptor, name in enumerate(NAMES):
+        if getattr(sys, name) is None and not _is_open(descriptor):
+            os.open(os.devnull, os.O_RDWR)  # the lowest descriptor that is free: this one
+            setattr(sys, name, open(descriptor, 'r' if descriptor == 0 else 'w'))
+
+
+def _is_open(descriptor: int) -> bool:
+    try:
+        os.fstat(descriptor)
+    except OSError:
+        return False
+    return True
