@@ -203,7 +203,7 @@ def test_memory_is_short(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
 
     neighbours = 1
     monkeypatch.setenv('ROS_HOME', str(tmp_path))
-    monkeypatch.setattr(memory, 'count_neighbours', lambda domain: neighbours)
+    monkeypatch.setattr(memory, 'participant_ports', lambda domain: neighbours)
     assert memory.recall('/a/b') is None
     memory.remember('/a/b', ['rate_hz'])
     assert memory.recall('/a/b') == ['rate_hz']

@@ -11,6 +11,7 @@ import shlex
 from typing import Any
 
 import pytest
+from ros2cli.graph.interfaces import Interface
 from ros2doctor.api.finding import Finding, Severity
 from ros2doctor.check.client_library import client_library_findings
 from ros2doctor.check.environment import environment_findings
@@ -27,7 +28,6 @@ from ros2doctor.check.workspace import workspace_findings
 from ros2doctor.facts.environment import Environment
 from ros2doctor.facts.graph import Endpoint, Graph
 from ros2doctor.facts.graphics import Graphics
-from ros2doctor.facts.interfaces import Interface
 from ros2doctor.facts.libraries import Libraries, LibraryFolder
 from ros2doctor.facts.network import Network
 from ros2doctor.facts.scripts import Script

@@ -57,7 +57,6 @@ class GoalSender:
     def wait_for_server(self) -> None:
         """Wait as long as it takes."""
         print('Waiting for an action server to become available...')
-        self._node.wait_for_graph(self._client.server_is_ready)
         patience = Patience(f"a server of the action '{self._name}'", self._hint)
         wait_until(self._node, self._client.server_is_ready, patience)
 
@@ -117,11 +116,12 @@ class GoalSender:
 
     def _hint(self) -> str:
         """Return the action of another type or name that may be meant, or ''."""
-        servers = get_action_servers(self._node, self._name)
+        graph = self._node.graph
+        servers = get_action_servers(graph, self._name)
         types = [each for server in servers for each in server.types if each != self._type_name]
         if types:
             return f"'{self._name}' has the type '{types[0]}', not '{self._type_name}'."
-        names = [name for name, _ in get_action_names_and_types(node=self._node)]
+        names = [name for name, _ in get_action_names_and_types(node=graph)]
         return closest(self._name, [name for name in names if name != self._name])
 
 

@@ -39,7 +39,7 @@ class SendGoalVerb(VerbExtension):
         action_type = get_passed_type(args.action_type, 'action')
         goal = OutgoingMessage(action_type.Goal(), values_text(args), FIELD_ERROR)
         name = absolute(args.action_name, 'action')
-        with DirectNode(args, wait=False, survives_interrupt=True) as node:
+        with DirectNode(args, survives_interrupt=True) as node:
             sender = GoalSender(node, action_type, name, with_feedback=args.feedback)
             sender.wait_for_server()
             sender.send(goal)

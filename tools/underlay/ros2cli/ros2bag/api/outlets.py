@@ -12,7 +12,6 @@ from rclpy.qos import ReliabilityPolicy
 from ros2bag.api.qos_profiles import playback_profile
 from ros2bag.storage.metadata import Topic
 from ros2cli.messages.lookup import get_message, UnknownType
-from ros2cli.node.graph import foreign_subscriptions
 
 __all__ = ['Outlets']
 
@@ -52,10 +51,14 @@ class Outlets:
 
     def wait_for_subscribers(self) -> None:
         """Wait until the subscribers that are there already are connected."""
-        self._node.wait_for_graph()
+        graph = self._node.graph
         end = time.monotonic() + MATCH_S
-        while time.monotonic() < end and not all(map(self._is_matched, self._publishers.values())):
+        waiting = [
+            each for each in self._publishers.values() if graph.count_subscribers(each.topic_name)
+        ]
+        while waiting and time.monotonic() < end:
             self._node.spin_once(PERIOD_S)
+            waiting = [each for each in waiting if not each.get_subscription_count()]
 
     def wait_until_acked(self, limit_ms: float) -> None:
         """Wait until reliable subscribers have all messages; zero is without a limit."""
@@ -89,8 +92,3 @@ class Outlets:
             for info in self._node.get_publishers_info_by_topic(name)
             if info.node_name == self._node.get_name()
         }
-
-    def _is_matched(self, publisher: Any) -> bool:
-        """Tell if at least one of those who listen to a topic is connected."""
-        others = foreign_subscriptions(self._node, publisher.topic_name)
-        return not others or publisher.get_subscription_count() > 0

@@ -37,7 +37,7 @@ def play(args: argparse.Namespace) -> None:
     topics = _chosen_topics(reader, args)
     names, overrides = remaps(args), read_overrides(args.qos_profile_overrides_path)
     with (
-        DirectNode(args, node_name=NODE_NAME, wait=False) as node,
+        DirectNode(args, node_name=NODE_NAME) as node,
         Keyboard(enabled=not args.disable_keyboard_controls) as keyboard,
     ):
         outlets = Outlets(node, topics, names, overrides)

@@ -13,8 +13,8 @@ from ros2bag.api.topic_filter import TopicFilter
 from ros2bag.storage.bag_writer import BagWriter
 from ros2bag.storage.latched import RecordedMessage
 from ros2bag.storage.metadata import Topic
+from ros2cli.graph.graph import Graph
 from ros2cli.messages.lookup import get_message, UnknownType
-from ros2cli.node.graph import foreign_publishers
 from ros2topic.api import get_topic_names_and_types
 
 __all__ = ['Recorder']
@@ -54,9 +54,10 @@ class Recorder:
 
     def discover(self) -> None:
         """Subscribe to topics that have appeared, and follow their publishers."""
-        for name, types in get_topic_names_and_types(node=self._node, include_hidden_topics=True):
-            if self._filter.wants(name, types[0]) and self._has_changed(name):
-                self._follow(name, types)
+        graph = self._node.watch.updated()
+        for name, types in get_topic_names_and_types(node=graph, include_hidden_topics=True):
+            if self._filter.wants(name, types[0]) and self._has_changed(graph, name):
+                self._follow(graph, name, types)
 
     def release_held(self) -> None:
         """Record the latched messages that came during a pause, which is over."""
@@ -64,9 +65,9 @@ class Recorder:
         for message in held:
             self._writer.write(message._replace(log_ns=self._now_ns()))
 
-    def _has_changed(self, name: str) -> bool:
+    def _has_changed(self, graph: Graph, name: str) -> bool:
         """Tell if a topic has other publishers than at the last look."""
-        count = self._node.count_publishers(name)
+        count = graph.count_publishers(name)
         if count == self._publisher_counts.get(name, 0) and not (
             self._include_unpublished and name not in self._topics
         ):
@@ -74,8 +75,8 @@ class Recorder:
         self._publisher_counts[name] = count
         return True
 
-    def _follow(self, name: str, types: list[str]) -> None:
-        publishers = foreign_publishers(self._node, name)
+    def _follow(self, graph: Graph, name: str, types: list[str]) -> None:
+        publishers = graph.get_publishers_info_by_topic(name)
         if name not in self._topics and (publishers or self._include_unpublished):
             self._topics[name] = self._create(name, types)
         topic = self._topics.get(name)

@@ -33,7 +33,7 @@ def record(args: argparse.Namespace) -> None:
     topic_filter = filter_of(args)
     overrides = read_overrides(args.qos_profile_overrides_path)
     stop = StopSignals()
-    with DirectNode(args, node_name=args.node_name, wait=False) as node, stop:
+    with DirectNode(args, node_name=args.node_name) as node, stop:
         if args.quiet:
             node.get_logger().set_level(LoggingSeverity.WARN)
         _wait_for_clock(node, args.use_sim_time, stop)
@@ -108,8 +108,7 @@ def _run(
     patience = Patience('a topic that is to be recorded')
     # Without discovery there is one look, when the graph is known.
     period_s = float('inf') if args.no_discovery else args.polling_interval / 1e3
-    if args.no_discovery:
-        node.wait_for_graph()
+    node.watch.settled()
     next_look_s = 0.0
     with Keyboard(enabled=not args.disable_keyboard_controls) as keyboard:
         while not stop:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What was found in the graph is remembered for some seconds.
+What a node has answered is remembered for some seconds.
 
 Who presses TAB often presses it again, to see the choices or after one more letter.
 """
@@ -15,16 +15,10 @@ import re
 import time
 from typing import Any
 
-from ros2cli.node.graph import is_local_only
-from ros2cli.node.neighbours import count_neighbours
+from ros2cli.graph.participants import participant_ports
+from ros2cli.graph.reach import read_reach
 
 REMEMBERED_S = 8.0
-
-
-def domain_id() -> int:
-    """Return the domain of this shell."""
-    text = os.environ.get('ROS_DOMAIN_ID', '')
-    return int(text) if text.isdigit() else 0
 
 
 def recall(subject: str) -> Any:
@@ -36,7 +30,7 @@ def recall(subject: str) -> Any:
         neighbours, data = json.loads(path.read_text(encoding='utf-8'))
     except (OSError, ValueError):
         return None
-    return data if neighbours == count_neighbours(domain_id()) else None
+    return data if neighbours == participant_ports(read_reach().domain_id) else None
 
 
 def remember(subject: str, data: Any) -> None:
@@ -45,7 +39,9 @@ def remember(subject: str, data: Any) -> None:
     new = path.with_name(f'{path.name}.{os.getpid()}')
     with suppress(OSError):
         path.parent.mkdir(parents=True, exist_ok=True)
-        new.write_text(json.dumps([count_neighbours(domain_id()), data]), encoding='utf-8')
+        new.write_text(
+            json.dumps([participant_ports(read_reach().domain_id), data]), encoding='utf-8'
+        )
         new.replace(path)
         return
     with suppress(OSError):
@@ -55,6 +51,6 @@ def remember(subject: str, data: Any) -> None:
 def _path(subject: str) -> Path:
     """Return the file for a subject, as seen from this shell."""
     folder = Path(os.environ.get('ROS_HOME') or '~/.ros').expanduser()
-    reach = 'local' if is_local_only() else 'network'
-    name = re.sub(r'\W', '_', subject)
-    return folder / 'completion' / f'{domain_id()}_{reach}_{name}.json'
+    reach = read_reach()
+    name = re.sub(r'\W', '_', f'{reach.domain_id}_{reach.extent}_{subject}')
+    return folder / 'completion' / f'{name}.json'

@@ -25,7 +25,7 @@ def _ask(service: str) -> list[str]:
     from rcl_interfaces.srv import ListParameters
     from ros2cli.node.direct import DirectNode
 
-    with DirectNode(None, wait=False) as node:
+    with DirectNode(None) as node:
         client = node.create_client(ListParameters, service)
         if not client.wait_for_service(timeout_sec=TIMEOUT_S):
             return []

@@ -10,6 +10,7 @@ from typing import Any
 from ros2cli.graph.names import REQUEST, RESPONSE, ros_name, ros_type, service_type, TOPIC
 from ros2cli.rtps.endpoint import Endpoint
 from ros2cli.rtps.entities import NodeEntities
+from ros2cli.rtps.identifiers import PREFIX_BYTES
 
 NamesAndTypes = list[tuple[str, list[str]]]
 
@@ -20,10 +21,17 @@ class Graph:
 
     :param nodes: as their participants tell them
     :param endpoints: all readers and writers
+    :param elsewhere: the GUID prefixes of the participants on other machines
     """
 
-    def __init__(self, nodes: Iterable[NodeEntities], endpoints: Iterable[Endpoint]) -> None:
+    def __init__(
+        self,
+        nodes: Iterable[NodeEntities],
+        endpoints: Iterable[Endpoint],
+        elsewhere: Iterable[bytes] = (),
+    ) -> None:
         """Keep what is known."""
+        self._elsewhere = frozenset(elsewhere)
         self._nodes = list(nodes)
         self._endpoints = list(endpoints)
 
@@ -55,6 +63,14 @@ class Graph:
         """Return the services that a node calls."""
         return _services(self._of_node(name, namespace, are_writers=False), (RESPONSE,))
 
+    def count_publishers(self, topic: str) -> int:
+        """Return how many publish to a topic."""
+        return sum(each.is_writer for each in self._ends(TOPIC, topic))
+
+    def count_subscribers(self, topic: str) -> int:
+        """Return how many subscribe to a topic."""
+        return len(self._readers(TOPIC, topic))
+
     def count_services(self, name: str) -> int:
         """Return how many offer a service."""
         return len(self._readers(REQUEST, name))
@@ -70,6 +86,10 @@ class Graph:
     def get_subscriptions_info_by_topic(self, topic: str) -> list[Any]:
         """Return who subscribes to a topic, in the class of rclpy."""
         return [self._info(each) for each in self._readers(TOPIC, topic)]
+
+    def is_elsewhere(self, info: Any) -> bool:
+        """Tell if a publisher or subscription is on another machine."""
+        return bytes(info.endpoint_gid[:PREFIX_BYTES]) in self._elsewhere
 
     def _readers(self, kind: str, name: str) -> list[Endpoint]:
         return [each for each in self._ends(kind, name) if not each.is_writer]

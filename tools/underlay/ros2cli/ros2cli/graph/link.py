@@ -14,15 +14,15 @@ from ros2cli.graph.interfaces import read_interfaces
 from ros2cli.graph.participants import participant_ports
 from ros2cli.graph.reach import OFF, Reach
 from ros2cli.rtps.identifiers import MULTICAST_ADDRESS, multicast_port, unicast_ports
-from ros2cli.rtps.observer import Observer, THIS_HOST
-from ros2cli.rtps.parameters import Address
+from ros2cli.rtps.observer import Observer
+from ros2cli.rtps.parameters import Address, THIS_HOST
 
 COUNT_PERIOD_S = 0.1
 GREETINGS_S = (0.0, 0.1, 0.25)  # of whom cannot be counted, since a greeting may be lost
 PEERS_PER_HOST = 32
 MAX_DATAGRAM_BYTES = 65536
 RECEIVE_BUFFER_BYTES = 1 << 20
-DATAGRAMS_AT_ONCE = 20
+DATAGRAMS_AT_ONCE = 1000
 
 
 class Link:
@@ -92,7 +92,9 @@ class Link:
     def _receive(self) -> None:
         """Handle what has come; the socket, which holds little, is emptied again and again."""
         self._waiting.extend(self._received())
-        for _ in range(min(DATAGRAMS_AT_ONCE, len(self._waiting))):
+        for _ in range(DATAGRAMS_AT_ONCE):
+            if not self._waiting:
+                break
             datagram, host = self._waiting.popleft()
             self.observer.handle(datagram, THIS_HOST if host in self._hosts else host)
             self._waiting.extend(self._received())

@@ -32,6 +32,7 @@ class GraphWatch:
         """Choose how long to wait for those who cannot be counted: nodes on other machines."""
         self._reach = read_reach()
         self._spin_time_s = spin_time_s
+        self._has_told = False
         self._open()
 
     def _open(self) -> None:
@@ -62,22 +63,38 @@ class GraphWatch:
         return Graph(
             (node for each in neighbours for node in each.nodes),
             (end for each in neighbours for end in each.endpoints.values()),
+            (each.prefix for each in neighbours if not each.is_here),
         )
 
+    @property
+    def domain_id(self) -> int:
+        """Return the domain that is looked at."""
+        return self._reach.domain_id
+
     def settled(self, is_done: Callable[[Graph], object] = lambda _: False) -> Graph:
-        """Return the graph when it is complete, or has what is looked for."""
-        end_s = time.monotonic() + PATIENCE * self._spin_time_s
+        """
+        Return the graph when it is complete, or has what is looked for.
+
+        Who does not answer in time is not waited for a second time.
+        """
         patience = Patience('the answers of all ROS processes on this machine')
         self._exchange(waits=False)
         while not self._is_settled() and not is_done(self.graph):
-            if time.monotonic() > end_s:
-                print(INCOMPLETE, file=sys.stderr)
+            if self._latest_s > self._start_s + PATIENCE * self._spin_time_s:
+                self._tell_incomplete()
                 break
             patience.check()
             self._exchange(waits=True)
         return self.graph
 
-    def wait_for(self, find: Callable[[Graph], T], patience: Patience, timeout_s: float) -> T:
+    def updated(self) -> Graph:
+        """Return what is known at this moment, without waiting for anybody."""
+        self._exchange(waits=False)
+        return self.graph
+
+    def wait_for(
+        self, find: Callable[[Graph], T], patience: Patience, timeout_s: float = float('inf')
+    ) -> T:
         """Return what is found in the graph in time, or what `find` says of nothing."""
         end_s = time.monotonic() + timeout_s
         found = find(self.settled(find))
@@ -86,6 +103,11 @@ class GraphWatch:
             self._exchange(waits=True)
             found = find(self.graph)
         return found
+
+    def _tell_incomplete(self) -> None:
+        if not self._has_told:
+            self._has_told = True
+            print(INCOMPLETE, file=sys.stderr)
 
     def _exchange(self, *, waits: bool) -> None:
         """Hear what is new; after a pause, in which others have given us up, ask all anew."""

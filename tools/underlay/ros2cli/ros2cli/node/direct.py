@@ -4,10 +4,8 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
 import os
 import signal
-import sys
 from types import TracebackType
 from typing import Any
 
@@ -15,29 +13,27 @@ import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
+from ros2cli.graph import DEFAULT_SPIN_TIME_S
+from ros2cli.graph.graph import Graph
+from ros2cli.graph.watch import GraphWatch
 from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.node.arguments import add_node_arguments as add_arguments
-from ros2cli.node.discovery import DEFAULT_SPIN_TIME, wait_until_stable
-from ros2cli.node.graph import take_snapshot
 
 __all__ = ['DirectNode', 'add_arguments']
 
 
-INCOMPLETE = (
-    'WARNING: a ROS process on this machine does not answer (is it stopped, or just starting?); '
-    'what follows may be incomplete'
-)
-
-
 class DirectNode:
-    """A hidden node in a `with` statement; its attributes are those of the rclpy node."""
+    """
+    A hidden node in a `with` statement; its attributes are those of the rclpy node.
+
+    :ivar watch: the graph, which rclpy itself discovers more slowly
+    """
 
     def __init__(
         self,
         args: argparse.Namespace | None,
         *,
         node_name: str | None = None,
-        wait: bool = True,
         survives_interrupt: bool = False,
     ) -> None:
         """
@@ -45,16 +41,16 @@ class DirectNode:
 
         Ctrl-C ends the node at once, unless it is to survive that for some last words.
         """
-        self._spin_time_s: float = getattr(args, 'spin_time', None) or DEFAULT_SPIN_TIME
+        self._spin_time_s: float = getattr(args, 'spin_time', DEFAULT_SPIN_TIME_S)
         self._use_sim_time: bool = getattr(args, 'use_sim_time', False)
         self._node_name = node_name or f'{NODE_NAME_PREFIX}_{os.getpid()}'
-        self._wait = wait
         self._signals = (
             SignalHandlerOptions.SIGTERM if survives_interrupt else SignalHandlerOptions.ALL
         )
 
     def __enter__(self) -> DirectNode:
-        """Start rclpy and the node, and wait for discovery."""
+        """Start rclpy and the node; nobody is waited for."""
+        self.watch = GraphWatch(self._spin_time_s)
         rclpy.init(args=[], signal_handler_options=self._signals)
         self.node = rclpy.create_node(
             self._node_name,
@@ -67,17 +63,12 @@ class DirectNode:
         )
         self.executor = SingleThreadedExecutor()
         self.executor.add_node(self.node)
-        if self._wait:
-            self.wait_for_graph()
         return self
 
-    def wait_for_graph(self, is_done: Callable[[], object] = bool) -> None:
-        """Wait until discovery has settled, or has found what is looked for."""
-        settled = wait_until_stable(
-            lambda: take_snapshot(self.node), self._spin_time_s, is_done=is_done
-        )
-        if not settled:
-            print(INCOMPLETE, file=sys.stderr)
+    @property
+    def graph(self) -> Graph:
+        """Return the complete graph, without this node."""
+        return self.watch.settled()
 
     def spin_once(self, timeout_s: float) -> None:
         """Do the work that is due, and wait for it if there is none."""
@@ -85,7 +76,7 @@ class DirectNode:
 
     def __getattr__(self, name: str) -> Any:
         """Return an attribute of the rclpy node."""
-        if name in ('node', 'executor'):
+        if name in ('node', 'executor', 'watch'):
             raise AttributeError(f'the node exists only inside a with statement: {name!r}')
         return getattr(self.node, name)
 
@@ -98,6 +89,7 @@ class DirectNode:
         """End the node; an error because SIGTERM has ended rclpy becomes a clean end."""
         terminated = not rclpy.ok() and not isinstance(error, KeyboardInterrupt)
         interrupt = signal.signal(signal.SIGINT, signal.SIG_IGN)
+        self.watch.close()
         self.executor.shutdown()
         self.node.destroy_node()
         rclpy.try_shutdown()

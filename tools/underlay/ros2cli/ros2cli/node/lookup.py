@@ -3,41 +3,39 @@
 
 from __future__ import annotations
 
-from typing import Any
-
+from ros2cli.graph.graph import Graph
+from ros2cli.graph.watch import GraphWatch
 from ros2cli.names import closest
-from ros2cli.node.waiting import wait_until
 from ros2cli.patience import Patience
 from ros2node.api import get_node_names
 
 
-def find_node(node: Any, name: str, timeout_s: float = 0.0) -> str:
+def find_node(watch: GraphWatch, name: str, timeout_s: float = 0.0) -> str:
     """Return the full name of a node that is there in time, or RuntimeError."""
     full_name = name if name.startswith('/') else f'/{name}'
 
-    def is_known() -> bool:
-        return full_name in known_nodes(node)
+    def is_known(graph: Graph) -> bool:
+        return full_name in known_nodes(graph)
 
-    node.wait_for_graph(is_known)
-    if not wait_until(node, is_known, Patience(f"the node '{full_name}'"), timeout_s):
-        hint = closest(full_name, known_nodes(node))
+    if not watch.wait_for(is_known, Patience(f"the node '{full_name}'"), timeout_s):
+        hint = closest(full_name, known_nodes(watch.graph))
         raise RuntimeError('\n'.join(['Node not found', hint]).rstrip())
     return full_name
 
 
-def known_nodes(node: Any, *, include_hidden_nodes: bool = True) -> list[str]:
+def known_nodes(graph: Graph, *, include_hidden_nodes: bool = True) -> list[str]:
     """Return the full names of all nodes, each once, sorted."""
-    names = get_node_names(node=node, include_hidden_nodes=include_hidden_nodes)
+    names = get_node_names(node=graph, include_hidden_nodes=include_hidden_nodes)
     return sorted({name.full_name for name in names})
 
 
 def nodes_with_service(
-    node: Any, suffix: str, service_type: str, *, include_hidden_nodes: bool
+    graph: Graph, suffix: str, service_type: str, *, include_hidden_nodes: bool
 ) -> list[str]:
     """Return the nodes that offer a service of this type under their own name."""
-    services = dict(node.get_service_names_and_types())
+    services = dict(graph.get_service_names_and_types())
     return [
         name
-        for name in known_nodes(node, include_hidden_nodes=include_hidden_nodes)
+        for name in known_nodes(graph, include_hidden_nodes=include_hidden_nodes)
         if service_type in services.get(f'{name}{suffix}', [])
     ]

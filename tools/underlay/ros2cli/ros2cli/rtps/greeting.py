@@ -78,25 +78,29 @@ def farewell(prefix: bytes) -> bytes:
 
 def _participant(prefix: bytes, addresses: Sequence[Address]) -> bytes:
     locators = [locator_value(address) for address in addresses]
-    return encode_parameters([
-        (PID_PROTOCOL_VERSION, PROTOCOL_VERSION),
-        (PID_VENDOR_ID, VENDOR_UNKNOWN),
-        (PID_PARTICIPANT_GUID, prefix + PARTICIPANT),
-        *((PID_METATRAFFIC_UNICAST_LOCATOR, locator) for locator in locators),
-        *((PID_DEFAULT_UNICAST_LOCATOR, locator) for locator in locators),
-        (PID_LEASE_DURATION, duration_value(LEASE_S)),
-        (PID_BUILTIN_ENDPOINTS, number_value(BUILTIN_ENDPOINTS)),
-    ])
+    return encode_parameters(
+        [
+            (PID_PROTOCOL_VERSION, PROTOCOL_VERSION),
+            (PID_VENDOR_ID, VENDOR_UNKNOWN),
+            (PID_PARTICIPANT_GUID, prefix + PARTICIPANT),
+            *((PID_METATRAFFIC_UNICAST_LOCATOR, locator) for locator in locators),
+            *((PID_DEFAULT_UNICAST_LOCATOR, locator) for locator in locators),
+            (PID_LEASE_DURATION, duration_value(LEASE_S)),
+            (PID_BUILTIN_ENDPOINTS, number_value(BUILTIN_ENDPOINTS)),
+        ]
+    )
 
 
 def _reader(prefix: bytes) -> bytes:
     guid = prefix + ENTITIES_READER
-    return encode_parameters([
-        (PID_PARTICIPANT_GUID, prefix + PARTICIPANT),
-        (PID_ENDPOINT_GUID, guid),
-        (PID_KEY_HASH, guid),
-        (PID_TOPIC_NAME, text_value(TOPIC)),
-        (PID_TYPE_NAME, text_value(TYPE_NAME)),
-        (PID_RELIABILITY, number_value(RELIABLE) + duration_value(0)),
-        (PID_DURABILITY, number_value(TRANSIENT_LOCAL)),
-    ])
+    return encode_parameters(
+        [
+            (PID_PARTICIPANT_GUID, prefix + PARTICIPANT),
+            (PID_ENDPOINT_GUID, guid),
+            (PID_KEY_HASH, guid),
+            (PID_TOPIC_NAME, text_value(TOPIC)),
+            (PID_TYPE_NAME, text_value(TYPE_NAME)),
+            (PID_RELIABILITY, number_value(RELIABLE) + duration_value(0)),
+            (PID_DURABILITY, number_value(TRANSIENT_LOCAL)),
+        ]
+    )

@@ -15,7 +15,7 @@ from ros2cli.rtps.identifiers import (
     SUBSCRIPTIONS_READER,
     SUBSCRIPTIONS_WRITER,
 )
-from ros2cli.rtps.parameters import Address, decode_parameters
+from ros2cli.rtps.parameters import Address, decode_parameters, THIS_HOST
 from ros2cli.rtps.stream import Stream
 from ros2cli.rtps.wire import Data, Gap, Heartbeat, info_destination, message, Submessage
 
@@ -50,6 +50,11 @@ class Neighbour:
         self._patience_s = PATIENCE_S
         self._ask_again_s = 0.0
         self._is_acknowledged = False
+
+    @property
+    def is_here(self) -> bool:
+        """Tell if it is on this machine."""
+        return self.discovery[0] == THIS_HOST
 
     @property
     def is_complete(self) -> bool:

@@ -18,10 +18,9 @@ from ros2cli.rtps.identifiers import (
     PID_METATRAFFIC_UNICAST_LOCATOR,
 )
 from ros2cli.rtps.neighbour import Neighbour
-from ros2cli.rtps.parameters import Address, decode_parameters, Parameters
+from ros2cli.rtps.parameters import Address, decode_parameters, Parameters, THIS_HOST
 from ros2cli.rtps.wire import Data, sender, Submessage, submessages
 
-THIS_HOST = '127.0.0.1'
 PACE_S = 0.004
 GREET_AGAIN_S = 0.1
 NEVER_S = float('-inf')
@@ -43,6 +42,7 @@ class Observer:
         self._greeting = greeting(self._prefix, addresses)
         self._send = send
         self._neighbours: dict[bytes, Neighbour] = {}
+        self._expected: set[Address] = set()
         self._silent: dict[Address, float] = {}  # who has not answered, and when it was greeted
         self._next_greeting_s = NEVER_S
         self._alive_s = NEVER_S
@@ -66,10 +66,10 @@ class Observer:
         return min(max(greeting_s, self._next_greeting_s), question_s)
 
     def expect(self, addresses: Iterable[Address]) -> None:
-        """Set who must be there on this machine; who has left is forgotten."""
-        expected = set(addresses)
+        """Set who there is on this machine, ourselves apart; who has left is forgotten."""
+        self._expected = expected = set(addresses)
         for each in self.neighbours:
-            if each.discovery[0] == THIS_HOST and each.discovery not in expected:
+            if each.is_here and each.discovery not in expected:
                 del self._neighbours[each.prefix]
         answered = {each.discovery for each in self.neighbours}
         self._silent = {
@@ -128,6 +128,8 @@ class Observer:
         if not discovery or not user:
             return
         address = (host, discovery[0])
+        if host == THIS_HOST and address not in self._expected:
+            return
         for each in self.neighbours:
             if each.discovery == address:
                 del self._neighbours[each.prefix]

@@ -16,6 +16,7 @@ NO_PARAMETER = b''
 INFINITE = (0x7FFFFFFF, 0xFFFFFFFF)
 INFINITE_NS = 2**63 - 1
 Address = tuple[str, int]
+THIS_HOST = '127.0.0.1'
 
 
 class Parameters(NamedTuple):
@@ -39,12 +40,15 @@ class Parameters(NamedTuple):
         if not raw:
             return b''
         (size,) = struct.unpack_from(f'{self.order}I', raw)
-        return raw[4 : 4 + size]
+        return raw[4 : 4 + int(size)]
 
     def number(self, identifier: int, default: int) -> int:
         """Return an enumerator."""
         raw = self.first(identifier)
-        return int(struct.unpack_from(f'{self.order}I', raw)[0]) if raw else default
+        if not raw:
+            return default
+        (number,) = struct.unpack_from(f'{self.order}I', raw)
+        return int(number)
 
     def duration_ns(self, identifier: int, offset: int = 0) -> int:
         """Return a duration; it is infinite if it is not there."""
@@ -54,7 +58,7 @@ class Parameters(NamedTuple):
         seconds, fraction = struct.unpack_from(f'{self.order}iI', raw, offset)
         if (seconds, fraction) == INFINITE:
             return INFINITE_NS
-        return int(seconds) * 10**9 + round(fraction * 10**9 / 2**32)
+        return int(seconds) * 10**9 + round(int(fraction) * 10**9 / 2**32)
 
     def ports(self, identifier: int) -> list[int]:
         """Return the UDP ports of locators."""

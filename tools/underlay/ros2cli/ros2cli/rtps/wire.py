@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 import struct
 from typing import NamedTuple
 
@@ -99,9 +99,7 @@ def _number_set(body: bytes, offset: int, order: str) -> tuple[int, frozenset[in
     if size > MAX_NUMBERS:
         raise ValueError(f'a set of {size} sequence numbers')
     words = struct.unpack_from(f'{order}{(size + 31) // 32}I', body, offset + 12)
-    return base, frozenset(
-        base + i for i in range(size) if words[i // 32] & (1 << (31 - i % 32))
-    )
+    return base, frozenset(base + i for i in range(size) if words[i // 32] & (1 << (31 - i % 32)))
 
 
 def _data(body: bytes, flags: int, order: str) -> Data:
@@ -127,7 +125,11 @@ def _gap(body: bytes, _: int, order: str) -> Gap:
     return Gap(body[:4], body[4:8], numbers | frozenset(range(start, base)))
 
 
-_DECODERS = {DATA: _data, HEARTBEAT: _heartbeat, GAP: _gap}
+_DECODERS: dict[int, Callable[[bytes, int, str], Submessage]] = {
+    DATA: _data,
+    HEARTBEAT: _heartbeat,
+    GAP: _gap,
+}
 
 
 def message(own_prefix: bytes, *parts: bytes) -> bytes:
@@ -140,9 +142,7 @@ def info_destination(prefix: bytes) -> bytes:
     return _submessage(INFO_DESTINATION, 0, prefix)
 
 
-def data(
-    reader: bytes, writer: bytes, number: int, payload: bytes, key_qos: bytes = b''
-) -> bytes:
+def data(reader: bytes, writer: bytes, number: int, payload: bytes, key_qos: bytes = b'') -> bytes:
     """Return a sample; with `key_qos`, inline parameters, the payload is only the key."""
     flags = INLINE_QOS | KEY if key_qos else PAYLOAD
     ends = struct.pack('<HH', 0, 16) + reader + writer

@@ -7,6 +7,7 @@ import argparse
 from typing import Any, NamedTuple
 
 from rcl_interfaces.msg import Parameter
+from ros2cli.graph.graph import Graph
 from ros2cli.names import closest
 from ros2cli.node.calls import call
 from ros2cli.node.lookup import nodes_with_service
@@ -33,16 +34,15 @@ class Component(NamedTuple):
     name: str
 
 
-def get_containers(node: Any) -> list[str]:
+def get_containers(graph: Graph) -> list[str]:
     """Return the full names of all container nodes, sorted."""
-    return nodes_with_service(node, f'{SERVICE}/list_nodes', LIST_TYPE, include_hidden_nodes=True)
+    return nodes_with_service(graph, f'{SERVICE}/list_nodes', LIST_TYPE, include_hidden_nodes=True)
 
 
-def find_container(node: Any, name: str) -> str:
+def find_container(graph: Graph, name: str) -> str:
     """Return the full name of a container that is there, or RuntimeError."""
     full_name = name if name.startswith('/') else f'/{name}'
-    node.wait_for_graph(lambda: full_name in get_containers(node))
-    known = get_containers(node)
+    known = get_containers(graph)
     if full_name not in known:
         text = f"Unable to find container node '{name}'"
         raise RuntimeError('\n'.join([text, closest(full_name, known)]).rstrip())

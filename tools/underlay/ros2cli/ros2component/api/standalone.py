@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 import subprocess
 
+from ros2cli.graph.graph import Graph
 from ros2cli.node.direct import DirectNode
-from ros2cli.node.waiting import wait_until
 from ros2cli.patience import Patience
 from ros2component.api import get_containers, load_component
 from ros2pkg.api import PackageNotFoundError
@@ -29,12 +29,12 @@ def run_standalone(args: argparse.Namespace) -> int:
 
 def _load(process: subprocess.Popen[bytes], args: argparse.Namespace) -> None:
     name = f'/{args.container_node_name}'
-    with DirectNode(args, wait=False) as node:
+    with DirectNode(args) as node:
 
-        def is_over() -> bool:
-            return process.poll() is not None or name in get_containers(node)
+        def is_over(graph: Graph) -> bool:
+            return process.poll() is not None or name in get_containers(graph)
 
-        wait_until(node, is_over, Patience(f"the container '{name}'"))
+        node.watch.wait_for(is_over, Patience(f"the container '{name}'"))
         if process.poll() is not None:
             raise RuntimeError(f"The container '{name}' has ended with {process.returncode}")
         component = load_component(node, name, args)

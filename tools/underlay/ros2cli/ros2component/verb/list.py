@@ -32,8 +32,9 @@ class ListVerb(VerbExtension):
         from ros2component.api import find_container, get_containers
 
         name = args.container_node_name
-        with DirectNode(args, wait=name is None) as node:
-            containers = get_containers(node) if name is None else [find_container(node, name)]
+        with DirectNode(args) as node:
+            graph = node.graph
+            containers = get_containers(graph) if name is None else [find_container(graph, name)]
             for container in containers:
                 if args.containers_only:
                     print(container)

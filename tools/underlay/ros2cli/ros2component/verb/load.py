@@ -29,8 +29,8 @@ class LoadVerb(VerbExtension):
         from ros2cli.node.direct import DirectNode
         from ros2component.api import find_container, load_component
 
-        with DirectNode(args, wait=False) as node:
-            container = find_container(node, args.container_node_name)
+        with DirectNode(args) as node:
+            container = find_container(node.graph, args.container_node_name)
             component = load_component(node, container, args)
         if args.quiet:
             print(component.uid)

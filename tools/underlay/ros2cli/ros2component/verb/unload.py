@@ -30,8 +30,8 @@ class UnloadVerb(VerbExtension):
         from ros2component.api import find_container, unload_component
 
         status = 0
-        with DirectNode(args, wait=False) as node:
-            container = find_container(node, args.container_node_name)
+        with DirectNode(args) as node:
+            container = find_container(node.graph, args.container_node_name)
             for uid in args.component_uid:
                 reason = unload_component(node, container, uid)
                 if reason:

@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 import errno
 
+from ros2cli.graph.interfaces import Interface
 from ros2doctor.api.finding import Finding, Severity
-from ros2doctor.facts.interfaces import Interface
 from ros2doctor.facts.network import Network
 
 

@@ -9,7 +9,7 @@ import os
 from pathlib import Path
 import shutil
 
-from ros2doctor.facts.interfaces import Interface, read_interfaces
+from ros2cli.graph.interfaces import Interface, read_interfaces
 from ros2doctor.facts.multicast import multicast_error
 
 SHARED_MEMORY = '/dev/shm'

@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
+from ros2cli.graph.interfaces import Interface
 from ros2doctor.api.extension import DoctorReport
 from ros2doctor.api.report import Report
 from ros2doctor.check.multicast import multicast_state
 from ros2doctor.check.network import discovery_range
-from ros2doctor.facts.interfaces import Interface
 from ros2doctor.facts.network import Network, read_network
 
 

@@ -42,6 +42,6 @@ class HelloVerb(VerbExtension):
         from ros2cli.node.direct import DirectNode
         from ros2doctor.api.greeting import greet
 
-        with DirectNode(args, wait=False) as node:
+        with DirectNode(args) as node:
             greet(node, args)
         return None

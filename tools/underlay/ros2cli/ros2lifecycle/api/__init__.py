@@ -7,6 +7,7 @@ from typing import Any
 
 from lifecycle_msgs.msg import State, Transition, TransitionDescription
 from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions, GetState
+from ros2cli.graph.graph import Graph
 from ros2cli.node.calls import call
 from ros2cli.node.lookup import find_node, nodes_with_service
 
@@ -23,18 +24,17 @@ STATE_SERVICE = '/get_state'
 STATE_TYPE = 'lifecycle_msgs/srv/GetState'
 
 
-def get_lifecycle_nodes(node: Any, *, include_hidden_nodes: bool) -> list[str]:
+def get_lifecycle_nodes(graph: Graph, *, include_hidden_nodes: bool) -> list[str]:
     """Return the full names of the nodes with a life cycle, sorted."""
     return nodes_with_service(
-        node, STATE_SERVICE, STATE_TYPE, include_hidden_nodes=include_hidden_nodes
+        graph, STATE_SERVICE, STATE_TYPE, include_hidden_nodes=include_hidden_nodes
     )
 
 
 def find_lifecycle_node(node: Any, name: str) -> str:
     """Return the full name of a node with a life cycle, or RuntimeError."""
-    full_name = find_node(node, name)
-    node.wait_for_graph(lambda: node.count_services(f'{full_name}{STATE_SERVICE}'))
-    if full_name not in get_lifecycle_nodes(node, include_hidden_nodes=True):
+    full_name = find_node(node.watch, name)
+    if full_name not in get_lifecycle_nodes(node.graph, include_hidden_nodes=True):
         raise RuntimeError(f"Node not found\nThe node '{full_name}' has no life cycle")
     return full_name
 

@@ -32,9 +32,11 @@ class GetVerb(VerbExtension):
             state_text,
         )
 
-        with DirectNode(args, wait=args.node_name is None) as node:
+        with DirectNode(args) as node:
             if args.node_name is None:
-                names = get_lifecycle_nodes(node, include_hidden_nodes=args.include_hidden_nodes)
+                names = get_lifecycle_nodes(
+                    node.graph, include_hidden_nodes=args.include_hidden_nodes
+                )
                 _print_all(node, names)
             else:
                 name = find_lifecycle_node(node, args.node_name)

@@ -26,7 +26,7 @@ class ListVerb(VerbExtension):
         from ros2cli.node.direct import DirectNode
         from ros2lifecycle.api import find_lifecycle_node, get_transitions
 
-        with DirectNode(args, wait=False) as node:
+        with DirectNode(args) as node:
             name = find_lifecycle_node(node, args.node_name)
             found = get_transitions(node, name, all_states=args.all)
         for each in found:

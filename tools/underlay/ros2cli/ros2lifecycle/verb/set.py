@@ -25,7 +25,7 @@ class SetVerb(VerbExtension):
         from ros2cli.node.direct import DirectNode
         from ros2lifecycle.api import change_state, find_lifecycle_node, get_transitions
 
-        with DirectNode(args, wait=False) as node:
+        with DirectNode(args) as node:
             name = find_lifecycle_node(node, args.node_name)
             available = [each.transition for each in get_transitions(node, name, all_states=False)]
             wanted = [each for each in available if args.transition in (each.label, str(each.id))]

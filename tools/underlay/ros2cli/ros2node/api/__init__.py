@@ -11,6 +11,7 @@ from ros2cli.names import is_hidden
 __all__ = [
     'NodeName',
     'TopicInfo',
+    'actions_of',
     'get_node_names',
     'node_sections',
     'shared_names',
@@ -34,11 +35,9 @@ class TopicInfo(NamedTuple):
 
 def get_node_names(*, node: Any, include_hidden_nodes: bool = False) -> list[NodeName]:
     """Return the names of all nodes, sorted, except for the one that asks."""
-    found = node.get_node_names_and_namespaces()
     names = (
         NodeName(name, namespace, f'{namespace.rstrip("/")}/{name}')
-        for name, namespace in found
-        if name != node.get_name()
+        for name, namespace in node.get_node_names_and_namespaces()
     )
     return sorted(
         (name for name in names if include_hidden_nodes or not is_hidden(name.full_name)),
@@ -68,8 +67,8 @@ def node_sections(
         ('Publishers', publishers),
         ('Service Servers', servers),
         ('Service Clients', clients),
-        ('Action Servers', _actions(servers)),
-        ('Action Clients', _actions(clients)),
+        ('Action Servers', actions_of(servers)),
+        ('Action Clients', actions_of(clients)),
     ]
     return [(title, _visible(found, include_hidden)) for title, found in sections]
 
@@ -79,7 +78,7 @@ def _visible(found: list[tuple[str, list[str]]], include_hidden: bool) -> list[T
     return [info for info in infos if include_hidden or '/_' not in info.name]
 
 
-def _actions(services: list[tuple[str, list[str]]]) -> list[tuple[str, list[str]]]:
+def actions_of(services: list[tuple[str, list[str]]]) -> list[tuple[str, list[str]]]:
     """Return the actions behind the hidden services that each action consists of."""
     suffix = '/_action/send_goal'
     return [

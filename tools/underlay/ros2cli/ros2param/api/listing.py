@@ -17,7 +17,7 @@ ANSWER_TIMEOUT_S = 5.0
 def print_all(node: Any, args: argparse.Namespace) -> None:
     """Print the parameters of all nodes; one that does not answer is named on stderr."""
     names = nodes_with_service(
-        node, LIST_SERVICE, LIST_TYPE, include_hidden_nodes=args.include_hidden_nodes
+        node.graph, LIST_SERVICE, LIST_TYPE, include_hidden_nodes=args.include_hidden_nodes
     )
     for name in names:
         try:

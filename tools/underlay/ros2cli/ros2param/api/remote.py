@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from ros2cli.graph.graph import Graph
 from ros2cli.node.direct import DirectNode
 from ros2cli.node.lookup import find_node
-from ros2cli.node.waiting import wait_until
 from ros2cli.patience import Patience
 from ros2param.api import LIST_SERVICE
 
@@ -18,18 +18,18 @@ from ros2param.api import LIST_SERVICE
 @contextmanager
 def remote_node(args: argparse.Namespace) -> Iterator[tuple[Any, str]]:
     """Yield our own node and the full name of the one on the command line, or RuntimeError."""
-    with DirectNode(args, wait=False) as node:
-        name = find_node(node, args.node_name, args.timeout)
+    with DirectNode(args) as node:
+        name = find_node(node.watch, args.node_name, args.timeout)
         _require_services(node, name, args.timeout)
         yield node, name
 
 
 def _require_services(node: Any, name: str, timeout_s: float) -> None:
-    def has_services() -> bool:
-        return bool(node.count_services(f'{name}{LIST_SERVICE}'))
+    def has_services(graph: Graph) -> bool:
+        return bool(graph.count_services(f'{name}{LIST_SERVICE}'))
 
     patience = Patience(f"the parameter services of '{name}'")
-    if not wait_until(node, has_services, patience, timeout_s):
+    if not node.watch.wait_for(has_services, patience, timeout_s):
         raise RuntimeError(
             f"The node '{name}' has no parameter services: it was started with "
             'start_parameter_services=False'

@@ -26,10 +26,8 @@ class Caller:
 
     def wait_for_service(self) -> None:
         """Wait as long as it takes, and say so if the service is not there at once."""
-        self._node.wait_for_graph(self._client.service_is_ready)
-        if self._client.service_is_ready():
-            return
-        print('waiting for service to become available...')
+        if not self._node.graph.count_services(self._name):
+            print('waiting for service to become available...')
         patience = Patience(f"the service '{self._name}'", self._hint)
         wait_until(self._node, self._client.service_is_ready, patience)
 
@@ -50,4 +48,4 @@ class Caller:
         print(f'response:\n{response!r}\n')
 
     def _hint(self) -> str:
-        return service_hint(self._node, self._name, self._type_name)
+        return service_hint(self._node.watch.updated(), self._name, self._type_name)

@@ -14,7 +14,6 @@ from ros2cli.patience import Patience
 from ros2service.api import get_service_types, unknown_service_text
 from ros2topic.api.echo import Listener
 from ros2topic.api.printing import chosen_shortening, SEPARATOR
-from ros2topic.api.waiting import settle
 from service_msgs.msg import ServiceEventInfo
 
 EVENT_SUFFIX = '/_service_event'
@@ -31,7 +30,7 @@ def echo(node: Any, service: str, args: argparse.Namespace) -> None:
     topic = f'{service}{EVENT_SUFFIX}'
 
     def hint() -> str:
-        if node.count_publishers(topic):
+        if node.watch.updated().count_publishers(topic):
             return ''
         return (
             'No node publishes them: the server or a client must turn its introspection on, '
@@ -39,7 +38,6 @@ def echo(node: Any, service: str, args: argparse.Namespace) -> None:
         )
 
     patience = Patience(f"events of the service '{service}'", hint)
-    settle(node)
     Listener(node, topic, event_type, args, event_formatter(args)).listen(float('inf'), patience)
 
 
@@ -58,11 +56,11 @@ def event_formatter(args: argparse.Namespace) -> Callable[[Any, Any], str]:
 
 
 def _discovered_type(node: Any, service: str) -> str:
-    node.wait_for_graph(lambda: get_service_types(node, service))
-    types = get_service_types(node, service)
+    graph = node.graph
+    types = get_service_types(graph, service)
     if not types:
         print(f'WARNING: service [{service}] does not appear to be available yet')
-        _, _, hint = unknown_service_text(node, service).partition('\n')
+        _, _, hint = unknown_service_text(graph, service).partition('\n')
         text = 'Could not determine the type for the passed service'
         raise RuntimeError('\n'.join([text, hint]).rstrip())
     if len(types) > 1:

@@ -44,7 +44,7 @@ class CallVerb(VerbExtension):
         service_type = get_passed_type(args.service_type, 'srv')
         request = OutgoingMessage(service_type.Request(), values_text(args))
         name = absolute(args.service_name, 'service')
-        with DirectNode(args, wait=False) as node:
+        with DirectNode(args) as node:
             caller = Caller(node, service_type, name)
             caller.wait_for_service()
             caller.call_repeatedly(request, args.rate)

@@ -33,6 +33,6 @@ class EchoVerb(VerbExtension):
         from ros2cli.node.direct import DirectNode
         from ros2service.api.echo import echo
 
-        with DirectNode(args, wait=False) as node:
+        with DirectNode(args) as node:
             echo(node, absolute(args.service_name, 'service'), args)
         return None

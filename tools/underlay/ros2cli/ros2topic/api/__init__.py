@@ -6,7 +6,6 @@ from __future__ import annotations
 from typing import Any
 
 from ros2cli.names import closest, is_hidden
-from ros2cli.node.graph import foreign_topics
 
 __all__ = ['closest_topic', 'get_topic_names_and_types', 'get_topic_types', 'unknown_topic_text']
 
@@ -17,11 +16,9 @@ def get_topic_names_and_types(
     include_hidden_topics: bool = False,
 ) -> list[tuple[str, list[str]]]:
     """Return the topics that others publish or subscribe to, sorted, with their types."""
-    found = dict(node.get_topic_names_and_types())
-    names = foreign_topics(node, list(found))
     return [
-        (name, found[name])
-        for name in sorted(names)
+        (name, types)
+        for name, types in node.get_topic_names_and_types()
         if include_hidden_topics or not is_hidden(name)
     ]
 

@@ -10,7 +10,6 @@ import time
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
-from ros2cli.node.graph import foreign_publishers
 from ros2cli.patience import Patience
 from ros2topic.api import closest_topic
 from ros2topic.api.draining import drain
@@ -28,9 +27,10 @@ def echo(node: Any, topic: str, message_type: Any, args: argparse.Namespace) -> 
     listener = Listener(node, topic, message_type, args)
 
     def hint() -> str:
-        if node.count_publishers(topic):
+        graph = node.watch.updated()
+        if graph.count_publishers(topic):
             return ''
-        return f'Nobody publishes it. {closest_topic(node, topic)}'
+        return f'Nobody publishes it. {closest_topic(graph, topic)}'
 
     listener.listen(end, Patience(f"a message on '{topic}'", hint))
 
@@ -47,7 +47,7 @@ class Listener:
         format_message: Callable[[Any, Any], str] | None = None,
     ) -> None:
         """Subscribe with the quality of service that the publishers offer."""
-        profile, notices = choose_qos(args, foreign_publishers(node, topic))
+        profile, notices = choose_qos(args, node.graph.get_publishers_info_by_topic(topic))
         for notice in notices:
             print(notice)
         self.count = 0

@@ -8,7 +8,7 @@ from typing import Any
 
 from rclpy.duration import Duration, Infinite
 from rclpy.qos import LivelinessPolicy, qos_check_compatible, QoSCompatibility, QoSProfile
-from ros2cli.node.graph import foreign_publishers, foreign_subscriptions, UNKNOWN_NODE_NAME
+from ros2cli.graph.endpoint_info import UNKNOWN_NODE
 from ros2topic.api.qos import copy_profile
 
 DURATIONS = ('deadline', 'lifespan', 'liveliness_lease_duration')
@@ -44,9 +44,13 @@ class Incompatibility:
                 print(self._text(info, reason), file=sys.stderr)
 
     def _others(self) -> list[Any]:
-        find = foreign_subscriptions if self._publishes else foreign_publishers
-        found = find(self._node, self._topic)
-        return [info for info in found if info.node_name != UNKNOWN_NODE_NAME]
+        graph = self._node.watch.updated()
+        find = (
+            graph.get_subscriptions_info_by_topic
+            if self._publishes
+            else graph.get_publishers_info_by_topic
+        )
+        return [info for info in find(self._topic) if info.node_name != UNKNOWN_NODE.name]
 
     def _reason(self, info: Any) -> str:
         pair = (self._profile, info.qos_profile)

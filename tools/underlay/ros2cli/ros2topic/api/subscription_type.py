@@ -7,9 +7,8 @@ import sys
 from typing import Any
 
 from ros2cli.messages.lookup import get_passed_type
-from ros2topic.api import closest_topic
+from ros2topic.api import closest_topic, get_topic_types
 from ros2topic.api.type_mismatch import type_mismatch
-from ros2topic.api.waiting import find_types
 
 
 def resolve_type(node: Any, topic: str, name: str | None) -> Any:
@@ -17,19 +16,19 @@ def resolve_type(node: Any, topic: str, name: str | None) -> Any:
     if not name:
         return get_passed_type(_discovered_type(node, topic), 'msg')
     message_type = get_passed_type(name, 'msg')
-    find_types(node, topic)
-    mismatch = type_mismatch(node, topic, message_type)
+    mismatch = type_mismatch(node.graph, topic, message_type)
     if mismatch:
         print(f'WARNING: {mismatch}', file=sys.stderr)
     return message_type
 
 
 def _discovered_type(node: Any, topic: str) -> str:
-    types = find_types(node, topic)
+    graph = node.graph
+    types = get_topic_types(graph, topic)
     if not types:
         print(f'WARNING: topic [{topic}] does not appear to be published yet')
         text = 'Could not determine the type for the passed topic'
-        raise RuntimeError('\n'.join([text, closest_topic(node, topic)]).rstrip())
+        raise RuntimeError('\n'.join([text, closest_topic(graph, topic)]).rstrip())
     if len(types) > 1:
         raise RuntimeError(
             f"Cannot echo topic '{topic}', as it contains more than one type: [{', '.join(types)}]"

@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from typing import Any
 
+from ros2cli.graph.graph import Graph
 from ros2cli.messages.lookup import type_name
-from ros2cli.node.graph import foreign_publishers, foreign_subscriptions
+from ros2topic.api import get_topic_types
 
 
-def type_mismatch(node: Any, topic: str, message_type: Any) -> str:
+def type_mismatch(graph: Graph, topic: str, message_type: Any) -> str:
     """Return a sentence if others use a topic with other types only, or ''."""
-    ends = [*foreign_publishers(node, topic), *foreign_subscriptions(node, topic)]
-    types = sorted({end.topic_type for end in ends})
+    types = get_topic_types(graph, topic)
     name = type_name(message_type)
     if not types or name in types:
         return ''

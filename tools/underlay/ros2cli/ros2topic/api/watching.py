@@ -7,16 +7,12 @@ from collections.abc import Callable
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
-from ros2cli.node.graph import foreign_publishers
 from ros2cli.patience import Patience
 from ros2topic.api import closest_topic, get_topic_types
 from ros2topic.api.draining import drain
 from ros2topic.api.incompatibility import Incompatibility
 from ros2topic.api.qos import matching_qos
 from ros2topic.api.subscription_type import resolve_type
-from ros2topic.api.waiting import find_types
-
-PERIOD_S = 0.02
 
 
 def subscribe_when_published(
@@ -29,7 +25,7 @@ def subscribe_when_published(
     """Wait for a topic as long as it takes, subscribe to it and return what may be wrong."""
     _wait_until_published(node, topic)
     message_type = resolve_type(node, topic, None)
-    profile, _ = matching_qos(foreign_publishers(node, topic))
+    profile, _ = matching_qos(node.graph.get_publishers_info_by_topic(topic))
     incompatibility = Incompatibility(node, topic, profile)
 
     def receive(message: Any) -> None:
@@ -49,10 +45,8 @@ def subscribe_when_published(
 
 
 def _wait_until_published(node: Any, topic: str) -> None:
-    if find_types(node, topic):
+    if get_topic_types(node.graph, topic):
         return
     print(f'WARNING: topic [{topic}] does not appear to be published yet')
-    patience = Patience(f"a publisher of '{topic}'", lambda: closest_topic(node, topic))
-    while not get_topic_types(node, topic):
-        patience.check()
-        node.spin_once(PERIOD_S)
+    patience = Patience(f"a publisher of '{topic}'", lambda: closest_topic(node.graph, topic))
+    node.watch.wait_for(lambda graph: get_topic_types(graph, topic), patience)

@@ -45,7 +45,7 @@ class BwVerb(VerbExtension):
         def count(data: Any) -> None:
             meter.add(time.monotonic(), len(data))
 
-        with DirectNode(args, wait=False) as node:
+        with DirectNode(args) as node:
             watched = subscribe_when_published(node, topic, count)
             print(f'Subscribed to [{topic}]')
             report_for_ever(node, topic, lambda: meter.report(time.monotonic()), watched)

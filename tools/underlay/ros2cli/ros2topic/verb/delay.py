@@ -40,7 +40,7 @@ class DelayVerb(VerbExtension):
 
         topic = absolute(args.topic_name)
         meter = DelayMeter(args.window)
-        with DirectNode(args, wait=False) as node:
+        with DirectNode(args) as node:
 
             def count(message: Any) -> None:
                 now_s = node.get_clock().now().nanoseconds / 1e9

@@ -34,6 +34,6 @@ class EchoVerb(VerbExtension):
         from ros2topic.api.subscription_type import resolve_type
 
         topic = absolute(args.topic_name)
-        with DirectNode(args, wait=False) as node:
+        with DirectNode(args) as node:
             echo(node, topic, resolve_type(node, topic, args.message_type), args)
         return None

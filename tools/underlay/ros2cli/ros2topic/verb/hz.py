@@ -43,6 +43,6 @@ class HzVerb(VerbExtension):
         from ros2cli.node.direct import DirectNode
         from ros2topic.api.hz import print_rate
 
-        with DirectNode(args, wait=False) as node:
+        with DirectNode(args) as node:
             print_rate(node, absolute(args.topic_name), args)
         return None

@@ -29,7 +29,6 @@ class InfoVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the type and the endpoints."""
-        from ros2cli.node.graph import foreign_publishers, foreign_subscriptions
         from ros2cli.node.strategy import NodeStrategy
         from ros2topic.api import get_topic_types, unknown_topic_text
 
@@ -37,17 +36,17 @@ class InfoVerb(VerbExtension):
             types = get_topic_types(node, args.topic_name)
             if not types:
                 return unknown_topic_text(node, args.topic_name)
-            publishers = foreign_publishers(node, args.topic_name)
-            subscriptions = foreign_subscriptions(node, args.topic_name)
         line_end = '\n' if args.verbose else ''
         print('Type:', types[0] if len(types) == 1 else types, end=f'\n{line_end}')
-        print('Publisher count:', len(publishers), end=f'\n{line_end}')
-        _print_endpoints(publishers, args.verbose)
-        print('Subscription count:', len(subscriptions), end=f'\n{line_end}')
-        _print_endpoints(subscriptions, args.verbose)
+        print('Publisher count:', node.count_publishers(args.topic_name), end=f'\n{line_end}')
+        if args.verbose:
+            _print_endpoints(node.get_publishers_info_by_topic(args.topic_name))
+        print('Subscription count:', node.count_subscribers(args.topic_name), end=f'\n{line_end}')
+        if args.verbose:
+            _print_endpoints(node.get_subscriptions_info_by_topic(args.topic_name))
         return None
 
 
-def _print_endpoints(endpoints: list[Any], verbose: bool) -> None:
-    for endpoint in endpoints if verbose else ():
+def _print_endpoints(endpoints: list[Any]) -> None:
+    for endpoint in endpoints:
         print(endpoint, end='\n\n')

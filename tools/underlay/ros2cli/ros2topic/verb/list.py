@@ -55,14 +55,10 @@ class ListVerb(VerbExtension):
 
 
 def _print_verbose(node: Any, topics: list[tuple[str, list[str]]]) -> None:
-    from ros2cli.node.graph import foreign_publishers, foreign_subscriptions
-
     print('Published topics:')
-    _print_counts(topics, [len(foreign_publishers(node, name)) for name, _ in topics], 'publisher')
+    _print_counts(topics, [node.count_publishers(name) for name, _ in topics], 'publisher')
     print('\nSubscribed topics:')
-    _print_counts(
-        topics, [len(foreign_subscriptions(node, name)) for name, _ in topics], 'subscriber'
-    )
+    _print_counts(topics, [node.count_subscribers(name) for name, _ in topics], 'subscriber')
 
 
 def _print_counts(topics: list[tuple[str, list[str]]], counts: list[int], what: str) -> None:

@@ -35,6 +35,6 @@ class PubVerb(VerbExtension):
         if args.topic_name != PRIVATE:
             absolute(args.topic_name.removeprefix(PRIVATE))
         message = OutgoingMessage(message_type(), values_text(args))
-        with DirectNode(args, node_name=args.node_name, wait=False) as node:
+        with DirectNode(args, node_name=args.node_name) as node:
             publish(node, message, args)
         return None
