@@ -29,7 +29,12 @@ class Reach(NamedTuple):
 
 
 def read_reach(environment: Mapping[str, str] = os.environ) -> Reach:
-    """Return what the environment says; RuntimeError if the domain is not a number in range."""
+    """Return what the environment says; RuntimeError if it names what cannot be reached."""
+    if environment.get('ROS_DISCOVERY_SERVER'):
+        raise RuntimeError(
+            'ROS_DISCOVERY_SERVER is set, but these commands ask the nodes themselves and know '
+            'no discovery server; start the nodes without it, after: unset ROS_DISCOVERY_SERVER'
+        )
     return Reach(_domain_id(environment), _extent(environment), _peers(environment))
 
 

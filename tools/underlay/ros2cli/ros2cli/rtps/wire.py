@@ -81,6 +81,8 @@ def _submessages(datagram: bytes, own_prefix: bytes) -> Iterator[Submessage]:
         (length,) = struct.unpack_from(f'{order}H', datagram, offset + 2)
         start = offset + 4
         offset = start + length if length else len(datagram)
+        if offset > len(datagram):
+            raise ValueError(f'{offset - len(datagram)} bytes of a datagram are missing')
         body = datagram[start:offset]
         if kind == INFO_DESTINATION:
             is_for_us = body[:PREFIX_BYTES] in (own_prefix, bytes(PREFIX_BYTES))

@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of reading the graph from participants, in a network of our own."""
+
+import random
+
+import pytest
+from ros2cli.rtps.entities import decode_entities
+from ros2cli.rtps.identifiers import unicast_ports
+from ros2cli.rtps.parameters import decode_parameters, INFINITE_NS, THIS_HOST
+from ros2cli.rtps.wire import acknack, Gap, Heartbeat, heartbeat, message, submessages
+from rtps_network import gap, Network
+
+LONG_S = 30.0
+
+
+def names(network: Network) -> list[str]:
+    """Return the names of the nodes that are known, sorted."""
+    return sorted(name for name, _ in network.graph.get_node_names_and_namespaces())
+
+
+def topics(network: Network) -> list[str]:
+    """Return the names of the topics that are known, sorted."""
+    return [name for name, _ in network.graph.get_topic_names_and_types()]
+
+
+def test_everything_is_told() -> None:
+    """Nodes, topics, types, owners and quality of service arrive as they were announced."""
+    network = Network()
+    network.add(0, nodes=2, topics=['a', 'b'])
+    network.count()
+    assert not network.observer.is_complete
+    network.run(LONG_S)
+    assert names(network) == ['node0_0', 'node0_1']
+    assert topics(network) == ['/a', '/b', '/in0']
+    of_node = network.graph.get_publisher_names_and_types_by_node('node0_1', '/')
+    assert of_node == [('/a', ['std_msgs/msg/String']), ('/b', ['std_msgs/msg/String'])]
+    assert network.graph.count_publishers('/a') == 2
+    (end, *_) = [each for each in network.observer.neighbours[0].endpoints.values()]
+    assert end.type_hash.startswith('RIHS01_abab')
+    assert (end.qos.reliability, end.qos.durability) == (2, 1)
+    assert end.qos.deadline_ns == INFINITE_NS
+
+
+def test_empty_machine_is_complete_at_once() -> None:
+    """Where there is nobody, nobody is waited for."""
+    network = Network()
+    network.count()
+    assert network.observer.is_complete
+
+
+def test_small_socket_is_not_overrun() -> None:
+    """Twenty processes answer so that no datagram is lost in a socket for a hundred of them."""
+    network = Network(room=100)
+    for index in range(20):
+        network.add(index, topics=['a', 'b', 'c', 'd'])
+    network.count()
+    assert network.run(LONG_S) < 1.0
+    assert len(names(network)) == 20
+    assert network.dropped == 0
+
+
+@pytest.mark.parametrize('seed', range(10))
+def test_lost_datagrams_are_asked_again(seed: int) -> None:
+    """Whatever is lost, in both directions, in the end everything is known."""
+    network = Network(loss=0.4, seed=seed)
+    for index in range(5):
+        network.add(index, nodes=2, topics=['a', 'b', 'c'])
+    network.count()
+    network.run(LONG_S)
+    assert network.observer.is_complete
+    assert len(names(network)) == 10
+    assert topics(network) == ['/a', '/b', '/c', *(f'/in{index}' for index in range(5))]
+    assert network.dropped > 0
+
+
+def test_silent_process_is_never_complete() -> None:
+    """A process that is there but does not answer is known to be missing."""
+    network = Network()
+    network.add(0)
+    network.count()
+    network.observer.expect([(THIS_HOST, 7410), (THIS_HOST, 7412)])
+    network.run(2.0)
+    assert names(network) == ['node0_0']
+    assert not network.observer.is_complete
+
+
+def test_new_ends_are_heard() -> None:
+    """What appears later is told by the participant; what is destroyed disappears."""
+    network = Network()
+    participant = network.add(0, topics=['a'])
+    network.count()
+    network.run(LONG_S)
+    guid = participant.publish('rt/late')
+    for _ in range(300):
+        network.step()
+    assert '/late' in topics(network)
+    participant.destroy(guid)
+    for _ in range(300):
+        network.step()
+    assert network.observer.is_complete
+    assert '/late' not in topics(network)
+
+
+def test_history_with_gaps() -> None:
+    """Samples that a writer no longer has are not waited for."""
+    network = Network()
+    participant = network.add(0, topics=['a'])
+    participant.destroy(participant.publish('rt/gone'))
+    network.count()
+    network.run(LONG_S)
+    assert network.observer.is_complete
+    assert topics(network) == ['/a', '/in0']
+
+
+def test_ended_process_is_forgotten() -> None:
+    """A process whose port is closed is gone, even if it was killed without a word."""
+    network = Network()
+    network.add(0)
+    killed = network.add(1)
+    network.count()
+    network.run(LONG_S)
+    del network.participants[killed.port]
+    network.count()
+    assert names(network) == ['node0_0']
+    assert network.observer.is_complete
+
+
+def test_restarted_process_replaces_the_old_one() -> None:
+    """A new process at the port of an old one is asked, and the old one is forgotten."""
+    network = Network()
+    network.add(0, topics=['old'])
+    network.count()
+    network.run(LONG_S)
+    network.add(0, topics=['new'])._answer_greeting()
+    for _ in range(300):
+        network.step()
+    assert topics(network) == ['/in0', '/new']
+    assert names(network) == ['node0_0']
+
+
+def test_everybody_is_taken_leave_of() -> None:
+    """Those who have answered are told that we are gone."""
+    network = Network()
+    for index in range(3):
+        network.add(index)
+    network.count()
+    network.run(LONG_S)
+    network.observer.leave()
+    assert sorted(network.farewells) == [7410, 7412, 7414]
+
+
+def test_strangers_on_this_machine_are_ignored() -> None:
+    """A participant that nobody counts is one of our own process."""
+    network = Network()
+    own = network.add(0)
+    own._answer_greeting()
+    network.step()
+    assert network.observer.neighbours == []
+
+
+@pytest.mark.parametrize('seed', range(20))
+def test_damaged_datagrams_are_as_good_as_lost(seed: int) -> None:
+    """Whatever arrives besides is not believed, and the graph is complete in the end."""
+    network = Network()
+    network.add(0, nodes=2, topics=['a', 'b'])
+    network.count()
+    noise = random.Random(seed)
+    while not network.observer.is_complete and network.now_s < LONG_S:
+        if network._socket:
+            whole = noise.choice(network._socket)
+            network.observer.handle(whole[: noise.randrange(len(whole))], THIS_HOST)
+            network.observer.handle(noise.randbytes(noise.randrange(200)), THIS_HOST)
+        network.step()
+    assert names(network) == ['node0_0', 'node0_1']
+    assert topics(network) == ['/a', '/b', '/in0']
+
+
+@pytest.mark.parametrize('seed', range(20))
+def test_wrong_bytes_raise_nothing(seed: int) -> None:
+    """Datagrams with other bytes than the sender meant are wrong, but no harm."""
+    network = Network()
+    network.add(0, nodes=2, topics=['a', 'b'])
+    network.count()
+    noise = random.Random(seed)
+    for _ in range(400):
+        for index, datagram in enumerate(network._socket):
+            wrong = bytearray(datagram)
+            wrong[noise.randrange(20, len(wrong))] = noise.randrange(256)
+            network._socket[index] = bytes(wrong)
+        network.step()
+    assert names(network) is not None
+
+
+def test_destinations_and_byte_orders() -> None:
+    """What is for somebody else is skipped; big-endian submessages are read as well."""
+    own, other = bytes(range(12)), bytes(range(1, 13))
+    reader, writer = b'\0\0\3\xc7', b'\0\0\3\xc2'
+    told = heartbeat(reader, writer, 1, 5, 1)
+    for_other = b'\x0e\x01\x0c\x00' + other
+    for_us = b'\x0e\x01\x0c\x00' + own
+    datagram = message(other, for_other, told, for_us, told, gap(reader, writer, 3))
+    expected = [Heartbeat(reader, writer, 1, 5), Gap(reader, writer, frozenset({3}))]
+    assert list(submessages(datagram, own)) == expected
+    big = b'\x07\x00\x00\x1c' + reader + writer + bytes.fromhex('00000000 00000001')
+    big += bytes.fromhex('00000000 00000005 00000001')
+    assert list(submessages(message(other, big), own)) == expected[:1]
+
+
+def test_request_names_what_is_missing() -> None:
+    """The bits of a request are counted from its base, the most significant one first."""
+    request = acknack(b'rrrr', b'wwww', 3, [3, 4, 36], 9)
+    size, *words = (int.from_bytes(request[i : i + 4], 'little') for i in (20, 24, 28))
+    assert request[12:20] == b'\0\0\0\0\3\0\0\0'
+    assert size == 34
+    assert words == [0b11 << 30, 0b01 << 30]
+
+
+@pytest.mark.parametrize('payload', [b'', b'\0\1\0\0', b'\0\1\0\0' + b'\xff' * 30])
+def test_damaged_payloads(payload: bytes) -> None:
+    """Payloads that end too early are errors, not endless loops."""
+    with pytest.raises(ValueError, match='damaged|missing'):
+        decode_entities(payload)
+    with pytest.raises(ValueError, match='damaged'):
+        decode_parameters(payload)
+
+
+def test_ports() -> None:
+    """The ports are those of the specification."""
+    assert unicast_ports(0)[0] == 7410
+    assert unicast_ports(42)[3] == 7400 + 250 * 42 + 10 + 6
