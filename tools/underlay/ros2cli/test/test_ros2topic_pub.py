@@ -81,6 +81,26 @@ def test_message_comes_from_stdin(ros2_here: Ros2, monkeypatch: pytest.MonkeyPat
     )
 
 
+@pytest.mark.parametrize(
+    ('stdin', 'error'),
+    [
+        (None, '--stdin reads values from standard input, which is closed\n'),
+        (
+            io.TextIOWrapper(io.BytesIO(b'\xff'), encoding='utf-8'),
+            "--stdin reads text, and standard input is none: 'utf-8' codec can't decode byte "
+            '0xff in position 0: invalid start byte\n',
+        ),
+    ],
+)
+def test_stdin_without_text(
+    stdin: Any, error: str, ros2_here: Ros2, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Standard input that is closed, or is no text, is an error of one sentence."""
+    monkeypatch.setattr('sys.stdin', stdin)
+    result = ros2_here('topic', 'pub', '/x', 'std_msgs/msg/Int8', '--stdin')
+    assert (result.stdout, result.stderr, result.returncode) == ('', error, 1)
+
+
 NO_DICTIONARY = 'The passed value needs to be a dictionary in YAML format\n'
 FIELD = 'Failed to populate field: '
 
