@@ -70,7 +70,8 @@ def test_extensions_stand_below_their_group(run: Callable[..., list[str]]) -> No
     lines = run('extensions')
     assert [line for line in lines if not line.startswith(' ')] == GROUPS
     verbs = sorted([*TopicCommand.VERBS, 'relay'])
-    assert lines[lines.index('ros2topic.verb') :] == ['ros2topic.verb', *(f'  {v}' for v in verbs)]
+    start = lines.index('ros2topic.verb') + 1
+    assert lines[start:] == [f'  {verb}' for verb in verbs]
 
 
 def test_all_extensions_include_broken_ones(run: Callable[..., list[str]]) -> None:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the frame: help, unknown commands and what is imported."""
 
+import io
 import subprocess
 import sys
 
@@ -120,3 +121,17 @@ def test_heavy_modules_are_not_imported(
         text=True,
     )
     assert result.stdout.splitlines()[-1] == 'heavy: []'
+
+
+@pytest.mark.parametrize(
+    ('words', 'line_buffering'),
+    [(['pkg'], True), (['--use-python-default-buffering', 'pkg'], False)],
+)
+def test_output_comes_line_by_line(
+    words: list[str], line_buffering: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each line of output is written at once, unless Python's buffering is asked for."""
+    output = io.TextIOWrapper(io.BytesIO())
+    monkeypatch.setattr('sys.stdout', output)
+    assert main(words) == 0
+    assert output.line_buffering is line_buffering

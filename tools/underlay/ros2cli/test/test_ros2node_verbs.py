@@ -3,12 +3,14 @@
 
 from collections.abc import Callable
 from subprocess import CompletedProcess
+from typing import Any
 
 from domain_coordinator import domain_id
 import pytest
 from ros2node.api import get_node_names, NodeName, shared_names
 
 Ros2 = Callable[..., CompletedProcess[str]]
+Start = Callable[..., Any]
 
 
 class FakeNode:
@@ -35,37 +37,102 @@ def test_shared_names_are_found() -> None:
     assert shared_names(names) == ['/a']
 
 
-@pytest.mark.usefixtures('talker')
-def test_list_hides_hidden_nodes(ros2_here: Ros2) -> None:
-    """The list has full names; hidden ones only with `--all`."""
-    assert ros2_here('node', 'list').stdout == '/talker\n'
-    assert ros2_here('node', 'list', '--all').stdout == '/robot1/_helper\n/talker\n'
-    assert ros2_here('node', 'list', '--count-nodes').stdout == '1\n'
+INFO_OF_TALKER = """\
+/talker
+  Subscribers:
+    /orders: std_msgs/msg/String
+  Publishers:
+    /joint_commands: sensor_msgs/msg/JointState
+    /mixed: std_msgs/msg/String
+    /parameter_events: rcl_interfaces/msg/ParameterEvent
+    /robot_description: std_msgs/msg/String
+    /rosout: rcl_interfaces/msg/Log
+    /temperature: sensor_msgs/msg/Temperature
+  Service Servers:
+    /talker/describe_parameters: rcl_interfaces/srv/DescribeParameters
+    /talker/get_parameter_types: rcl_interfaces/srv/GetParameterTypes
+    /talker/get_parameters: rcl_interfaces/srv/GetParameters
+    /talker/get_type_description: type_description_interfaces/srv/GetTypeDescription
+    /talker/list_parameters: rcl_interfaces/srv/ListParameters
+    /talker/set_parameters: rcl_interfaces/srv/SetParameters
+    /talker/set_parameters_atomically: rcl_interfaces/srv/SetParametersAtomically
+  Service Clients:
+
+  Action Servers:
+
+  Action Clients:
+
+"""
+END_OF_INFO_OF_ARM = """\
+  Service Clients:
+    /fire: std_srvs/srv/Trigger
+  Action Servers:
+    /look: tf2_msgs/action/LookupTransform
+  Action Clients:
+
+"""
+ROWS = [
+    (['list'], '/talker\n'),
+    (['list', '--all'], '/robot1/_helper\n/talker\n'),
+    (['list', '-c', '--no-daemon'], '1\n'),
+    (['list', '--count-nodes', '-a', '--spin-time', '1'], '2\n'),
+    (['info', '/talker'], INFO_OF_TALKER),
+]
+ERRORS = [
+    ('talker', "Unable to find node 'talker'\nDid you mean '/talker'?\n"),
+    ('/taller', "Unable to find node '/taller'\nDid you mean '/talker'?\n"),
+    ('/x', "Unable to find node '/x'\n"),
+    ('', "Unable to find node ''\n"),
+]
 
 
 @pytest.mark.usefixtures('talker')
-def test_info_has_all_sections(ros2_here: Ros2) -> None:
-    """The info lists what a node offers under six headings."""
-    lines = ros2_here('node', 'info', '/talker').stdout.splitlines()
-    assert lines[:3] == ['/talker', '  Subscribers:', '    /orders: std_msgs/msg/String']
-    assert '    /joint_commands: sensor_msgs/msg/JointState' in lines
-    assert [line for line in lines if line.startswith('  ') and line[2] != ' '] == [
-        '  Subscribers:',
-        '  Publishers:',
-        '  Service Servers:',
-        '  Service Clients:',
-        '  Action Servers:',
-        '  Action Clients:',
+@pytest.mark.parametrize(('words', 'output'), ROWS, ids=lambda words: ' '.join(words))
+def test_output(words: list[str], output: str, ros2_here: Ros2) -> None:
+    """The verb prints this and nothing else."""
+    result = ros2_here('node', *words)
+    assert (result.stdout, result.stderr, result.returncode) == (output, '', 0)
+
+
+@pytest.mark.usefixtures('talker')
+@pytest.mark.parametrize(('name', 'errors'), ERRORS)
+def test_unknown_node(name: str, errors: str, ros2_here: Ros2) -> None:
+    """A name that is not complete is unknown; one that comes close is offered."""
+    result = ros2_here('node', 'info', name)
+    assert (result.stdout, result.stderr, result.returncode) == ('', errors, 1)
+
+
+def test_info_hides_hidden_names(ros2_robot: Ros2) -> None:
+    """Actions have a section of their own; the parts they consist of are shown if asked for."""
+    result = ros2_robot('node', 'info', '/robot1/arm')
+    assert result.stdout.endswith(END_OF_INFO_OF_ARM)
+    assert '/_' not in result.stdout
+    everything = ros2_robot('node', 'info', '--include-hidden', '/robot1/arm').stdout
+    hidden = sorted(set(everything.splitlines()) - set(result.stdout.splitlines()))
+    assert hidden == [
+        '    /flip/_service_event: std_srvs/srv/SetBool_Event',
+        '    /look/_action/cancel_goal: action_msgs/srv/CancelGoal',
+        '    /look/_action/feedback: tf2_msgs/action/LookupTransform_FeedbackMessage',
+        '    /look/_action/get_result: tf2_msgs/action/LookupTransform_GetResult',
+        '    /look/_action/send_goal: tf2_msgs/action/LookupTransform_SendGoal',
+        '    /look/_action/status: action_msgs/msg/GoalStatusArray',
+        '    /robot1/_secret: std_srvs/srv/Trigger',
     ]
-    assert lines[-1] == ''
 
 
-@pytest.mark.usefixtures('talker')
-def test_info_of_unknown_node_suggests(ros2_here: Ros2) -> None:
-    """A name without its slash is unknown, and the error says so."""
-    result = ros2_here('node', 'info', 'talker')
-    assert result.returncode == 1
-    assert result.stderr == "Unable to find node 'talker'\nDid you mean '/talker'?\n"
+def test_nodes_of_one_name_are_warned_about(ros2_here: Ros2, start_ros2: Start) -> None:
+    """Each of two nodes with one name is listed, and a warning names them."""
+    with domain_id() as domain:
+        variables = {'ROS_DOMAIN_ID': str(domain)}
+        words = ('topic', 'pub', '/x', 'std_msgs/msg/String', '--node-name', 'twin', '-p', '0')
+        twins = [start_ros2(*words, extra=variables) for _ in range(2)]
+        assert [twin.stdout.readline() for twin in twins] == ['publisher: beginning loop\n'] * 2
+        result = ros2_here('node', 'list', **variables)
+    assert (result.stdout, result.returncode) == ('/twin\n/twin\n', 0)
+    assert result.stderr == (
+        'WARNING: Be aware that there are nodes in the graph that share an exact name, which '
+        'can have unintended side effects: /twin\n'
+    )
 
 
 def test_empty_graph_prints_nothing(ros2_here: Ros2) -> None:

@@ -184,6 +184,26 @@ def test_names_that_cannot_work_are_refused(
     assert not Path(words[0]).exists()
 
 
+def test_path_is_no_name(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A path instead of a name is refused with the option that is meant."""
+    assert main(['pkg', 'create', 'a/b']) == 1
+    assert capsys.readouterr() == (
+        '',
+        "'a/b' is a path and no name of a package. Give the folder in which to create the "
+        'package with --destination-directory.\n',
+    )
+    assert list(folder.iterdir()) == []
+
+
+def test_folder_that_cannot_be_created(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A file in the way is named in a sentence."""
+    (folder / 'p').touch()
+    assert main([*PYTHON, 'p']) == 1
+    output, errors = capsys.readouterr()
+    assert output.endswith('creating folder ./p\n')
+    assert errors == "cannot create './p': File exists\n"
+
+
 def test_missing_name_explains_dependencies(capsys: pytest.CaptureFixture[str]) -> None:
     """A name swallowed by --dependencies is a usage error that says so."""
     assert main([*PYTHON, '--dependencies', 'rclpy', 'p']) == 2

@@ -59,12 +59,25 @@ def test_prefix_and_share(run: Run, prefix: Path) -> None:
     assert run('prefix', 'arm', '--share') == (0, f'{prefix}/share/arm\n', '')
 
 
-@pytest.mark.parametrize('words', [['prefix', 'arn'], ['xml', 'arn'], ['prefix', 'no/name']])
-def test_unknown_package(words: list[str], run: Run) -> None:
+@pytest.mark.parametrize(
+    ('words', 'error'),
+    [
+        (['prefix', 'arn'], 'Package not found'),
+        (['prefix', 'arn', '--share'], 'Package not found'),
+        (['prefix', 'no/name'], 'Package not found'),
+        (['prefix', ''], 'Package not found'),
+        (['xml', 'arn'], 'Package not found'),
+        (['executables', 'arn'], "Package 'arn' not found"),
+    ],
+)
+def test_unknown_package(words: list[str], error: str, run: Run) -> None:
     """An unknown package has a short error and more to read below it."""
     status, output, errors = run(*words)
     assert (status, output) == (1, '')
-    assert errors.startswith('Package not found\n')
+    first, *advice = errors.splitlines()
+    assert first == error
+    assert advice
+    assert all('Traceback' not in line for line in advice)
 
 
 def test_unknown_package_suggests(run: Run) -> None:
@@ -89,4 +102,16 @@ def test_xml(run: Run) -> None:
 def test_xml_errors(run: Run) -> None:
     """A missing tag and a missing manifest are errors."""
     assert run('xml', 'arm', '--tag', 'nope') == (1, '', 'XML tag not found\n')
+    assert run('xml', 'arm', '--tag', '//[') == (1, '', 'XML tag not found\n')
     assert run('xml', 'bare') == (1, '', 'Package XML manifest not found\n')
+
+
+def test_broken_manifest_is_a_sentence(run: Run, prefix: Path) -> None:
+    """A manifest that cannot be parsed is named, with the place of the mistake."""
+    manifest = prefix / 'share' / 'arm' / 'package.xml'
+    manifest.write_text('<package>')
+    assert run('xml', 'arm') == (
+        1,
+        '',
+        f"'{manifest}' is no XML: no element found: line 1, column 9\n",
+    )

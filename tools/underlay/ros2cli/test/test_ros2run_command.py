@@ -12,6 +12,7 @@ import sys
 from typing import Any
 
 import pytest
+from ros2cli.cli import main
 
 Ros2 = Callable[..., CompletedProcess[str]]
 
@@ -147,18 +148,67 @@ def test_child_reads_stdin(arm: dict[str, str], ros_environment_variables: Any) 
     assert result.stdout == 'read hello\n'
 
 
+def found(prefix: str, *names: str) -> str:
+    """Return the lines that list several executables."""
+    return ''.join(f'- {prefix}/lib/arm/{name}\n' for name in names)
+
+
 @pytest.mark.parametrize(
-    ('words', 'texts'),
+    ('words', 'errors'),
     [
-        (['nope', 'fail'], ["Package 'nope' not found"]),
-        (['arm', 'fial'], ['No executable found', "Did you mean 'fail'?"]),
-        (['arm', 'twice'], ['Multiple executables found:', '/lib/arm/deep/twice']),
-        (['arm', 'no_interpreter'], ['cannot run', 'names an interpreter that does not exist']),
+        (
+            ['arm', 'fial'],
+            "No executable found\nThe executables of 'arm': catcher, echo_all, fail, killed, "
+            "no_interpreter, read_line, twice, twice. Did you mean 'fail'?\n",
+        ),
+        (['arm', 'twice'], 'Multiple executables found:\n{found}'),
+        (
+            ['arm', 'no_interpreter'],
+            "cannot run '{prefix}/lib/arm/no_interpreter': No such file or directory. Its first "
+            'line (#!) names an interpreter that does not exist.\n',
+        ),
+        (
+            ['--prefix', 'no_such_program', 'arm', 'fail'],
+            "cannot run 'no_such_program': No such file or directory\n",
+        ),
     ],
 )
-def test_errors(words: list[str], texts: list[str], ros2: Ros2, arm: dict[str, str]) -> None:
+def test_errors(words: list[str], errors: str, ros2: Ros2, arm: dict[str, str]) -> None:
     """What cannot be run is an error with the known text first."""
+    prefix = arm['AMENT_PREFIX_PATH']
     result = ros2('run', *words, extra=arm)
-    assert (result.returncode, result.stdout) == (1, '')
-    assert result.stderr.startswith(texts[0])
-    assert all(text in result.stderr for text in texts)
+    expected = errors.format(prefix=prefix, found=found(prefix, 'deep/twice', 'twice'))
+    assert (result.stdout, result.stderr, result.returncode) == ('', expected, 1)
+
+
+def test_unknown_package(ros2: Ros2, arm: dict[str, str]) -> None:
+    """An unknown package is named, with where it was looked for below that."""
+    result = ros2('run', 'nope', 'fail', extra=arm)
+    assert (result.stdout, result.returncode) == ('', 1)
+    assert result.stderr.startswith(
+        "Package 'nope' not found\nIt is in none of the folders of AMENT_PREFIX_PATH"
+    )
+
+
+@pytest.mark.parametrize(
+    ('words', 'error'),
+    [
+        (
+            [],
+            'ros2 run: error: the following arguments are required: package_name, executable_name',
+        ),
+        (['arm'], 'ros2 run: error: the following arguments are required: executable_name'),
+        (
+            ['--prefix', "'", 'arm', 'fail'],
+            'ros2 run: error: argument --prefix: "\'" is no command: No closing quotation',
+        ),
+        (['--nope', 'arm', 'fail'], 'ros2: error: unrecognized arguments: --nope'),
+    ],
+)
+def test_usage_errors(words: list[str], error: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """What the parser refuses has status 2 and the usage above the reason."""
+    assert main(['run', *words]) == 2
+    output, errors = capsys.readouterr()
+    assert output == ''
+    assert errors.startswith('usage: ros2')
+    assert errors.splitlines()[-1].startswith(error)

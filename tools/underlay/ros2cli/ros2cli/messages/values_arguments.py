@@ -21,5 +21,14 @@ def add_values_arguments(parser: argparse.ArgumentParser, what: str) -> None:
 
 def values_text(args: argparse.Namespace) -> str:
     """Return the values that were given on the command line or on standard input."""
-    text: str = sys.stdin.read() if args.stdin else args.values
+    text: str = _read_stdin() if args.stdin else args.values
     return text
+
+
+def _read_stdin() -> str:
+    if sys.stdin is None:
+        raise RuntimeError('--stdin reads values from standard input, which is closed')
+    try:
+        return sys.stdin.read()
+    except UnicodeDecodeError as error:
+        raise RuntimeError(f'--stdin reads text, and standard input is none: {error}') from error

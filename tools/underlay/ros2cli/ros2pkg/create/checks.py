@@ -16,6 +16,11 @@ def refusal(args: argparse.Namespace, package_folder: str) -> str:
             f'\nAborted!\nThe directory already exists: {package_folder}\nEither remove the '
             'directory or choose a different destination directory or package name'
         )
+    if os.sep in args.package_name:
+        return (
+            f"'{args.package_name}' is a path and no name of a package. Give the folder in which "
+            'to create the package with --destination-directory.'
+        )
     if args.build_type == 'cmake':
         return (
             "The build type 'cmake' is not supported here. Choose --build-type ament_python "

@@ -83,7 +83,12 @@ class CreateVerb(VerbExtension):
         description = _description(args)
         print('going to create a new package')
         print(description.summary(os.path.abspath(args.destination_directory)))
-        create_package(description, folder)
+        try:
+            create_package(description, folder)
+        except OSError as error:
+            if error.filename is None:
+                raise
+            return f"cannot create '{error.filename}': {error.strerror}"
         if args.license not in known_licenses():
             print(unknown_license_warning(args.license))
         return 0

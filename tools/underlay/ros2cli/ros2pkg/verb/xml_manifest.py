@@ -28,11 +28,14 @@ class XmlVerb(VerbExtension):
             return missing_package(args.package_name)
         if not manifest.is_file():
             return 'Package XML manifest not found'
-        root = ElementTree.parse(manifest).getroot()
+        try:
+            root = ElementTree.parse(manifest).getroot()
+        except ElementTree.ParseError as error:
+            return f"'{manifest}' is no XML: {error}"
         if args.tag is None:
             print(ElementTree.tostring(root, encoding='unicode'))
             return None
-        texts = [element.text or '' for element in root.findall(args.tag)]
+        texts = [element.text or '' for element in root if element.tag == args.tag]
         if not texts:
             return 'XML tag not found'
         print('\n'.join(texts))

@@ -20,6 +20,7 @@ class RunCommand(CommandExtension):
         """Add the arguments; all that follows the executable's name belongs to it."""
         parser.add_argument(
             '--prefix',
+            type=_split,
             help='Prefix command, which should go before the '
             "executable, e.g. --prefix 'gdb -ex run --args'",
         )
@@ -47,10 +48,17 @@ class RunCommand(CommandExtension):
             return ''.join(['Multiple executables found:', *(f'\n- {p}' for p in error.paths)])
         if path is None:
             return _no_executable(args.package_name, args.executable_name)
-        prefix = shlex.split(args.prefix) if args.prefix else None
-        status = run_executable(path=path, argv=args.argv, prefix=prefix)
+        status = run_executable(path=path, argv=args.argv, prefix=args.prefix)
         _report(status)
         return status
+
+
+def _split(text: str) -> list[str]:
+    """Return the words of a command, or say why it has none."""
+    try:
+        return shlex.split(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f'{text!r} is no command: {error}') from error
 
 
 def _report(status: int) -> None:

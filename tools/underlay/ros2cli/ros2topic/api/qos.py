@@ -73,9 +73,13 @@ def _common(offered: list[Any], strong: Any, weak: Any) -> tuple[Any, str]:
     if count == 0 or count == len(offered):
         return (strong if count else weak), ''
     return weak, (
-        f'Some, but not all, publishers are offering {strong}. Falling back to {weak} as it '
-        'will connect to all publishers'
+        f'Some, but not all, publishers are offering {_name(strong)}. Falling back to '
+        f'{_name(weak)} as it will connect to all publishers'
     )
+
+
+def _name(policy: Any) -> str:
+    return f'{type(policy).__name__}.{policy.name}'
 
 
 def copy_profile(profile: Any) -> QoSProfile:
