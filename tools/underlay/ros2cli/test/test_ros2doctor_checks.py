@@ -308,16 +308,26 @@ def test_shared_memory(network: Network) -> None:
 )
 def test_graphics(backend: str, libraries: dict[str, str], sentences_expected: list[str]) -> None:
     """Missing libraries, and a choice that cannot work here, are warnings."""
-    found = sentences(graphics_findings(Graphics({'MUJOCO_GL': backend}, libraries, {})))
+    found = sentences(
+        graphics_findings(Graphics({'MUJOCO_GL': backend}, libraries, ('50_mesa',), {}))
+    )
     assert [text[: len(start)] for text, start in zip(found, sentences_expected)] == (
         sentences_expected
     )
     assert len(found) == len(sentences_expected)
 
 
+@pytest.mark.parametrize(('backend', 'count'), [('', 1), ('EGL', 1), ('osmesa', 0)])
+def test_graphics_without_driver(backend: str, count: int) -> None:
+    """The library alone draws nothing; that matters where it is used."""
+    libraries = {'EGL': 'x', 'OSMesa': 'x'}
+    found = sentences(graphics_findings(Graphics({'MUJOCO_GL': backend}, libraries, (), {})))
+    assert found == ['WARNING: libEGL is installed, but no driver for it'] * count
+
+
 def test_graphics_card_of_others() -> None:
     """A card that this user may not use is named."""
-    facts = Graphics({}, {'GL': 'x'}, {'/dev/dri/renderD128': False, '/dev/nvidia0': True})
+    facts = Graphics({}, {'GL': 'x'}, (), {'/dev/dri/renderD128': False, '/dev/nvidia0': True})
     assert sentences(graphics_findings(facts)) == [
         "WARNING: this user may not use the graphics card '/dev/dri/renderD128'"
     ]
@@ -368,6 +378,7 @@ def test_names_of_nodes() -> None:
         (['odom base', 'base head'], []),
         (['odom base', 'map odom', 'x y'], ["WARNING: on '/tf' there are 2 trees of frames"]),
         (['a c', 'b c', 'b a'], ["ERROR: on '/tf', the frame 'c' has 2 parents: a, b"]),
+        (['a c', 'b c'], ["ERROR: on '/tf', the frame 'c' has 2 parents: a, b"]),
         (['a b', 'b a'], ["ERROR: on '/tf', the frames go round in a circle: a, b"]),
         ([], []),
     ],
@@ -382,12 +393,12 @@ def test_frames(edges: list[str], expected: list[str]) -> None:
 
 def test_trees_are_joined_by_a_command() -> None:
     """The command publishes the transform that is missing; tf2 finds it on the static topic."""
-    [finding] = frame_findings([Transform('/tf', 'odom', 'base'), Transform('/tf', 'x', 'y')])
+    [finding] = frame_findings([Transform('/tf', 'base', 'x'), Transform('/tf', 'odom', 'y')])
     command = shlex.split(finding.mend.splitlines()[-1])
     assert command[:5] == ['ros2', 'topic', 'pub', '-r', '1']
     assert command[-3:-1] == ['/tf_static', 'tf2_msgs/msg/TFMessage']
     [transform] = yaml.safe_load(command[-1])['transforms']
-    assert (transform['header']['frame_id'], transform['child_frame_id']) == ('odom', 'x')
+    assert (transform['header']['frame_id'], transform['child_frame_id']) == ('odom', 'base')
 
 
 def test_frames_of_two_robots_are_two_trees() -> None:

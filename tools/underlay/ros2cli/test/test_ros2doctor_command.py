@@ -181,7 +181,7 @@ def test_faults_of_a_graph(ros2: Ros2, tmp_path: Path) -> None:
     expected = (
         "ERROR (qos): on '/image', what '/camera' offers is not what '/viewer' asks for",
         "WARNING (nodes): 2 nodes have the name '/viewer'",
-        "WARNING (frames): on '/tf' there are 2 trees of frames, with the roots base_link, map",
+        "WARNING (frames): on '/tf' there are 2 trees of frames, with the roots map, base_link",
     )
     result = ros2('doctor', '--exclude-packages', cwd=tmp_path)
     while not all(text in result.stdout for text in expected) and time.monotonic() < end:
