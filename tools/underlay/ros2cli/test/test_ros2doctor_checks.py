@@ -220,6 +220,7 @@ def network() -> Network:
         variables={'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET'},
         interfaces=(LOOPBACK, CABLE),
         multicast={'lo': None, 'eth0': None},
+        has_multicast_route=True,
         ephemeral_ports=(32768, 60999),
         shared_memory_bytes=10**9,
     )
@@ -271,6 +272,16 @@ def test_interfaces(network: Network) -> None:
     assert sentences(network_findings(nameless)) == [
         'ERROR: the loopback interface has no address'
     ]
+
+
+def test_multicast_without_route(network: Network) -> None:
+    """Fast DDS leaves the interface to the kernel, which needs a route where there are others."""
+    lost = replace(network, has_multicast_route=False)
+    [finding] = network_findings(lost)
+    assert finding.what.startswith('there is no route for multicast, ')
+    assert finding.mend == 'sudo ip route add 239.255.0.0/16 dev eth0'
+    alone = replace(lost, interfaces=(LOOPBACK,), multicast={'lo': None})
+    assert sentences(network_findings(alone)) == []
 
 
 def test_multicast_that_works_nowhere(network: Network) -> None:
