@@ -60,6 +60,30 @@ class ErrorCheck(DoctorCheck):
         return result
 
 
+class FailingCheck(DoctorCheck):
+    """A check with a mistake in itself."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'careless'
+
+    def check(self) -> Result:
+        """Fail."""
+        raise ZeroDivisionError('division by zero')
+
+
+class FailingReport(DoctorReport):
+    """A report with a mistake in itself."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'careless'
+
+    def report(self) -> Report:
+        """Fail."""
+        raise ZeroDivisionError('division by zero')
+
+
 class BrokenReport(DoctorReport):
     """A report."""
 
@@ -133,6 +157,27 @@ def test_report_has_all(checks: Callable[..., None], capsys: pytest.CaptureFixtu
     output = capsys.readouterr().out
     assert '\n   PARTS\narm    : 1\n' in output
     assert '\n   FINDINGS\n\nERROR (broken): It is broken\n' in output
+
+
+def test_failing_check(
+    checks: Callable[..., None],
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A check or report with a mistake is named, and the others still run."""
+    checks('FailingCheck', 'ErrorCheck')
+    report = {'careless': Entry(f'{HERE}:FailingReport', '')}
+    monkeypatch.setattr('ros2doctor.api.examining.REPORTS', report)
+    assert main(['doctor', '-rf']) == 1
+    assert capsys.readouterr().out == (
+        '\nERROR (careless): the check itself has failed: ZeroDivisionError: division by zero\n'
+        '    why it matters: what it looks at has not been examined\n'
+        '\nERROR (broken): It is broken\n'
+        '    why it matters: nothing works\n'
+        '    to mend it: glue it\n'
+        '\n2/2 check(s) failed\n\nFailed modules: broken careless\n\n'
+        '\n   CARELESS\nnot available : ZeroDivisionError: division by zero\n'
+    )
 
 
 def test_report_or_failed_ones() -> None:
