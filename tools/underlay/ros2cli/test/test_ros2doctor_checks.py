@@ -62,6 +62,7 @@ def environment(tmp_path: Path) -> Environment:
         rclpy=f'{tmp_path}/lib/rclpy/__init__.py',
         other_python=None,
         colcon=None,
+        has_current_folder=True,
         set_up=SET_UP,
     )
 
@@ -96,6 +97,7 @@ def test_variables(environment: Environment, variables: dict[str, str], sentence
             {'rclpy': '/usr/lib/rclpy.py'},
             "ERROR: rclpy would be imported from '/usr/lib/rclpy.py'",
         ),
+        ({'has_current_folder': False}, 'WARNING: the current folder of this terminal has been'),
         ({'other_python': '/conda/python3'}, "ERROR: `python3` is '/conda/python3', outside of"),
         (
             {'colcon': Script('/usr/bin/colcon', '/usr/bin/python3', True, True, True, False)},

@@ -35,6 +35,8 @@ def finding_text(category: str, finding: Finding) -> str:
 def format_print(report: Report) -> None:
     """Print a section with its items below each other."""
     print(f'\n   {report.name}')
+    if not report.items:
+        print('none')
     width = max((len(name) for name, _ in report.items), default=0)
     for name, info in report.items:
         print(f'{name:<{width}} : {info}')
