@@ -16,6 +16,7 @@ from ros2doctor.facts.graphics import read_graphics
 from ros2doctor.facts.libraries import read_libraries
 from ros2doctor.facts.multicast import multicast_error
 from ros2doctor.facts.network import read_network
+from ros2doctor.facts.prefix import environment_prefix, is_own, python_version
 from ros2doctor.facts.scripts import read_script
 from ros2doctor.facts.wheels import normal_name, pins, read_wheels
 from ros2doctor.facts.workspace import changed_files, read_workspaces
@@ -129,6 +130,19 @@ def test_pins_are_those_of_this_python() -> None:
     )
     assert pins(text) == {'py-yaml': '6.0', 'numpy': '2.4'}
     assert normal_name('Ros_Rcl.X') == 'ros-rcl-x'
+
+
+def test_version_of_the_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pins are those of the environment's Python, also where another Python runs the doctor."""
+    write(tmp_path / 'pyvenv.cfg', 'home = /usr/bin\nversion = 3.4.1\n', 0)
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path))
+    environment_prefix.cache_clear()
+    try:
+        assert python_version() == '3.4.1'
+        assert pins("numpy==2.2 ; python_version < '3.5'\n") == {'numpy': '2.2'}
+        assert is_own(f'{tmp_path}/bin/python3')
+    finally:
+        environment_prefix.cache_clear()
 
 
 def test_this_machine() -> None:

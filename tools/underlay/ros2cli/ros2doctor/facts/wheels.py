@@ -10,7 +10,7 @@ from pathlib import Path
 import re
 import shlex
 
-from ros2doctor.facts.prefix import environment_prefix
+from ros2doctor.facts.prefix import environment_prefix, python_version
 
 STAMPS = ('wheels', 'underlay')
 PIN = re.compile(r'^([A-Za-z0-9._-]+)==([^ ;]+)(?: *; *(.*))?$')
@@ -55,9 +55,12 @@ def install_command() -> str:
 
 
 def pins(requirements: str) -> dict[str, str]:
-    """Return the versions of a requirements file that are meant for this Python."""
+    """Return the versions of a requirements file that are meant for the environment's Python."""
+    python = python_version()
     found = (match.groups() for match in map(PIN.match, requirements.splitlines()) if match)
-    return {normal_name(name): version for name, version, marker in found if _applies(marker)}
+    return {
+        normal_name(name): version for name, version, marker in found if _applies(marker, python)
+    }
 
 
 def normal_name(name: str) -> str:
@@ -65,14 +68,15 @@ def normal_name(name: str) -> str:
     return re.sub(r'[-_.]+', '-', name).lower()
 
 
-def _applies(marker: str | None) -> bool:
+def _applies(marker: str | None, python: str) -> bool:
     if not marker:
         return True
     try:
         from packaging.markers import Marker
     except ImportError:
         return False
-    return Marker(marker).evaluate()
+    minor = python.rpartition('.')[0]
+    return Marker(marker).evaluate({'python_full_version': python, 'python_version': minor})
 
 
 def _root() -> Path | None:
