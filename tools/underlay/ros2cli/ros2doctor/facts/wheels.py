@@ -12,6 +12,7 @@ import shlex
 
 from ros2doctor.facts.prefix import environment_prefix, python_version
 
+REQUIREMENTS = 'requirements.txt'
 STAMPS = ('wheels', 'underlay')
 PIN = re.compile(r'^([A-Za-z0-9._-]+)==([^ ;]+)(?: *; *(.*))?$')
 
@@ -34,7 +35,7 @@ class Wheels:
 def read_wheels() -> Wheels:
     """Return what this environment has, and what the workspace that made it pins."""
     root = _root()
-    text = (root / 'requirements.txt').read_text(encoding='utf-8') if root else ''
+    text = (root / REQUIREMENTS).read_text(encoding='utf-8') if root else ''
     installed = {
         normal_name(item.metadata['Name']): item.version
         for item in reversed(list(distributions()))
@@ -48,6 +49,8 @@ def install_command() -> str:
     root, environment = _root(), Path(environment_prefix())
     if root is None:
         return 'install the wheels of your environment again, with python3 -m pip'
+    if root != _home():  # after a move only a new environment will do
+        return f'make -C {shlex.quote(str(root))} distclean build'
     stamps = ' '.join(shlex.quote(str(environment / 'stamp' / name)) for name in STAMPS)
     elsewhere = environment.resolve() != (root / '.venv').resolve()
     place = f' VENV={shlex.quote(str(environment))}' if elsewhere else ''
@@ -80,10 +83,16 @@ def _applies(marker: str | None, python: str) -> bool:
 
 
 def _root() -> Path | None:
-    """Return the workspace that has made this environment, if one has."""
+    """Return the workspace that has made this environment, also if both were moved together."""
+    home = _home()
+    candidates = (home, Path(environment_prefix()).parent) if home else ()
+    return next((root for root in candidates if (root / REQUIREMENTS).is_file()), None)
+
+
+def _home() -> Path | None:
+    """Return where the workspace was that has made this environment, if one has."""
     try:
-        home = Path(environment_prefix(), 'stamp', 'home').read_text(encoding='utf-8')
+        text = Path(environment_prefix(), 'stamp', 'home').read_text(encoding='utf-8')
     except OSError:
         return None
-    root = Path(home.split('\n')[0])
-    return root if (root / 'requirements.txt').is_file() else None
+    return Path(text.split('\n')[0])
