@@ -305,10 +305,8 @@ def test_missing_word_is_a_usage_error(words: str, missing: str, ros2_here: Ros2
         ('param list --filter [', "argument --filter: '[' is no regular expression: "),
         ('param get /a b --timeout 0', "argument --timeout: '0' is not a number above zero"),
         ('service call /a b --rate x', "argument -r/--rate: 'x' is not a number above zero"),
-        ('service call /a b {} --stdin', 'argument --stdin: not allowed with argument values'),
         ('service echo /a --qos-reliability x', "argument --qos-reliability: invalid choice: 'x'"),
         ('service list --spin-time x', "argument --spin-time: 'x' is not a number above zero"),
-        ('action send_goal /a b {} --stdin', 'argument --stdin: not allowed with argument values'),
         ('interface show --all-comments --no-comments a', 'argument --no-comments: not allowed'),
         ('component unload /a x', "argument component_uid: 'x' is not a whole number"),
         ('multicast send --port x', "argument -p/--port: 'x' is no number from 1 to 65535"),
@@ -322,6 +320,14 @@ def test_wrong_value_is_a_usage_error(words: str, error: str, ros2_here: Ros2) -
     result = ros2_here(*words.split())
     assert (result.returncode, result.stdout) == (2, '')
     assert f'error: {error}' in result.stderr
+
+
+@pytest.mark.parametrize('words', ['service call', 'action send_goal'])
+def test_values_from_two_sources(words: str, ros2_here: Ros2) -> None:
+    """Values on the command line and on standard input exclude each other."""
+    result = ros2_here(*words.split(), '/a', 'b', '{}', '--stdin')
+    assert (result.returncode, result.stdout) == (2, '')
+    assert ': not allowed with argument ' in result.stderr.splitlines()[-1]
 
 
 @pytest.mark.parametrize(
