@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+import os
 from pathlib import Path
 import subprocess
 import sys
@@ -254,6 +255,45 @@ def test_rclpy_that_ends_the_process(ros2: Ros2, tmp_path: Path) -> None:
     assert 'ERROR (rclpy): rclpy does not start: ' in result.stdout
     assert 'the running nodes were not examined' in result.stdout
     assert '2/11 check(s) failed\n\nFailed modules: environment rclpy\n' in result.stdout
+
+
+@pytest.mark.parametrize(
+    ('variables', 'sentence'),
+    [
+        (
+            {'ROS_DOMAIN_ID': 'x'},
+            "ERROR (network): ROS_DOMAIN_ID is 'x', which is no whole number",
+        ),
+        (
+            {'ROS_DISTRO': 'humble'},
+            "ERROR (environment): ROS_DISTRO is 'humble' instead of 'jazzy'",
+        ),
+        (
+            {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'near'},
+            "ERROR (network): ROS_AUTOMATIC_DISCOVERY_RANGE is 'NEAR', which is none of SUBNET, ",
+        ),
+    ],
+)
+def test_real_faults_of_the_shell(
+    variables: dict[str, str], sentence: str, ros2: Ros2, tmp_path: Path
+) -> None:
+    """A wrong variable of the shell is found by the command itself, which still ends."""
+    result = ros2('doctor', '-ep', cwd=tmp_path, extra=variables)
+    assert result.returncode == 1
+    assert f'\n{sentence}' in result.stdout
+    assert 'Traceback' not in result.stdout + result.stderr
+
+
+def test_another_python_in_front(ros2: Ros2, tmp_path: Path) -> None:
+    """Where PATH leads to another Python, that is the one thing to say about programs."""
+    (tmp_path / 'python3').symlink_to(sys.executable)
+    path = f'{tmp_path}{os.pathsep}{os.environ["PATH"]}'
+    result = ros2('doctor', '-ep', cwd=tmp_path, extra={'PATH': path})
+    assert result.returncode == 1
+    assert (
+        f"\nERROR (environment): `python3` is '{tmp_path}/python3', outside of " in result.stdout
+    )
+    assert result.stdout.count('ERROR') == 1
 
 
 def test_hello_hears_itself(ros2: Ros2) -> None:
