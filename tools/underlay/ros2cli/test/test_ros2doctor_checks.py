@@ -62,6 +62,7 @@ def environment(tmp_path: Path) -> Environment:
         rclpy=f'{tmp_path}/lib/rclpy/__init__.py',
         other_python=None,
         colcon=None,
+        has_current_folder=True,
         set_up=SET_UP,
     )
 
@@ -96,6 +97,7 @@ def test_variables(environment: Environment, variables: dict[str, str], sentence
             {'rclpy': '/usr/lib/rclpy.py'},
             "ERROR: rclpy would be imported from '/usr/lib/rclpy.py'",
         ),
+        ({'has_current_folder': False}, 'WARNING: the current folder of this terminal has been'),
         ({'other_python': '/conda/python3'}, "ERROR: `python3` is '/conda/python3', outside of"),
         (
             {'colcon': Script('/usr/bin/colcon', '/usr/bin/python3', True, True, True, False)},
@@ -220,6 +222,7 @@ def network() -> Network:
         variables={'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET'},
         interfaces=(LOOPBACK, CABLE),
         multicast={'lo': None, 'eth0': None},
+        has_multicast_route=True,
         ephemeral_ports=(32768, 60999),
         shared_memory_bytes=10**9,
     )
@@ -273,6 +276,16 @@ def test_interfaces(network: Network) -> None:
     ]
 
 
+def test_multicast_without_route(network: Network) -> None:
+    """Fast DDS leaves the interface to the kernel, which needs a route where there are others."""
+    lost = replace(network, has_multicast_route=False)
+    [finding] = network_findings(lost)
+    assert finding.what.startswith('there is no route for multicast, ')
+    assert finding.mend == 'sudo ip route add 239.255.0.0/16 dev eth0'
+    alone = replace(lost, interfaces=(LOOPBACK,), multicast={'lo': None})
+    assert sentences(network_findings(alone)) == []
+
+
 def test_multicast_that_works_nowhere(network: Network) -> None:
     """Then nodes of this machine are not found either; the cure depends on the reason."""
     error = OSError(errno.ENOBUFS, 'No buffer space available')
@@ -308,16 +321,26 @@ def test_shared_memory(network: Network) -> None:
 )
 def test_graphics(backend: str, libraries: dict[str, str], sentences_expected: list[str]) -> None:
     """Missing libraries, and a choice that cannot work here, are warnings."""
-    found = sentences(graphics_findings(Graphics({'MUJOCO_GL': backend}, libraries, {})))
+    found = sentences(
+        graphics_findings(Graphics({'MUJOCO_GL': backend}, libraries, ('50_mesa',), {}))
+    )
     assert [text[: len(start)] for text, start in zip(found, sentences_expected)] == (
         sentences_expected
     )
     assert len(found) == len(sentences_expected)
 
 
+@pytest.mark.parametrize(('backend', 'count'), [('', 1), ('EGL', 1), ('osmesa', 0)])
+def test_graphics_without_driver(backend: str, count: int) -> None:
+    """The library alone draws nothing; that matters where it is used."""
+    libraries = {'EGL': 'x', 'OSMesa': 'x'}
+    found = sentences(graphics_findings(Graphics({'MUJOCO_GL': backend}, libraries, (), {})))
+    assert found == ['WARNING: libEGL is installed, but no driver for it'] * count
+
+
 def test_graphics_card_of_others() -> None:
     """A card that this user may not use is named."""
-    facts = Graphics({}, {'GL': 'x'}, {'/dev/dri/renderD128': False, '/dev/nvidia0': True})
+    facts = Graphics({}, {'GL': 'x'}, (), {'/dev/dri/renderD128': False, '/dev/nvidia0': True})
     assert sentences(graphics_findings(facts)) == [
         "WARNING: this user may not use the graphics card '/dev/dri/renderD128'"
     ]
@@ -368,6 +391,7 @@ def test_names_of_nodes() -> None:
         (['odom base', 'base head'], []),
         (['odom base', 'map odom', 'x y'], ["WARNING: on '/tf' there are 2 trees of frames"]),
         (['a c', 'b c', 'b a'], ["ERROR: on '/tf', the frame 'c' has 2 parents: a, b"]),
+        (['a c', 'b c'], ["ERROR: on '/tf', the frame 'c' has 2 parents: a, b"]),
         (['a b', 'b a'], ["ERROR: on '/tf', the frames go round in a circle: a, b"]),
         ([], []),
     ],
@@ -382,12 +406,12 @@ def test_frames(edges: list[str], expected: list[str]) -> None:
 
 def test_trees_are_joined_by_a_command() -> None:
     """The command publishes the transform that is missing; tf2 finds it on the static topic."""
-    [finding] = frame_findings([Transform('/tf', 'odom', 'base'), Transform('/tf', 'x', 'y')])
+    [finding] = frame_findings([Transform('/tf', 'base', 'x'), Transform('/tf', 'odom', 'y')])
     command = shlex.split(finding.mend.splitlines()[-1])
     assert command[:5] == ['ros2', 'topic', 'pub', '-r', '1']
     assert command[-3:-1] == ['/tf_static', 'tf2_msgs/msg/TFMessage']
     [transform] = yaml.safe_load(command[-1])['transforms']
-    assert (transform['header']['frame_id'], transform['child_frame_id']) == ('odom', 'x')
+    assert (transform['header']['frame_id'], transform['child_frame_id']) == ('odom', 'base')
 
 
 def test_frames_of_two_robots_are_two_trees() -> None:

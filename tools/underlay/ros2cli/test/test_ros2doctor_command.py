@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+import os
 from pathlib import Path
 import subprocess
 import sys
@@ -58,6 +59,30 @@ class ErrorCheck(DoctorCheck):
         result = Result()
         result.add_error('It is broken', 'nothing works', 'glue it')
         return result
+
+
+class FailingCheck(DoctorCheck):
+    """A check with a mistake in itself."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'careless'
+
+    def check(self) -> Result:
+        """Fail."""
+        raise ZeroDivisionError('division by zero')
+
+
+class FailingReport(DoctorReport):
+    """A report with a mistake in itself."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'careless'
+
+    def report(self) -> Report:
+        """Fail."""
+        raise ZeroDivisionError('division by zero')
 
 
 class BrokenReport(DoctorReport):
@@ -135,6 +160,27 @@ def test_report_has_all(checks: Callable[..., None], capsys: pytest.CaptureFixtu
     assert '\n   FINDINGS\n\nERROR (broken): It is broken\n' in output
 
 
+def test_failing_check(
+    checks: Callable[..., None],
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A check or report with a mistake is named, and the others still run."""
+    checks('FailingCheck', 'ErrorCheck')
+    report = {'careless': Entry(f'{HERE}:FailingReport', '')}
+    monkeypatch.setattr('ros2doctor.api.examining.REPORTS', report)
+    assert main(['doctor', '-rf']) == 1
+    assert capsys.readouterr().out == (
+        '\nERROR (careless): the check itself has failed: ZeroDivisionError: division by zero\n'
+        '    why it matters: what it looks at has not been examined\n'
+        '\nERROR (broken): It is broken\n'
+        '    why it matters: nothing works\n'
+        '    to mend it: glue it\n'
+        '\n2/2 check(s) failed\n\nFailed modules: broken careless\n\n'
+        '\n   CARELESS\nnot available : ZeroDivisionError: division by zero\n'
+    )
+
+
 def test_report_or_failed_ones() -> None:
     """The two kinds of reports exclude each other."""
     assert main(['doctor', '-r', '-rf']) == 2
@@ -181,7 +227,7 @@ def test_faults_of_a_graph(ros2: Ros2, tmp_path: Path) -> None:
     expected = (
         "ERROR (qos): on '/image', what '/camera' offers is not what '/viewer' asks for",
         "WARNING (nodes): 2 nodes have the name '/viewer'",
-        "WARNING (frames): on '/tf' there are 2 trees of frames, with the roots base_link, map",
+        "WARNING (frames): on '/tf' there are 2 trees of frames, with the roots map, base_link",
     )
     result = ros2('doctor', '--exclude-packages', cwd=tmp_path)
     while not all(text in result.stdout for text in expected) and time.monotonic() < end:
@@ -209,6 +255,45 @@ def test_rclpy_that_ends_the_process(ros2: Ros2, tmp_path: Path) -> None:
     assert 'ERROR (rclpy): rclpy does not start: ' in result.stdout
     assert 'the running nodes were not examined' in result.stdout
     assert '2/11 check(s) failed\n\nFailed modules: environment rclpy\n' in result.stdout
+
+
+@pytest.mark.parametrize(
+    ('variables', 'sentence'),
+    [
+        (
+            {'ROS_DOMAIN_ID': 'x'},
+            "ERROR (network): ROS_DOMAIN_ID is 'x', which is no whole number",
+        ),
+        (
+            {'ROS_DISTRO': 'humble'},
+            "ERROR (environment): ROS_DISTRO is 'humble' instead of 'jazzy'",
+        ),
+        (
+            {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'near'},
+            "ERROR (network): ROS_AUTOMATIC_DISCOVERY_RANGE is 'NEAR', which is none of SUBNET, ",
+        ),
+    ],
+)
+def test_real_faults_of_the_shell(
+    variables: dict[str, str], sentence: str, ros2: Ros2, tmp_path: Path
+) -> None:
+    """A wrong variable of the shell is found by the command itself, which still ends."""
+    result = ros2('doctor', '-ep', cwd=tmp_path, extra=variables)
+    assert result.returncode == 1
+    assert f'\n{sentence}' in result.stdout
+    assert 'Traceback' not in result.stdout + result.stderr
+
+
+def test_another_python_in_front(ros2: Ros2, tmp_path: Path) -> None:
+    """Where PATH leads to another Python, that is the one thing to say about programs."""
+    (tmp_path / 'python3').symlink_to(sys.executable)
+    path = f'{tmp_path}{os.pathsep}{os.environ["PATH"]}'
+    result = ros2('doctor', '-ep', cwd=tmp_path, extra={'PATH': path})
+    assert result.returncode == 1
+    assert (
+        f"\nERROR (environment): `python3` is '{tmp_path}/python3', outside of " in result.stdout
+    )
+    assert result.stdout.count('ERROR') == 1
 
 
 def test_hello_hears_itself(ros2: Ros2) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 import os
 from pathlib import Path
 import sys
@@ -16,8 +17,9 @@ from ros2doctor.facts.graphics import read_graphics
 from ros2doctor.facts.libraries import read_libraries
 from ros2doctor.facts.multicast import multicast_error
 from ros2doctor.facts.network import read_network
+from ros2doctor.facts.prefix import environment_prefix, is_own, python_version
 from ros2doctor.facts.scripts import read_script
-from ros2doctor.facts.wheels import normal_name, pins, read_wheels
+from ros2doctor.facts.wheels import install_command, normal_name, pins, read_wheels
 from ros2doctor.facts.workspace import changed_files, read_workspaces
 from ros_environment.source_tree import SourcePackage
 
@@ -129,6 +131,38 @@ def test_pins_are_those_of_this_python() -> None:
     )
     assert pins(text) == {'py-yaml': '6.0', 'numpy': '2.4'}
     assert normal_name('Ros_Rcl.X') == 'ros-rcl-x'
+
+
+@pytest.fixture
+def environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """Make and source an environment in a workspace with a space in its name."""
+    folder = tmp_path / 'w s' / '.venv'
+    write(folder / 'pyvenv.cfg', 'home = /usr/bin\nversion = 3.4.1\n', 0)
+    write(folder / 'stamp/home', f'{folder.parent}\n', 0)
+    write(folder.parent / 'requirements.txt', '', 0)
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(folder))
+    environment_prefix.cache_clear()
+    yield folder
+    environment_prefix.cache_clear()
+
+
+def test_version_of_the_environment(environment: Path) -> None:
+    """Pins are those of the environment's Python, also where another Python runs the doctor."""
+    assert python_version() == '3.4.1'
+    assert pins("numpy==2.2 ; python_version < '3.5'\n") == {'numpy': '2.2'}
+    assert is_own(f'{environment}/bin/python3')
+
+
+def test_environment_is_installed_again(environment: Path) -> None:
+    """The command is for the workspace that made the environment, and makes a moved one anew."""
+    root = environment.parent
+    again = install_command()
+    assert again.startswith(f"rm -f '{environment}/stamp/wheels' ")
+    assert again.endswith(f" && make -C '{root}' setup")
+    write(environment / 'stamp/home', '/gone\n', 0)
+    assert install_command() == f"make -C '{root}' distclean build"
+    (environment / 'stamp/home').unlink()
+    assert 'pip' in install_command()
 
 
 def test_this_machine() -> None:

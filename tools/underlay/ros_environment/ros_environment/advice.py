@@ -5,10 +5,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from difflib import get_close_matches
+import os
 from pathlib import Path
 import shlex
 
 MAX_LISTED = 12
+
+
+def current_folder() -> Path:
+    """Return the current folder, or where it was if it has been deleted."""
+    try:
+        return Path.cwd()
+    except FileNotFoundError:
+        return Path(os.environ.get('PWD') or '/')
 
 
 def source_command(workspace: Path) -> str:
@@ -19,7 +28,7 @@ def source_command(workspace: Path) -> str:
 def build_command(workspace: Path, package: str) -> str:
     """Return the commands that build one package and make it known to the shell."""
     build = f'colcon build --packages-select {package}'
-    if Path.cwd() != workspace:
+    if current_folder() != workspace:
         build = f'cd {shlex.quote(str(workspace))} && {build}'
     return f'{build} && source install/setup.bash'
 
@@ -37,4 +46,4 @@ def listing(names: list[str]) -> str:
 
 
 def _reach(workspace: Path, relative: str) -> str:
-    return relative if Path.cwd() == workspace else shlex.quote(str(workspace / relative))
+    return relative if current_folder() == workspace else shlex.quote(str(workspace / relative))

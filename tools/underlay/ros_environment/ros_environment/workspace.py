@@ -15,7 +15,7 @@ from ros_environment.unavailable import explain_unavailable
 
 def workspaces() -> list[Path]:
     """Return the workspace around the current folder, then those that have been sourced."""
-    candidates = [Path.cwd()]
+    candidates = [advice.current_folder()]
     candidates += [prefix.parent for prefix in installed.prefixes('COLCON_PREFIX_PATH')]
     found = (find_workspace(folder) for folder in candidates)
     return list(dict.fromkeys(folder for folder in found if folder))

@@ -121,3 +121,16 @@ def test_package_that_cannot_be_there(workspace: Path, monkeypatch: pytest.Monke
     monkeypatch.setenv('AMENT_PREFIX_PATH', str(install(workspace, 'arm')))
     text = explain_missing_package('rclcpp_components')
     assert text.startswith("'rclcpp_components' has no wheel on PyPI") and 'from source' in text
+
+
+def test_deleted_current_folder(
+    make_package: MakePackage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In a folder that has been deleted the explanation is still a sentence."""
+    make_package('arm')
+    gone = tmp_path / 'gone'
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    monkeypatch.setenv('PWD', str(gone))
+    gone.rmdir()
+    assert explain_missing_package('leg')

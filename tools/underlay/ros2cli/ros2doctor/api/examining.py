@@ -8,7 +8,7 @@ from typing import Any
 
 from ros2cli.entry import Entry
 from ros2cli.entry_points import entries_of_group
-from ros2doctor.api.finding import Result
+from ros2doctor.api.finding import Finding, Result, Severity
 from ros2doctor.api.format import doctor_warn, finding_text, format_print
 from ros2doctor.api.report import Report
 from ros2doctor.api.table import CHECK_GROUP, CHECKS, REPORT_GROUP, REPORTS, WORKSPACE
@@ -34,7 +34,7 @@ def run_checks(
     failed: set[str] = set()
     failures = total = 0
     for check in _load(CHECKS, CHECK_GROUP, exclude_packages):
-        category, result = check.category(), check.check()
+        category, result = check.category(), _result(check)
         _print_findings(category, result)
         total += 1
         if result.error or (include_warnings and result.warning):
@@ -60,7 +60,7 @@ def generate_reports(
     """Yield the reports of some categories, or all."""
     for report in _load(REPORTS, REPORT_GROUP, exclude_packages):
         if categories is None or report.category() in categories:
-            yield report.report()
+            yield _section(report)
 
 
 def _load(entries: Mapping[str, Entry], group: str, exclude_packages: bool) -> Iterator[Any]:
@@ -72,6 +72,29 @@ def _load(entries: Mapping[str, Entry], group: str, exclude_packages: bool) -> I
             yield entry.create()
         except (ImportError, AttributeError) as error:
             doctor_warn(f"'{name}' of {group} cannot be loaded: {error}")
+
+
+def _result(check: Any) -> Result:
+    """Return what a check finds; one that fails itself does not keep the others from it."""
+    try:
+        result: Result = check.check()
+    except Exception as error:
+        what = f'the check itself has failed: {_text(error)}'
+        return Result([Finding(Severity.ERROR, what, 'what it looks at has not been examined')])
+    return result
+
+
+def _section(report: Any) -> Report:
+    try:
+        section: Report = report.report()
+    except Exception as error:
+        section = Report(report.category().upper())
+        section.add_to_report('not available', _text(error))
+    return section
+
+
+def _text(error: Exception) -> str:
+    return f'{type(error).__name__}: {error}'
 
 
 def _print_findings(category: str, result: Result) -> None:

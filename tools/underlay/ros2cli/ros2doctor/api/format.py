@@ -12,13 +12,13 @@ INDENT = '    '
 
 
 def doctor_warn(msg: str) -> None:
-    """Say on stderr that the doctor itself cannot do something."""
-    warnings.warn(msg, stacklevel=2)
+    """Say on stderr that the doctor itself cannot do something, without the line of its code."""
+    warnings.warn_explicit(msg, UserWarning, 'ros2doctor', 1)
 
 
 def doctor_error(msg: str) -> None:
     """Say on stderr that the doctor itself has failed at something."""
-    warnings.warn(f'ERROR: {msg}', stacklevel=2)
+    doctor_warn(f'ERROR: {msg}')
 
 
 def finding_text(category: str, finding: Finding) -> str:
@@ -35,6 +35,8 @@ def finding_text(category: str, finding: Finding) -> str:
 def format_print(report: Report) -> None:
     """Print a section with its items below each other."""
     print(f'\n   {report.name}')
+    if not report.items:
+        print('none')
     width = max((len(name) for name, _ in report.items), default=0)
     for name, info in report.items:
         print(f'{name:<{width}} : {info}')

@@ -32,6 +32,7 @@ class EnvironmentCheck(DoctorCheck):
 def environment_findings(facts: Environment) -> Iterator[Finding]:
     """Yield what is wrong with an environment."""
     yield from _python(facts)
+    yield from _current_folder(facts)
     if not facts.folders('AMENT_PREFIX_PATH'):
         yield Finding(
             Severity.ERROR,
@@ -56,6 +57,16 @@ def _python(facts: Environment) -> Iterator[Finding]:
             f'this is Python {_dotted(facts.python_version)}',
             f'the ROS 2 wheels exist for Python {_dotted(oldest)} to {_dotted(newest)} only',
             'make distclean setup PYTHON=python3.12',
+        )
+
+
+def _current_folder(facts: Environment) -> Iterator[Finding]:
+    if not facts.has_current_folder:
+        yield Finding(
+            Severity.WARNING,
+            'the current folder of this terminal has been deleted',
+            'relative paths lead nowhere, and many programs end with an error',
+            'cd (if it has been made anew: cd "$PWD")',
         )
 
 

@@ -11,6 +11,8 @@ from ros2doctor.check.graph_check import GraphCheck
 from ros2doctor.facts.graph import Graph
 from ros2doctor.facts.transforms import STATIC_SUFFIX, Transform, TRANSFORM_TYPE
 
+FRAMES_OF_WORLD = ('earth', 'world', 'map', 'odom')  # the order of REP-105
+
 Parents = dict[str, set[str]]
 
 
@@ -32,18 +34,25 @@ def frame_findings(transforms: Iterable[Transform]) -> Iterator[Finding]:
     for transform in transforms:
         trees[transform.tree][transform.child].add(transform.parent)
     for topic, parents in sorted(trees.items()):
-        yield from _two_parents(topic, parents)
+        doubtful = list(_two_parents(topic, parents))
+        yield from doubtful
         found = roots(parents)
-        if len(found) > 1:
+        if len(found) > 1 and not doubtful:
             yield _two_roots(topic, found)
         elif not found:
             yield _loop(topic, parents)
 
 
 def roots(parents: Parents) -> list[str]:
-    """Return the frames that have no parent, sorted."""
+    """Return the frames that have no parent, those of the world first, then by name."""
     above = {parent for each in parents.values() for parent in each}
-    return sorted(above - set(parents))
+    return sorted(above - set(parents), key=_rank)
+
+
+def _rank(frame: str) -> tuple[int, str]:
+    return FRAMES_OF_WORLD.index(frame) if frame in FRAMES_OF_WORLD else len(
+        FRAMES_OF_WORLD
+    ), frame
 
 
 def _two_parents(topic: str, parents: Parents) -> Iterator[Finding]:

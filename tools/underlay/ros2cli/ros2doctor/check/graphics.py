@@ -9,6 +9,7 @@ from ros2doctor.api.extension import DoctorCheck
 from ros2doctor.api.finding import Finding, Result, Severity
 from ros2doctor.facts.graphics import Graphics, read_graphics
 
+DEFAULT_BACKEND = 'egl'
 BACKENDS = {'egl': 'EGL', 'glfw': 'GL', 'osmesa': 'OSMesa'}
 PACKAGES = {
     'EGL': 'libegl1 libegl-mesa0 libgl1-mesa-dri',
@@ -40,6 +41,7 @@ def graphics_findings(facts: Graphics) -> Iterator[Finding]:
         )
     else:
         yield from _backend(facts)
+        yield from _drivers(facts)
     for device, is_accessible in facts.devices.items():
         if not is_accessible:
             yield Finding(
@@ -75,6 +77,17 @@ def _backend(facts: Graphics) -> Iterator[Finding]:
             'MUJOCO_GL is glfw, which needs a display, but there is none',
             'the simulator ends with an error when it opens its window',
             'export MUJOCO_GL=egl',
+        )
+
+
+def _drivers(facts: Graphics) -> Iterator[Finding]:
+    backend = facts.variables.get('MUJOCO_GL', '').lower() or DEFAULT_BACKEND
+    if backend == DEFAULT_BACKEND and facts.libraries.get('EGL') and not facts.drivers:
+        yield Finding(
+            Severity.WARNING,
+            'libEGL is installed, but no driver for it',
+            'simulated cameras render nothing; physics, sensors and control work without',
+            _install('EGL'),
         )
 
 

@@ -18,9 +18,12 @@ def multicast_findings(facts: Network) -> Iterator[Finding]:
     if tried and len(deaf) == len(tried):
         yield _nowhere(deaf, facts)
         return
-    for each in deaf:
-        if not each.is_loopback:
+    others = [each for each in tried if not each.is_loopback]
+    for each in others:
+        if each in deaf:
             yield _on_interface(each, facts.multicast[each.name])
+    if others and not facts.has_multicast_route:
+        yield _no_route(others)
 
 
 def multicast_state(error: OSError | None) -> str:
@@ -50,6 +53,16 @@ def _on_interface(interface: Interface, error: OSError | None) -> Finding:
         f"on the interface '{interface.name}' ({interface.address}), {multicast_state(error)}",
         'nodes announce themselves by multicast, so those behind it are not found',
         f'{_mend(interface, error)}, or name the other machine: export ROS_STATIC_PEERS=ADDRESS',
+    )
+
+
+def _no_route(interfaces: list[Interface]) -> Finding:
+    names = ', '.join(each.name for each in interfaces)
+    return Finding(
+        Severity.WARNING,
+        f'there is no route for multicast, neither a default one nor one of its own ({names})',
+        'nodes announce themselves on the loopback only, so other machines do not find them',
+        f'sudo ip route add 239.255.0.0/16 dev {interfaces[0].name}',
     )
 
 

@@ -123,14 +123,16 @@ def _profiles(facts: Network) -> Iterator[Finding]:
 def _shared_memory(facts: Network) -> Iterator[Finding]:
     free = facts.shared_memory_bytes
     if free is None or free < ENOUGH_SHARED_MEMORY:
-        state = 'is missing or cannot be written'
+        state, mend = 'is missing or cannot be written', 'sudo mount -t tmpfs tmpfs /dev/shm'
         if free is not None:
             state = f'has {free // 10**6} MB left'
+            mend = (
+                'end old nodes and delete what they left (rm /dev/shm/*fastrtps_* while none runs)'
+            )
         yield Finding(
             Severity.WARNING,
             f'/dev/shm {state}',
             'messages between processes of this machine go through it, several MB a node: nodes '
             'fail to start, or large messages get lost',
-            'end old nodes and delete what they left (rm /dev/shm/fastrtps_* while no node runs); '
-            'in a container: docker run --shm-size=1g',
+            f'{mend}; in a container: docker run --shm-size=1g',
         )

@@ -26,12 +26,13 @@ class NodesCheck(GraphCheck):
 def name_findings(names: Iterable[str]) -> Iterator[Finding]:
     """Yield the names that are there several times."""
     for name, count in sorted(Counter(names).items()):
+        last = name.rpartition('/')[2]
         if count > 1:
             yield Finding(
                 Severity.WARNING,
                 f"{count} nodes have the name '{name}'",
                 'calls to its services and parameters reach any of them; often one is left over '
                 'from an earlier start',
-                'end the one that is not meant, or start it under another name: ros2 run ... '
-                f'--ros-args -r __node:={name.rpartition("/")[2]}_2',
+                f'end the one that is not meant (pgrep -af {last} may show the processes), or '
+                f'start it under another name: ros2 run ... --ros-args -r __node:={last}_2',
             )

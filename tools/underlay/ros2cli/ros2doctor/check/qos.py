@@ -26,8 +26,15 @@ class QosCheck(GraphCheck):
         yield from dict.fromkeys(pair_findings(graph.endpoints, why_incompatible))
 
 
-def why_incompatible(offered: Any, requested: Any) -> str:
+def why_nothing_passes(publisher: Endpoint, subscription: Endpoint) -> str:
     """Return why a subscription gets nothing from a publisher, or '' if it does."""
+    if publisher.type_name != subscription.type_name:
+        return f'{publisher.type_name} is not {subscription.type_name}'
+    return why_incompatible(publisher.qos, subscription.qos)
+
+
+def why_incompatible(offered: Any, requested: Any) -> str:
+    """Return why two qualities of service do not fit each other, or '' if they do."""
     from rclpy.qos import qos_check_compatible, QoSCompatibility
 
     compatibility, reason = qos_check_compatible(offered, requested)

@@ -28,6 +28,7 @@ class Environment:
     :param rclpy: where rclpy would be imported from, if anywhere
     :param other_python: what `python3` stands for, if it is not that of the environment
     :param colcon: the program that `colcon` stands for, if any
+    :param has_current_folder: whether the current folder has not been deleted
     :param set_up: a command that sources what is near, or that makes it
     """
 
@@ -37,6 +38,7 @@ class Environment:
     rclpy: str | None
     other_python: str | None
     colcon: Script | None
+    has_current_folder: bool
     set_up: str
 
     def folders(self, variable: str) -> list[str]:
@@ -56,8 +58,17 @@ def read_environment() -> Environment:
         rclpy=spec.origin if spec else None,
         other_python=python if python and not is_own(python) else None,
         colcon=read_script(Path(colcon)) if colcon else None,
+        has_current_folder=_has_current_folder(),
         set_up=set_up_command(),
     )
+
+
+def _has_current_folder() -> bool:
+    try:
+        os.getcwd()
+    except FileNotFoundError:
+        return False
+    return True
 
 
 def set_up_command() -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Try multicast on one interface; nothing leaves this machine."""
+"""Try multicast; nothing leaves this machine."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import os
 import socket
 
 DDS_GROUP = '239.255.0.1'
+DDS_PORT = 7400
 TIMEOUT_S = 0.5
 STAYS_HERE = 0
 TOKEN_BYTES = 8
@@ -21,6 +22,16 @@ def multicast_error(address: str) -> OSError | None:
     except OSError as error:
         return error
     return None
+
+
+def has_multicast_route() -> bool:
+    """Tell whether the kernel knows an interface for the group of DDS; nothing is sent."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
+        try:
+            asked.connect((DDS_GROUP, DDS_PORT))
+        except OSError:
+            return False
+    return True
 
 
 def _receiver(address: str) -> socket.socket:

@@ -10,7 +10,7 @@ from pathlib import Path
 import shutil
 
 from ros2cli.graph.interfaces import Interface, read_interfaces
-from ros2doctor.facts.multicast import multicast_error
+from ros2doctor.facts.multicast import has_multicast_route, multicast_error
 
 SHARED_MEMORY = '/dev/shm'
 PORT_RANGE = Path('/proc/sys/net/ipv4/ip_local_port_range')
@@ -23,6 +23,7 @@ class Network:
     What nodes need to find each other.
 
     :param multicast: why multicast is not delivered, if it is not, by name of interface
+    :param has_multicast_route: whether it has a way where no interface is named, as in Fast DDS
     :param ephemeral_ports: the ports that the kernel gives to whoever asks for any
     :param shared_memory_bytes: the room left for messages on this machine; None without any
     """
@@ -30,6 +31,7 @@ class Network:
     variables: Mapping[str, str]
     interfaces: tuple[Interface, ...]
     multicast: Mapping[str, OSError | None]
+    has_multicast_route: bool
     ephemeral_ports: tuple[int, int]
     shared_memory_bytes: int | None
 
@@ -45,6 +47,7 @@ def read_network() -> Network:
             for each in interfaces
             if each.is_up and each.address
         },
+        has_multicast_route=has_multicast_route(),
         ephemeral_ports=_ephemeral_ports(),
         shared_memory_bytes=_shared_memory_bytes(),
     )

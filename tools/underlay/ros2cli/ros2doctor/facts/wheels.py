@@ -10,8 +10,9 @@ from pathlib import Path
 import re
 import shlex
 
-from ros2doctor.facts.prefix import environment_prefix
+from ros2doctor.facts.prefix import environment_prefix, python_version
 
+REQUIREMENTS = 'requirements.txt'
 STAMPS = ('wheels', 'underlay')
 PIN = re.compile(r'^([A-Za-z0-9._-]+)==([^ ;]+)(?: *; *(.*))?$')
 
@@ -34,7 +35,7 @@ class Wheels:
 def read_wheels() -> Wheels:
     """Return what this environment has, and what the workspace that made it pins."""
     root = _root()
-    text = (root / 'requirements.txt').read_text(encoding='utf-8') if root else ''
+    text = (root / REQUIREMENTS).read_text(encoding='utf-8') if root else ''
     installed = {
         normal_name(item.metadata['Name']): item.version
         for item in reversed(list(distributions()))
@@ -48,6 +49,8 @@ def install_command() -> str:
     root, environment = _root(), Path(environment_prefix())
     if root is None:
         return 'install the wheels of your environment again, with python3 -m pip'
+    if root != _home():  # after a move only a new environment will do
+        return f'make -C {shlex.quote(str(root))} distclean build'
     stamps = ' '.join(shlex.quote(str(environment / 'stamp' / name)) for name in STAMPS)
     elsewhere = environment.resolve() != (root / '.venv').resolve()
     place = f' VENV={shlex.quote(str(environment))}' if elsewhere else ''
@@ -55,9 +58,12 @@ def install_command() -> str:
 
 
 def pins(requirements: str) -> dict[str, str]:
-    """Return the versions of a requirements file that are meant for this Python."""
+    """Return the versions of a requirements file that are meant for the environment's Python."""
+    python = python_version()
     found = (match.groups() for match in map(PIN.match, requirements.splitlines()) if match)
-    return {normal_name(name): version for name, version, marker in found if _applies(marker)}
+    return {
+        normal_name(name): version for name, version, marker in found if _applies(marker, python)
+    }
 
 
 def normal_name(name: str) -> str:
@@ -65,21 +71,28 @@ def normal_name(name: str) -> str:
     return re.sub(r'[-_.]+', '-', name).lower()
 
 
-def _applies(marker: str | None) -> bool:
+def _applies(marker: str | None, python: str) -> bool:
     if not marker:
         return True
     try:
         from packaging.markers import Marker
     except ImportError:
         return False
-    return Marker(marker).evaluate()
+    minor = python.rpartition('.')[0]
+    return Marker(marker).evaluate({'python_full_version': python, 'python_version': minor})
 
 
 def _root() -> Path | None:
-    """Return the workspace that has made this environment, if one has."""
+    """Return the workspace that has made this environment, also if both were moved together."""
+    home = _home()
+    candidates = (home, Path(environment_prefix()).parent) if home else ()
+    return next((root for root in candidates if (root / REQUIREMENTS).is_file()), None)
+
+
+def _home() -> Path | None:
+    """Return where the workspace was that has made this environment, if one has."""
     try:
-        home = Path(environment_prefix(), 'stamp', 'home').read_text(encoding='utf-8')
+        text = Path(environment_prefix(), 'stamp', 'home').read_text(encoding='utf-8')
     except OSError:
         return None
-    root = Path(home.split('\n')[0])
-    return root if (root / 'requirements.txt').is_file() else None
+    return Path(text.split('\n')[0])

@@ -9,6 +9,7 @@ import filecmp
 import os
 from pathlib import Path
 
+from ros_environment.advice import current_folder
 from ros_environment.installed import is_installed_in, known_packages
 from ros_environment.source_tree import source_packages, SourcePackage
 from ros_environment.workspace import workspaces
@@ -59,7 +60,7 @@ def _read_workspace(folder: Path, known: set[str]) -> Workspace:
     return Workspace(
         folder,
         tuple(_read_package(folder / 'install', each, known) for each in packages),
-        is_current=folder in (Path.cwd(), *Path.cwd().parents),
+        is_current=folder in (current_folder(), *current_folder().parents),
     )
 
 

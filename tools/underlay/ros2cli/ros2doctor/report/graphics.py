@@ -23,6 +23,7 @@ class GraphicsReport(DoctorReport):
         report = Report('GRAPHICS')
         for name, file in facts.libraries.items():
             report.add_to_report(f'lib{name}', file or 'missing')
+        report.add_to_report('drivers of libEGL', ', '.join(facts.drivers))
         for device, is_accessible in facts.devices.items():
             report.add_to_report(device, 'usable' if is_accessible else 'not for this user')
         for name in VARIABLES:

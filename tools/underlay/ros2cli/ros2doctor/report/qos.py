@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from ros2doctor.api.report import Report
-from ros2doctor.check.qos import pairs, why_incompatible
+from ros2doctor.check.qos import pairs, why_nothing_passes
 from ros2doctor.facts.graph import Graph
 from ros2doctor.report.graph_report import GraphReport
 
@@ -21,7 +21,7 @@ class QosReport(GraphReport):
     def fill(self, report: Report, graph: Graph) -> None:
         """Add each pair."""
         for publisher, subscription in pairs(graph.endpoints):
-            reason = why_incompatible(publisher.qos, subscription.qos)
+            reason = why_nothing_passes(publisher, subscription)
             report.add_to_report(
                 publisher.topic,
                 f'{publisher.node} -> {subscription.node}: {reason or "compatible"}',
