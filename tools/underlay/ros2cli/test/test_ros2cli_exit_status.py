@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the translation from results and exceptions to exit statuses."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 import signal
 import sys
 
 import pytest
 from ros2cli.exit_status import run_to_status
+from ros2cli.interrupts import interrupts_deferred
 
 
 def raising(error: BaseException) -> Callable[[], int]:
@@ -16,6 +17,14 @@ def raising(error: BaseException) -> Callable[[], int]:
         raise error
 
     return call
+
+
+@pytest.fixture(autouse=True)
+def usual_interrupt() -> Iterator[None]:
+    """Begin each test as a process does, and leave no trace of an interrupt in the next one."""
+    previous = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, previous)
 
 
 @pytest.mark.parametrize(('result', 'status'), [(None, 0), (0, 0), (3, 3), (-9, -9)])
@@ -79,3 +88,21 @@ def test_external_shutdown_has_status_of_sigterm() -> None:
 
     assert 'rclpy.executors' in sys.modules
     assert run_to_status(raising(ExternalShutdownException())) == 15
+
+
+def test_interrupt_comes_after_the_block() -> None:
+    """Ctrl-C does not leave half of the work undone, but ends the command then."""
+    done = []
+    with pytest.raises(KeyboardInterrupt):
+        with interrupts_deferred():
+            signal.raise_signal(signal.SIGINT)
+            done.append('all')
+    assert done == ['all']
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_uninterrupted_block_raises_nothing() -> None:
+    """Without Ctrl-C the block is as good as none."""
+    with interrupts_deferred():
+        pass
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler

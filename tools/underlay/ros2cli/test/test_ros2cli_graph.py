@@ -244,7 +244,7 @@ def row(port: int, inode: int) -> str:
 
 
 def test_participants_have_two_ports() -> None:
-    """The pair of ports of a participant counts, not one alone, nor our own or of another domain."""
+    """The pair of ports of a participant counts, not one alone, nor our own nor a foreign one."""
     rows = [row(port, 1) for port in (17910, 17911, 17912, 17916, 17917, 7410, 7411)]
     rows += [row(17914, 4), row(17915, 4)]
     assert ports_in_table(rows, {'4'}, domain_id=42) == [17910, 17916]

@@ -35,7 +35,7 @@ def test_everything_is_told() -> None:
     of_node = network.graph.get_publisher_names_and_types_by_node('node0_1', '/')
     assert of_node == [('/a', ['std_msgs/msg/String']), ('/b', ['std_msgs/msg/String'])]
     assert network.graph.count_publishers('/a') == 2
-    (end, *_) = [each for each in network.observer.neighbours[0].endpoints.values()]
+    end, *_ = network.observer.neighbours[0].endpoints.values()
     assert end.type_hash.startswith('RIHS01_abab')
     assert (end.qos.reliability, end.qos.durability) == (2, 1)
     assert end.qos.deadline_ns == INFINITE_NS

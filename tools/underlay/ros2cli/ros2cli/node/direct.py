@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import signal
 from types import TracebackType
 from typing import Any
 
@@ -16,6 +15,7 @@ from rclpy.signals import SignalHandlerOptions
 from ros2cli.graph import DEFAULT_SPIN_TIME_S
 from ros2cli.graph.graph import Graph
 from ros2cli.graph.watch import GraphWatch
+from ros2cli.interrupts import interrupts_deferred
 from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.node.arguments import add_node_arguments as add_arguments
 
@@ -88,11 +88,10 @@ class DirectNode:
     ) -> None:
         """End the node; an error because SIGTERM has ended rclpy becomes a clean end."""
         terminated = not rclpy.ok() and not isinstance(error, KeyboardInterrupt)
-        interrupt = signal.signal(signal.SIGINT, signal.SIG_IGN)
-        self.watch.close()
-        self.executor.shutdown()
-        self.node.destroy_node()
-        rclpy.try_shutdown()
-        signal.signal(signal.SIGINT, interrupt)
+        with interrupts_deferred():
+            self.watch.close()
+            self.executor.shutdown()
+            self.node.destroy_node()
+            rclpy.try_shutdown()
         if terminated:
             raise ExternalShutdownException from None
