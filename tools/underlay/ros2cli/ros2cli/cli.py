@@ -61,7 +61,6 @@ def create_parser(argv: Sequence[str]) -> argparse.ArgumentParser:
     parser = CommandParser(
         prog='ros2',
         description='ros2 is an extensible command-line tool for ROS 2.',
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
         '--use-python-default-buffering',

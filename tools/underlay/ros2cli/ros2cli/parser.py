@@ -1,16 +1,48 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The argument parser of all commands."""
+"""The argument parser of all commands, and how it prints help."""
 
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from typing import Any
+
+DEFAULT_WIDTH = 80
+MARGIN = 2
 
 
 class CommandParser(argparse.ArgumentParser):
     """A parser whose help is output like any other; argparse hides that it cannot be written."""
 
+    def __init__(self, **options: Any) -> None:
+        """Set the options of an argparse parser, with descriptions printed as they are."""
+        super().__init__(**{'formatter_class': HelpFormatter, **options})
+
     def print_help(self, file: Any = None) -> None:
         """Print the help to a file, by default to stdout."""
         print(self.format_help(), end='', file=file or sys.stdout)
+
+
+class HelpFormatter(argparse.RawDescriptionHelpFormatter):
+    """
+    A formatter that knows the width of the terminal.
+
+    argparse makes one for each argument, and would import shutil, with all its compression
+    libraries, to find the width out.
+    """
+
+    def __init__(self, prog: str, **options: Any) -> None:
+        """Set the options of an argparse formatter."""
+        super().__init__(prog, **{'width': terminal_width() - MARGIN, **options})
+
+
+def terminal_width() -> int:
+    """Return the number of columns: COLUMNS if it is set, else that of the terminal."""
+    columns = os.environ.get('COLUMNS', '')
+    if columns.isdigit() and int(columns) > 0:
+        return int(columns)
+    try:
+        return os.get_terminal_size(1).columns or DEFAULT_WIDTH
+    except OSError:
+        return DEFAULT_WIDTH

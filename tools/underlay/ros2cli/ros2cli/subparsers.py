@@ -36,7 +36,6 @@ def add_lazy_subparsers(
         subparser = subparsers.add_parser(
             entry_name,
             description=entry.summary,
-            formatter_class=argparse.RawDescriptionHelpFormatter,
         )
         if entry_name == name:
             _add_chosen(subparser, entry, f'{cli_name} {entry_name}', dest, rest)
