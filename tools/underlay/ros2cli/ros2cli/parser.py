@@ -8,8 +8,11 @@ import os
 import sys
 from typing import Any
 
+from ros2cli.suggest import did_you_mean
+
 DEFAULT_WIDTH = 80
 MARGIN = 2
+YAML_EXAMPLE = '"{data: [1, 2]}"'
 
 
 class CommandParser(argparse.ArgumentParser):
@@ -18,6 +21,30 @@ class CommandParser(argparse.ArgumentParser):
     def __init__(self, **options: Any) -> None:
         """Set the options of an argparse parser, with descriptions printed as they are."""
         super().__init__(**{'formatter_class': HelpFormatter, **options})
+
+    def parse_args(self, args: Any = None, namespace: Any = None) -> argparse.Namespace:  # type: ignore[override]
+        """Return what the words mean; those that mean nothing are an error, with advice."""
+        found, rest = self.parse_known_args(args, namespace)
+        if rest:
+            advice = found._parser_of_rest._advice(rest)
+            self.error('\n'.join([f'unrecognized arguments: {" ".join(rest)}', advice]).rstrip())
+        return found
+
+    def parse_known_args(  # type: ignore[override]
+        self, args: Any = None, namespace: Any = None
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """Return what the words mean, and the rest with the innermost parser that leaves it."""
+        found, rest = super().parse_known_args(args, namespace)
+        if rest and not hasattr(found, '_parser_of_rest'):
+            found._parser_of_rest = self
+        return found, rest
+
+    def _advice(self, words: list[str]) -> str:
+        """Return what was probably meant by words that this parser does not know, or ''."""
+        if any(word.endswith(('}', ']')) for word in words):
+            return f'A value with spaces needs quotes, as in {YAML_EXAMPLE}'
+        option = words[0].partition('=')[0]
+        return did_you_mean(option, self._option_string_actions) if option[:2] == '--' else ''
 
     def print_help(self, file: Any = None) -> None:
         """Print the help to a file, by default to stdout."""

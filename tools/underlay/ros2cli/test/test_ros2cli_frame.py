@@ -64,6 +64,25 @@ def test_unknown_option_is_error_of_root(capsys: pytest.CaptureFixture[str]) -> 
     assert 'ros2: error: unrecognized arguments: --nope' in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ('words', 'advice'),
+    [
+        (['pkg', 'prefix', 'rclpy', '--shar'], None),
+        (['topic', 'list', '--show-tpes'], "Did you mean '--show-types'?"),
+        (['topic', '--include-hidden-topcs', 'list'], "Did you mean '--include-hidden-topics'?"),
+        (['topic', 'pub', '/x', 'T', '{data:', '1}'], 'A value with spaces needs quotes, as in '),
+        (['topic', 'list', 'x'], 'ros2: error: unrecognized arguments: x'),
+    ],
+)
+def test_advice_on_unknown_words(
+    words: list[str], advice: str | None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What was probably meant is said on a line after the error; abbreviations are none."""
+    assert main(words) == (0 if advice is None else 2)
+    if advice is not None:
+        assert capsys.readouterr().err.splitlines()[-1].startswith(advice)
+
+
 def test_missing_argument_is_error_of_verb(capsys: pytest.CaptureFixture[str]) -> None:
     """A missing argument is reported by the parser of the verb."""
     assert main(['topic', 'echo']) == 2
