@@ -22,11 +22,13 @@ class CommandParser(argparse.ArgumentParser):
         """Set the options of an argparse parser, with descriptions printed as they are."""
         super().__init__(**{'formatter_class': HelpFormatter, **options})
 
-    def parse_args(self, args: Any = None, namespace: Any = None) -> argparse.Namespace:  # type: ignore[override]
+    def parse_args(  # type: ignore[override]
+        self, args: Any = None, namespace: Any = None
+    ) -> argparse.Namespace:
         """Return what the words mean; those that mean nothing are an error, with advice."""
         found, rest = self.parse_known_args(args, namespace)
         if rest:
-            advice = found._parser_of_rest._advice(rest)
+            advice = found._parser_of_rest.advice(rest)
             self.error('\n'.join([f'unrecognized arguments: {" ".join(rest)}', advice]).rstrip())
         return found
 
@@ -39,7 +41,7 @@ class CommandParser(argparse.ArgumentParser):
             found._parser_of_rest = self
         return found, rest
 
-    def _advice(self, words: list[str]) -> str:
+    def advice(self, words: list[str]) -> str:
         """Return what was probably meant by words that this parser does not know, or ''."""
         if any(word.endswith(('}', ']')) for word in words):
             return f'A value with spaces needs quotes, as in {YAML_EXAMPLE}'
