@@ -18,7 +18,9 @@ COMMANDS = (
     'ros2 --help',
     'ros2 pkg list',
     'ros2 pkg prefix humanoid_bringup',
+    'ros2 launch humanoid_bringup bringup.launch.py --show-args',
     'ros2 topic list',
+    'ros2 node list',
 )
 
 

@@ -11,7 +11,7 @@ if [[ -o interactive ]]; then
     fi
     # argcomplete's protocol: the line goes in by variables, the words come out on descriptor 8.
     line="${(j: :)words[1,CURRENT-1]} $QIPREFIX${begin:+${(q)begin}}$PREFIX"
-    local -a found open
+    local -a found open quoted
     found=("${(@f)$(
       _ARGCOMPLETE=1 _ARGCOMPLETE_SHELL=zsh _ARGCOMPLETE_IFS=$'\n' \
       _ARGCOMPLETE_SUPPRESS_SPACE=1 COMP_LINE=$line COMP_POINT=${#line} \
@@ -19,8 +19,10 @@ if [[ -o interactive ]]; then
     )}")
     found=("${(@)found%:(None|)}")  # where there is no description
     found=("${(@)found#$begin}")
+    quoted=("${(@)${(@M)found:#\"*}//\\:/:}")  # a whole message
     open=(${(M)found:#*[=/]})
-    found=(${found:#*[=/]})
+    found=(${found:#(\"*|*[=/])})
+    [[ ${words[CURRENT]} == \{* ]] || compadd -Q -- $quoted
     (( $#open )) && _describe ros2 open -S ''
     (( $#found )) && _describe ros2 found
   }

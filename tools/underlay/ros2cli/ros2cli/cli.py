@@ -13,7 +13,7 @@ from typing import NoReturn
 
 from ros2cli.command_table import COMMAND_GROUP, COMMANDS
 from ros2cli.exit_status import run_to_status
-from ros2cli.parser import HelpFormatter, Parser
+from ros2cli.parser import Parser
 from ros2cli.standard_streams import open_standard_streams
 from ros2cli.subparsers import add_lazy_subparsers
 
@@ -62,7 +62,6 @@ def create_parser(
     parser = parser_class(
         prog='ros2',
         description='ros2 is an extensible command-line tool for ROS 2.',
-        formatter_class=HelpFormatter,
     )
     parser.add_argument(
         '--use-python-default-buffering',

@@ -19,23 +19,41 @@ def run_to_status(call: Callable[[], int | str | None]) -> int:
         status = _call_or_exit(call)
         _flush()
         return status
-    except BrokenPipeError:
-        return _after_broken_pipe()
     except KeyboardInterrupt:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        # Where rclpy is interrupted it may leave a coroutine behind that never starts.
-        warnings.simplefilter('ignore', RuntimeWarning)
-        return int(signal.SIGINT)
-    except OSError as error:
-        if error.errno != errno.ENOSPC:
-            raise
-        return _after_full_disk(error)
-    except RuntimeError as error:
-        return _to_status(str(error) or type(error).__name__)
+        return _after_interrupt()
     except Exception as error:
-        if is_external_shutdown(error):
-            return int(signal.SIGTERM)
-        raise
+        status_of_error = _status_of(error)
+        if status_of_error is None:
+            raise
+        return status_of_error
+
+
+def _status_of(error: Exception) -> int | None:
+    """Return the status for an exception, None if nobody foresaw it."""
+    if isinstance(error, BrokenPipeError):
+        return _after_broken_pipe()
+    if _comes_from_interrupt(error):
+        return _after_interrupt()
+    if isinstance(error, OSError) and error.errno == errno.ENOSPC:
+        return _after_full_disk(error)
+    if isinstance(error, RuntimeError):
+        return _to_status(str(error) or type(error).__name__)
+    return int(signal.SIGTERM) if is_external_shutdown(error) else None
+
+
+def _comes_from_interrupt(error: BaseException | None) -> bool:
+    """Tell if Ctrl-C caused an error, as it does while rclpy's C library is imported."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error is not None
+
+
+def _after_interrupt() -> int:
+    """Let a second Ctrl-C not disturb the end."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # Where rclpy is interrupted it may leave a coroutine behind that never starts.
+    warnings.simplefilter('ignore', RuntimeWarning)
+    return int(signal.SIGINT)
 
 
 def _call_or_exit(call: Callable[[], int | str | None]) -> int:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The argument parser of the command line: quick to build, and it takes words in any order."""
+"""The argument parser of all commands, and how it prints help."""
 
 from __future__ import annotations
 
@@ -10,34 +10,48 @@ import sys
 from typing import Any
 
 from ros2cli.option_order import options_first
+from ros2cli.suggest import did_you_mean
 
-DEFAULT_COLUMNS = 80
+DEFAULT_WIDTH = 80
 MARGIN = 2
-
-
-class HelpFormatter(argparse.RawDescriptionHelpFormatter):
-    """A formatter that knows the width itself: argparse would import shutil for that."""
-
-    def __init__(self, prog: str) -> None:
-        """Use the width of the terminal."""
-        super().__init__(prog, width=_columns() - MARGIN)
+YAML_EXAMPLE = '"{data: [1, 2]}"'
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser in which options may stand anywhere, and numbers may be negative."""
+    """A parser in which options may stand anywhere, numbers may be negative, and errors help."""
 
-    def __init__(self, *args: Any, **options: Any) -> None:
-        """Keep descriptions as they are, unless another formatter is wanted."""
-        super().__init__(*args, **{'formatter_class': HelpFormatter, **options})
+    def __init__(self, **options: Any) -> None:
+        """Set the options of an argparse parser, with descriptions printed as they are."""
+        super().__init__(**{'formatter_class': HelpFormatter, **options})
+
+    def parse_args(  # type: ignore[override]
+        self, args: Sequence[str] | None = None, namespace: Any = None
+    ) -> argparse.Namespace:
+        """Return what the words mean; those that mean nothing are an error, with advice."""
+        found, rest = self.parse_known_args(args, namespace)
+        if rest:
+            advice = found._parser_of_rest.advice(rest)
+            self.error('\n'.join([f'unrecognized arguments: {" ".join(rest)}', advice]).rstrip())
+        return found
 
     def parse_known_args(  # type: ignore[override]
         self, args: Sequence[str] | None = None, namespace: Any = None
-    ) -> Any:
-        """Parse the words, whatever their order is."""
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """Return what the words mean, and the rest with the innermost parser that leaves it."""
         words = sys.argv[1:] if args is None else list(args)
         if self._takes_any_order():
             words = options_first(words, self._option_string_actions)
-        return super().parse_known_args(words, namespace)
+        found, rest = super().parse_known_args(words, namespace)
+        if rest and not hasattr(found, '_parser_of_rest'):
+            found._parser_of_rest = self
+        return found, rest
+
+    def advice(self, words: list[str]) -> str:
+        """Return what was probably meant by words that this parser does not know, or ''."""
+        if any(word.endswith(('}', ']')) for word in words):
+            return f'A value with spaces needs quotes, as in {YAML_EXAMPLE}'
+        option = words[0].partition('=')[0]
+        return did_you_mean(option, self._option_string_actions) if option[:2] == '--' else ''
 
     def print_help(self, file: Any = None) -> None:
         """Print the help like any other output; argparse hides that it cannot be written."""
@@ -49,12 +63,25 @@ class Parser(argparse.ArgumentParser):
         return bool(kinds) and not {argparse.PARSER, argparse.REMAINDER}.intersection(kinds)
 
 
-def _columns() -> int:
-    """Return the width of the terminal, as the variable COLUMNS or the terminal has it."""
+class HelpFormatter(argparse.RawDescriptionHelpFormatter):
+    """
+    A formatter that knows the width of the terminal.
+
+    argparse makes one for each argument, and would import shutil, with all its compression
+    libraries, to find the width out.
+    """
+
+    def __init__(self, prog: str, **options: Any) -> None:
+        """Set the options of an argparse formatter."""
+        super().__init__(prog, **{'width': terminal_width() - MARGIN, **options})
+
+
+def terminal_width() -> int:
+    """Return the number of columns: COLUMNS if it is set, else that of the terminal."""
     columns = os.environ.get('COLUMNS', '')
     if columns.isdecimal() and int(columns):
         return int(columns)
     try:
-        return os.get_terminal_size(sys.__stdout__.fileno()).columns  # type: ignore[union-attr]
-    except (AttributeError, ValueError, OSError):
-        return DEFAULT_COLUMNS
+        return os.get_terminal_size(1).columns or DEFAULT_WIDTH
+    except OSError:
+        return DEFAULT_WIDTH

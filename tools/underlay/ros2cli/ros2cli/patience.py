@@ -23,5 +23,5 @@ class Patience:
         """Speak up if the time has come."""
         if time.monotonic() > self._end:
             text = f'Still waiting for {self._what} (Ctrl-C to stop)'
-            print(f'{text} {self._hint()}'.rstrip(), file=sys.stderr)
+            print('. '.join(filter(None, (text, self._hint()))), file=sys.stderr)
             self._end = float('inf')

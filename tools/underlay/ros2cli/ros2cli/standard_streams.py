@@ -18,7 +18,7 @@ def open_standard_streams() -> None:
     for descriptor, name in enumerate(NAMES):
         if getattr(sys, name) is None and not _is_open(descriptor):
             os.open(os.devnull, os.O_RDWR)  # the lowest descriptor that is free: this one
-            setattr(sys, name, open(descriptor, 'r' if descriptor == 0 else 'w'))
+            setattr(sys, name, os.fdopen(descriptor, 'r' if descriptor == 0 else 'w'))
 
 
 def _is_open(descriptor: int) -> bool:

@@ -9,7 +9,6 @@ from typing import Any
 
 from ros2cli.entry import Entry
 from ros2cli.entry_points import entries_of_group, find_entry
-from ros2cli.parser import HelpFormatter
 from ros2cli.suggest import did_you_mean
 
 
@@ -37,7 +36,6 @@ def add_lazy_subparsers(
         subparser = subparsers.add_parser(
             entry_name,
             description=entry.summary,
-            formatter_class=HelpFormatter,
         )
         if entry_name == name:
             _add_chosen(subparser, entry, f'{cli_name} {entry_name}', dest, rest)

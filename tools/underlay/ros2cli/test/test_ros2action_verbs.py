@@ -118,7 +118,7 @@ def test_missing_server_is_waited_for(start_at_robot: Start) -> None:
     process = start_at_robot('action', 'send_goal', '/lok', TYPE)
     lines = iter(process.stderr.readline, '')
     assert next(line for line in lines if not line.startswith('WARNING: a ROS process')) == (
-        "Still waiting for a server of the action '/lok' (Ctrl-C to stop) Did you mean '/look'?\n"
+        "Still waiting for a server of the action '/lok' (Ctrl-C to stop). Did you mean '/look'?\n"
     )
     process.send_signal(signal.SIGINT)
     assert process.wait(timeout=20.0) == 2

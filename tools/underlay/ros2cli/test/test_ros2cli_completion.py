@@ -9,10 +9,12 @@ import os
 from pathlib import Path
 import subprocess
 import sys
+import time
 
 import pytest
 from ros2cli.completion.table import find_completer, OF_ARGUMENT, OF_COMMAND
 
+LONG_S = 20.0
 BASH_WORDBREAKS = ' \t\n"\'><=;|&(:'
 LAUNCH_FILE = """\
 from launch import LaunchDescription
@@ -51,10 +53,9 @@ def complete(prefix: Path, tmp_path: Path, ros_environment_variables: dict[str, 
     """Return a function that asks for the words after a line, as the shell function does."""
 
     def ask(line: str, point: int | None = None) -> list[str]:
-        answer = tmp_path / 'answer'
         path = os.pathsep.join([str(prefix), os.environ.get('AMENT_PREFIX_PATH', '')])
-        subprocess.run(
-            ['bash', '-c', f'"$@" 8>"{answer}"', 'bash', sys.executable, '-m', 'ros2cli'],
+        result = subprocess.run(
+            ['bash', '-c', '"$@" 8>&1 >/dev/null', 'bash', sys.executable, '-m', 'ros2cli'],
             env={
                 **ros_environment_variables,
                 'AMENT_PREFIX_PATH': path,
@@ -67,10 +68,12 @@ def complete(prefix: Path, tmp_path: Path, ros_environment_variables: dict[str, 
                 '_ARGCOMPLETE_SHELL': 'bash',
                 '_ARGCOMPLETE_SUPPRESS_SPACE': '0',
             },
-            capture_output=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
             timeout=60,
         )
-        return answer.read_text().split('\n')
+        return result.stdout.split('\n')
 
     return ask
 
@@ -111,6 +114,10 @@ def test_command_is_more_precise_than_argument() -> None:
         ('ros2 topic find sensor_msgs/msg/JointS', ['sensor_msgs/msg/JointState ']),
         ('ros2 topic find sensor_m', None),
         ('ros2 pkg create --license Ap', ['Apache-2.0 ']),
+        ('ros2 topic pub /x std_msgs/msg/String ', ['"{data: \'\'}"']),
+        ('ros2 topic pub /x std_msgs/msg/String "', ["{data: ''}"]),
+        ('ros2 service call /x std_srvs/srv/SetBool ', ['"{data: false}"']),
+        ('ros2 topic pub /x std_msgs/msg/Nope ', ['']),
         ('ros2 nope ', ['']),
         ('ros2 run nope ', ['']),
         ('ros2 launch demo_pkg nope.launch.py ', ['']),
@@ -136,6 +143,15 @@ def test_file_instead_of_package(complete: Complete, prefix: Path) -> None:
 def test_cursor_inside_the_line(complete: Complete) -> None:
     """Only what is before the cursor counts."""
     assert complete('ros2 launch demo_ -n', len('ros2 launch demo_')) == ['demo_pkg ']
+
+
+def test_launch_file_that_takes_its_time(complete: Complete, prefix: Path) -> None:
+    """The shell does not wait for a launch file that does not come to an end."""
+    path = prefix / 'slow.launch.py'
+    path.write_text(f"import os\nos.system('sleep {LONG_S}')\n")
+    begin = time.monotonic()
+    assert complete(f'ros2 launch {path} ') == ['']
+    assert time.monotonic() - begin < LONG_S
 
 
 @pytest.mark.parametrize('written', ['{}', '"{}', "'{}"])

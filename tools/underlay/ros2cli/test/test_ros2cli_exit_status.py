@@ -71,6 +71,17 @@ def test_interrupt_leaves_no_warning(recwarn: pytest.WarningsRecorder) -> None:
     assert not recwarn.list
 
 
+def test_interrupt_of_an_import_is_silent(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Ctrl-C while a C library is imported is an ImportError, and yet nothing but Ctrl-C."""
+    error = ImportError('initialization failed')
+    error.__cause__ = KeyboardInterrupt()
+    monkeypatch.setattr('signal.signal', lambda *words: None)
+    assert run_to_status(raising(error)) == 2
+    assert capsys.readouterr() == ('', '')
+
+
 def test_exit_of_parser_is_status() -> None:
     """The exit of the argument parser keeps its status."""
     assert run_to_status(raising(SystemExit(2))) == 2

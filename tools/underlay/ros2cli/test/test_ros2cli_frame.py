@@ -2,8 +2,10 @@
 """Tests of the frame: help, unknown commands and what is imported."""
 
 import io
+from pathlib import Path
 import subprocess
 import sys
+from typing import Any
 
 import pytest
 from ros2cli.cli import main
@@ -63,6 +65,25 @@ def test_unknown_option_is_error_of_root(capsys: pytest.CaptureFixture[str]) -> 
     assert 'ros2: error: unrecognized arguments: --nope' in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ('words', 'advice'),
+    [
+        (['pkg', 'prefix', 'rclpy', '--shar'], None),
+        (['topic', 'list', '--show-tpes'], "Did you mean '--show-types'?"),
+        (['topic', '--include-hidden-topcs', 'list'], "Did you mean '--include-hidden-topics'?"),
+        (['topic', 'pub', '/x', 'T', '{data:', '1}'], 'A value with spaces needs quotes, as in '),
+        (['topic', 'list', 'x'], 'ros2: error: unrecognized arguments: x'),
+    ],
+)
+def test_advice_on_unknown_words(
+    words: list[str], advice: str | None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What was probably meant is said on a line after the error; abbreviations are none."""
+    assert main(words) == (0 if advice is None else 2)
+    if advice is not None:
+        assert capsys.readouterr().err.splitlines()[-1].startswith(advice)
+
+
 def test_missing_argument_is_error_of_verb(capsys: pytest.CaptureFixture[str]) -> None:
     """A missing argument is reported by the parser of the verb."""
     assert main(['topic', 'echo']) == 2
@@ -107,20 +128,54 @@ def test_heavy_modules_are_not_imported(
     ros_environment_variables: dict[str, str],
 ) -> None:
     """Commands without a node import neither rclpy nor the scanner of entry points."""
-    code = (
-        'import sys\nfrom ros2cli.cli import main\nmain(sys.argv[1:])\n'
-        "heavy = {'rclpy', 'importlib.metadata', 'asyncio', 'yaml'}\n"
-        "print('heavy:', sorted(heavy & set(sys.modules) - early))\n"
+    heavy = {'rclpy', 'importlib.metadata', 'asyncio', 'yaml', 'shutil'}
+    assert imported_by(words, heavy, ros_environment_variables) == []
+
+
+def test_rclpy_is_not_imported_to_show_arguments(
+    ros_environment_variables: dict[str, str], tmp_path: Path
+) -> None:
+    """To show what a launch file declares, nothing of ROS is needed."""
+    path = tmp_path / 'x.launch.py'
+    path.write_text(
+        'from launch import LaunchDescription\n'
+        'from launch.actions import DeclareLaunchArgument\n'
+        'from launch_ros.actions import Node\n'
+        'def generate_launch_description():\n'
+        "    node = Node(package='demo_pkg', executable='talk')\n"
+        "    return LaunchDescription([DeclareLaunchArgument('robot'), node])\n"
     )
-    code = f'import sys\nearly = set(sys.modules)\n{code}'
+    words = ['launch', str(path), '--show-args']
+    heavy = {'rclpy', 'importlib.metadata', 'yaml'}
+    assert imported_by(words, heavy, ros_environment_variables) == []
+
+
+def imported_by(words: list[str], modules: set[str], environment: dict[str, str]) -> list[str]:
+    """Return which of some modules a command imports."""
+    code = (
+        'import sys\nearly = set(sys.modules)\n'
+        'from ros2cli.cli import main\nmain(sys.argv[1:])\n'
+        "print('imported:', *sorted(set(sys.modules) - early))\n"
+    )
     result = subprocess.run(
         [sys.executable, '-c', code, *words],
-        env=ros_environment_variables,
+        env=environment,
         check=True,
         capture_output=True,
         text=True,
     )
-    assert result.stdout.splitlines()[-1] == 'heavy: []'
+    *_, last_line = result.stdout.splitlines()
+    return sorted(modules & set(last_line.split()))
+
+
+def test_width_of_help(capsys: pytest.CaptureFixture[str], monkeypatch: Any) -> None:
+    """The help is as wide as COLUMNS says, and 80 columns where there is no terminal."""
+    widths = []
+    for columns in ('60', '200', ''):
+        monkeypatch.setenv('COLUMNS', columns)
+        assert main(['topic', 'list', '--help']) == 0
+        widths.append(max(map(len, capsys.readouterr().out.splitlines())))
+    assert widths[0] <= 60 < widths[2] <= 80 < widths[1]
 
 
 @pytest.mark.parametrize(

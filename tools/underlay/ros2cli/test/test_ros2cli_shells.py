@@ -160,6 +160,12 @@ def test_launch_arguments(shell: Terminal, tmp_path: Path, quotation: str) -> No
     assert 'noise' not in shell.shown
 
 
+def test_message(shell: Terminal) -> None:
+    """A whole message is inserted between quotes, in which it can be edited."""
+    shell.press('ros2 topic pub /x std_msgs/msg/String \t')
+    shell.wait_for('"{data: \'\'}"')
+
+
 def test_program_is_missing(shell: Terminal) -> None:
     """Where there is no `ros2` (any more), TAB does nothing, and the shell lives on."""
     shell.press('PATH=/nowhere\n')

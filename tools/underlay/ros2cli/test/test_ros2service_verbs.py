@@ -108,7 +108,7 @@ def test_missing_service_is_waited_for(words: list[str], hint: str, start_at_rob
     process = start_at_robot('service', 'call', *words)
     assert process.stdout.readline() == 'waiting for service to become available...\n'
     assert process.stderr.readline() == (
-        f"Still waiting for the service '{words[0]}' (Ctrl-C to stop) {hint}\n"
+        f"Still waiting for the service '{words[0]}' (Ctrl-C to stop). {hint}\n"
     )
     process.send_signal(signal.SIGINT)
     assert process.wait(timeout=20.0) == 2

@@ -53,6 +53,7 @@ def add_choice_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '-x',
         '--exclude-regex',
+        metavar='REGEX',
         type=regular_expression,
         help='leave out the topics in whose names this regular expression is found',
     )

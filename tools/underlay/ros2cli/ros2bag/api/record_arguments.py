@@ -48,6 +48,7 @@ def _add_choice(parser: argparse.ArgumentParser) -> None:
         '-x',
         '--exclude-regex',
         '--exclude',
+        metavar='REGEX',
         type=regular_expression,
         help='leave out the topics in whose names this regular expression is found',
     )
@@ -120,9 +121,10 @@ def _add_compression(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         '--storage-preset-profile',
+        metavar='PROFILE',
         choices=sorted(PRESETS),
         default='none',
-        help='another way to choose the compression',
+        help='another way to choose the compression: %(choices)s',
     )
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 import faulthandler
 import os
 from typing import Any
@@ -17,6 +18,7 @@ from typing import Any
 from ros2cli.completion.table import find_completer
 
 DEADLINE_S = 4.0
+ANSWER_DESCRIPTOR = 8
 
 
 def answer(create_parser: Callable[[Sequence[str]], argparse.ArgumentParser]) -> None:
@@ -35,7 +37,14 @@ def answer(create_parser: Callable[[Sequence[str]], argparse.ArgumentParser]) ->
 
 
 def _end_before_it_annoys() -> None:
-    """End this process after some seconds whatever it does, even inside a library."""
+    """
+    End this process after some seconds whatever it does, even inside a library.
+
+    The shell waits until all who could answer have ended, so what a launch file starts must not
+    be among them.
+    """
+    with suppress(OSError):
+        os.set_inheritable(ANSWER_DESCRIPTOR, False)
     nowhere = os.open(os.devnull, os.O_WRONLY)
     faulthandler.dump_traceback_later(DEADLINE_S, exit=True, file=nowhere)
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+import re
 
 from argcomplete import CompletionFinder
 
@@ -16,18 +16,27 @@ class Finder(CompletionFinder):
         self, completions: list[str], cword_prequote: str, last_wordbreak_pos: int | None
     ) -> list[str]:
         """Return the words quoted for bash; zsh quotes itself, in the manner of the line."""
+        is_message = not cword_prequote and all(word.startswith('{') for word in completions)
+        if is_message:
+            completions = [_between_quotes(word) for word in completions]
         if os.environ.get('_ARGCOMPLETE_SHELL') == 'zsh':
             return [self._for_zsh(word) for word in completions]
-        words: list[Any] = super().quote_completions(
-            completions, cword_prequote, last_wordbreak_pos
-        )
-        return [_with_variable(word) for word in words]
+        if is_message:
+            return completions
+        found = super().quote_completions(completions, cword_prequote, last_wordbreak_pos)
+        return [_with_variable(word) for word in found]
 
     def _for_zsh(self, word: str) -> str:
         """Tell a colon of the word from the one before the description."""
         escaped = word.replace('\\', '\\\\').replace(':', '\\:')
-        self._display_completions[escaped] = self._display_completions.get(word)
+        self._display_completions[escaped] = self._display_completions.get(word, '')
         return escaped
+
+
+def _between_quotes(word: str) -> str:
+    """Return a whole message as a word that is easy to edit."""
+    escaped = re.sub(r'([\\"$`])', r'\\\1', word)
+    return f'"{escaped}"'
 
 
 def _with_variable(word: str) -> str:

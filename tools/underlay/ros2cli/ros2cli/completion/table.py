@@ -56,6 +56,7 @@ OF_ARGUMENT = {
     'topics_positional': 'graph:topics',
     'transition': 'words:transitions',
     'type': 'interfaces:interfaces',
+    'values': 'prototypes:values',
 }
 NEVER = {  # what is named there is new
     ('ros2 bag record', 'node_name'),

@@ -96,11 +96,13 @@ def prefix_arguments(args: argparse.Namespace) -> list[str]:
 def _add_prefix_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '--launch-prefix',
+        metavar='COMMAND',
         help='Prefix command, which should go before all executables, e.g. '
         "--launch-prefix 'xterm -e gdb -ex run --args'",
     )
     parser.add_argument(
         '--launch-prefix-filter',
+        metavar='REGEX',
         help='Regex pattern for filtering which executables the --launch-prefix is applied to',
     )
 

@@ -30,14 +30,15 @@ def add_form_arguments(parser: argparse.ArgumentParser) -> None:
         '-f',
         '--full-length',
         action='store_true',
-        help='Output all elements for arrays, bytes, and string',
+        help='Output all elements for arrays, bytes, and strings',
     )
     add(
         '-l',
         '--truncate-length',
+        metavar='N',
         type=whole_number,
         default=DEFAULT_TRUNCATE_LENGTH,
-        help='The length to truncate arrays, bytes, and string to (default: %(default)s)',
+        help='The length to truncate arrays, bytes, and strings to (default: %(default)s)',
     )
     add('--no-arr', action='store_true', help="Don't print array fields of messages")
     add('--no-str', action='store_true', help="Don't print string fields of messages")

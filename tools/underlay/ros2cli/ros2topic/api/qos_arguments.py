@@ -31,9 +31,10 @@ def add_qos_arguments(parser: argparse.ArgumentParser, role: str) -> None:
     """Add the profile and the single policies of a publisher or subscription."""
     parser.add_argument(
         '--qos-profile',
+        metavar='PROFILE',
         choices=PROFILES,
-        help=f'Quality of service preset profile of the {role}; by default it follows the '
-        'other side',
+        help=f'Quality of service preset profile of the {role}: %(choices)s; by default it '
+        'follows the other side',
     )
     parser.add_argument(
         '--qos-depth', metavar='N', type=_queue_depth, help=f'Queue size setting of the {role}'
@@ -41,8 +42,9 @@ def add_qos_arguments(parser: argparse.ArgumentParser, role: str) -> None:
     for policy, choices in POLICIES.items():
         parser.add_argument(
             f'--qos-{policy}',
+            metavar='POLICY',
             choices=choices,
-            help=f'Quality of service {policy} setting of the {role}',
+            help=f'Quality of service {policy} setting of the {role}: %(choices)s',
         )
     parser.add_argument(
         '--qos-liveliness-lease-duration-seconds',

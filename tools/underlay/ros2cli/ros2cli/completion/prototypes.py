@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Complete the values of a message, which are to be edited then."""
+
+from __future__ import annotations
+
+import argparse
+
+TYPES = ('message_type', 'service_type', 'action_type')
+
+
+def values(prefix: str, args: argparse.Namespace) -> list[str]:
+    """Return the default values of the type that the command line names, on one line."""
+    from ros2cli.messages.text import to_yaml
+    from ros2interface.api.prototype import create_prototype
+
+    name = next(filter(None, (getattr(args, each, None) for each in TYPES)))
+    try:
+        return [to_yaml(create_prototype(name), flow_style=True).strip()]
+    except (AttributeError, ImportError, RuntimeError):
+        return []
