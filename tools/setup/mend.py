@@ -6,6 +6,7 @@
 - The libraries that they bring along lie in a dozen folders: links in lib/ make one of them do.
 - Their start-up hook loads half of pathlib into every Python, and starts the small Python that
   reads colcon's set-up files a second time in an environment that the shell does not have.
+- Every program that imports a message loads the generator of messages, with a parser of IDL.
 """
 
 from __future__ import annotations
@@ -24,6 +25,15 @@ START_UP_HOOK = (
     "sys.orig_argv[1:2] and sys.orig_argv[1].endswith('/_local_setup_util_sh.py') or "
     "__import__('ros_wheels_bootstrapper')\n"
 )
+GENERATOR_IMPORT = re.compile(r'try:\n    from \.generate_py_impl import generate_py\n.*', re.DOTALL)
+GENERATOR_WHEN_NEEDED = """\
+def __getattr__(name):
+    if name != 'generate_py':
+        raise AttributeError(name)
+    from .generate_py_impl import generate_py
+
+    return generate_py
+"""
 
 
 def mend_wheels(environment: Path, include: str, site_packages: Path) -> None:
@@ -39,6 +49,8 @@ def mend_wheels(environment: Path, include: str, site_packages: Path) -> None:
     _rewrite(adapter, lambda text: text.replace(ASCII_READ, UTF8_READ))
     hook = site_packages / 'ros_wheels_bootstrapper.pth'
     _rewrite(hook, lambda text: START_UP_HOOK)
+    generator = site_packages / 'rosidl_generator_py' / '__init__.py'
+    _rewrite(generator, lambda text: GENERATOR_IMPORT.sub(GENERATOR_WHEN_NEEDED, text))
     link_libraries(environment / 'lib', site_packages)
 
 

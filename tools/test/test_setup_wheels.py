@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 from pathlib import Path
+import subprocess
+import sys
 
 from mend import link_libraries, mend_wheels
 import pytest
@@ -59,6 +61,7 @@ def test_cmake_files_name_the_python_at_hand(tmp_path: Path, packages: Path) -> 
         path.write_text(text)
     hook = packages / 'ros_wheels_bootstrapper.pth'
     hook.write_text('import ros_wheels_bootstrapper')
+    write_generator(packages)
     for _ in range(2):
         mend_wheels(tmp_path, '/usr/include/python3.12', packages)
         assert exported.read_text() == (
@@ -66,6 +69,39 @@ def test_cmake_files_name_the_python_at_hand(tmp_path: Path, packages: Path) -> 
         )
         assert 'ENCODING UTF-8' in adapter.read_text()
         assert '_ROS_WHEELS_BOOTSTRAP_COMPLETE' in hook.read_text()
+
+
+def write_generator(packages: Path) -> None:
+    """Write a generator of messages that is loaded with the package."""
+    folder = packages / 'rosidl_generator_py'
+    folder.mkdir()
+    (folder / 'generate_py_impl.py').write_text("print('loaded')\ngenerate_py = len\n")
+    (folder / '__init__.py').write_text(
+        'try:\n'
+        '    from .generate_py_impl import generate_py\n'
+        '    assert generate_py\n'
+        'except ImportError:\n'
+        '    pass\n'
+    )
+
+
+def test_generator_is_loaded_when_it_is_used(tmp_path: Path, packages: Path) -> None:
+    """Whoever imports the package does not load the generator, and yet can use it."""
+    write_generator(packages)
+    (packages / 'ros_wheels_bootstrapper.pth').write_text('')
+    adapter = tmp_path / 'share/rosidl_adapter/cmake/rosidl_adapt_interfaces.cmake'
+    adapter.parent.mkdir(parents=True)
+    adapter.write_text('')
+    mend_wheels(tmp_path, '', packages)
+    code = (
+        "import rosidl_generator_py; print('imported')\n"
+        'from rosidl_generator_py import generate_py; print(generate_py([]))\n'
+        "print(hasattr(rosidl_generator_py, 'other'))"
+    )
+    result = subprocess.run(
+        [sys.executable, '-c', code], cwd=packages, capture_output=True, text=True, check=True
+    )
+    assert result.stdout.split() == ['imported', 'loaded', '0', 'False']
 
 
 def test_bundled_libraries_are_linked(tmp_path: Path, packages: Path) -> None:
