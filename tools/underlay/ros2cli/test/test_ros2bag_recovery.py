@@ -10,9 +10,9 @@ from bag_samples import MS, start_bag, string, texts, topic, write_bag
 import pytest
 from ros2bag.storage import BagError
 from ros2bag.storage.bag_reader import BagReader
+from ros2bag.storage.damage import BrokenFile
 from ros2bag.storage.definitions import Definition
 from ros2bag.storage.mcap_file import McapFile
-from ros2bag.storage.mcap_summary import BrokenFile
 from ros2bag.storage.recovery import recover, write_metadata
 from ros2bag.storage.reserve import Reserve
 from rosbags.highlevel import AnyReader
@@ -87,7 +87,7 @@ def test_damaged_chunk_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     content[content.index(b'\x03\x00\x00\x0021\x00') + 4] ^= 0xFF
     path.write_bytes(content)
     (outcome,) = recover(str(tmp_path / 'bag'))
-    assert (outcome.message_count, outcome.damaged_chunks) == (COUNT - 4, 1)
+    assert (outcome.message_count, outcome.damaged_parts) == (COUNT - 4, 1)
     saved = texts(BagReader(str(tmp_path / 'bag')).messages(), '/ticks')
     assert saved == [str(number) for number in range(COUNT) if number not in range(20, 24)]
 

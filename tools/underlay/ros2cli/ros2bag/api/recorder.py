@@ -52,6 +52,11 @@ class Recorder:
         """Return how many topics are subscribed to."""
         return sum(topic is not None for topic in self._topics.values())
 
+    @property
+    def missing(self) -> list[str]:
+        """Return the topics that were asked for by name and have not appeared."""
+        return sorted(self._filter.topics.difference(self._topics))
+
     def discover(self) -> None:
         """Subscribe to topics that have appeared, and follow their publishers."""
         for name, types in get_topic_names_and_types(node=self._node, include_hidden_topics=True):

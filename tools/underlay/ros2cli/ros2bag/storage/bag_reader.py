@@ -19,11 +19,13 @@ class BagReader:
 
     def __init__(self, path: str) -> None:
         """Read the metadata; BagError says why that is not possible."""
+        if not path:
+            raise BagError('The path of the bag is empty: name its folder')
         self.path = path
         if os.path.isdir(path):
             self._folder = path
             self.metadata = _read_metadata(path)
-        elif os.path.isfile(path):
+        elif os.path.exists(path):
             from ros2bag.storage.mcap_summary import describe_file
 
             self._folder = os.path.dirname(path)
@@ -51,10 +53,11 @@ class BagReader:
     ) -> Iterator[RecordedMessage]:
         """Yield the messages of these topics, or of all, from a time on."""
         from mcap.reader import SeekingReader
+        from ros2bag.storage.damage import BoundedFile, damage_told
 
         for path in self._paths():
-            with open(path, 'rb') as stream:
-                reader = SeekingReader(stream)
+            with damage_told(path), BoundedFile(path) as stream:
+                reader = SeekingReader(stream, validate_crcs=True)
                 for _, channel, message in reader.iter_messages(topics, starting_at=start_ns):
                     yield RecordedMessage(
                         channel.topic,
