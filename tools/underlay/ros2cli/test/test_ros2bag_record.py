@@ -102,6 +102,33 @@ def test_record_all(
     assert qos['/sensor'].reliability.name == 'BEST_EFFORT'
 
 
+def test_topic_that_does_not_appear_is_named(
+    start_talker: Callable[[], None], start_ros2: Start, tmp_path: Path
+) -> None:
+    """Who misspells one of the topics is told so after a while, and again at the end."""
+    start_talker()
+    words = ['bag', 'record', '--topics', '/ticks', '/sensr', '-o', str(tmp_path / 'bag')]
+    process = start_ros2(*words)
+    _expect_line(process, "Not there yet: /sensr. Did you mean '/sensor'?")
+    returned, errors = _stop(process)
+    assert returned == 0
+    assert 'Not recorded: /sensr never appeared.' in errors
+    assert len(_numbers(tmp_path / 'bag')) > 0
+
+
+def test_second_type_of_a_topic_is_left_out(start_ros2: Start, tmp_path: Path) -> None:
+    """When others start to publish another type on a topic, the recording says so and goes on."""
+    folder = tmp_path / 'bag'
+    process = start_ros2('bag', 'record', '--topics', '/mixed', '-o', str(folder))
+    _publish(start_ros2, 'text', 'reliable')
+    _wait_for_messages(folder / 'bag_0.mcap', 20)
+    start_ros2('topic', 'pub', '/mixed', 'std_msgs/msg/Int32', '{data: 1}', '-r', '50')
+    _expect_line(process, "Of topic '/mixed' only std_msgs/msg/String is recorded")
+    _wait_for_messages(folder / 'bag_0.mcap', 20, _size_of_messages(folder))
+    assert _stop(process)[0] == 0
+    assert set(texts(BagReader(str(folder)).messages(), '/mixed')) == {'text'}
+
+
 def test_times_are_those_of_arrival_and_of_sending(
     start_talker: Callable[[], None], start_ros2: Start, tmp_path: Path
 ) -> None:

@@ -85,7 +85,17 @@ class Recorder:
             self._topics[name] = self._create(name, types)
         topic = self._topics.get(name)
         if topic is not None and (publishers or self._include_unpublished):
-            self._note(topic.update(types[0], publishers))
+            self._warn_of_types(topic, types)
+            self._note(topic.update(publishers))
+
+    def _warn_of_types(self, topic: RecordedTopic, types: list[str]) -> None:
+        """Say that what others now publish with another type is left out."""
+        others = [each for each in types if each != topic.type_name]
+        if others:
+            self._node.get_logger().warning(
+                f"Of topic '{topic.name}' only {topic.type_name} is recorded: "
+                f'it now has {", ".join(others)} as well'
+            )
 
     def _note(self, topic: Topic) -> None:
         self._writer.set_topic(topic)
@@ -96,7 +106,9 @@ class Recorder:
         """Return the subscription, or say why this topic cannot be recorded."""
         logger = self._node.get_logger()
         if len(types) > 1:
-            logger.warning(f"Topic '{name}' is not recorded: it has types {', '.join(types)}")
+            logger.warning(
+                f"Topic '{name}' is not recorded: it has several types, {', '.join(types)}"
+            )
             return None
         try:
             message_type = get_message(types[0])
@@ -105,7 +117,10 @@ class Recorder:
             return None
         logger.info(f"Subscribed to topic '{name}'")
         return RecordedTopic(
-            self._node, name, message_type, self._receiver(name), self._overrides.get(name)
+            self._node,
+            (name, types[0], message_type),
+            self._receiver(name),
+            self._overrides.get(name),
         )
 
     def _receiver(self, name: str) -> Callable[[bytes, dict[str, int]], None]:

@@ -38,6 +38,11 @@ class BagReader:
         """Return how large the files are that exist."""
         return sum(os.path.getsize(path) for path in self._paths() if os.path.exists(path))
 
+    @property
+    def missing_paths(self) -> list[str]:
+        """Return the files that do not exist."""
+        return [path for path in self._paths() if not os.path.exists(path)]
+
     def check(self) -> None:
         """Raise BagError if the messages cannot be read from all files."""
         metadata = self.metadata
@@ -105,6 +110,6 @@ def _foreign_text(path: str, metadata: BagMetadata) -> str:
     )
     return (
         f"'{path}' is {what}, and only plain MCAP is read here. Convert it first: "
-        f'pip install rosbags; rosbags-convert --src {path} --dst {path.rstrip("/")}_mcap '
+        f'rosbags-convert --src {path} --dst {path.rstrip("/")}_mcap '
         '--dst-storage mcap'
     )

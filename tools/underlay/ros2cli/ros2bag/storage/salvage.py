@@ -29,6 +29,8 @@ class Salvage:
         """Start without having read anything."""
         self._path = path
         self._sum = 0
+        # A message between chunks is something else whose kind was damaged.
+        self._has_chunks = False
         self.compression = ''
         self.damaged_parts = 0
         self.is_sound = True
@@ -76,7 +78,7 @@ class Salvage:
         if not record.is_plausible or used != record.length:
             start = stream.tell() - record.size
             self.damaged_parts += self._go_on_behind(stream, start)
-        elif isinstance(value, Content):
+        elif isinstance(value, Content) and not (self._has_chunks and isinstance(value, Message)):
             yield value
 
     def _chunk(self, record: McapRecord, stream: BoundedFile) -> Iterator[Content]:
@@ -86,6 +88,7 @@ class Salvage:
         data = chunk and unpacked(chunk)
         if data is not None:
             self.compression = self.compression or chunk.compression
+            self._has_chunks = True
             yield from _contents_of(data)
             if used != record.length:
                 self._go_on_behind(stream, start + RECORD_HEADER.size + used)
