@@ -96,8 +96,11 @@ def test_record_all(
         assert texts(BagReader(str(folder)).messages([topic]), topic) == [text]
     with AnyReader([folder]) as reader:
         qos = {c.topic: c.ext.offered_qos_profiles[0] for c in reader.connections}
+        found = [(c.topic, bytes(raw), at) for c, at, raw in reader.messages()]
         first = next(raw for c, _, raw in reader.messages() if c.topic == '/ticks')
         assert reader.deserialize(first, 'std_msgs/msg/String').data.startswith(f'{numbers[0]} ')
+    ours = [(each.topic, each.data, each.log_ns) for each in BagReader(str(folder)).messages()]
+    assert sorted(found) == sorted(ours)
     assert qos['/description'].durability.name == 'TRANSIENT_LOCAL'
     assert qos['/sensor'].reliability.name == 'BEST_EFFORT'
 
@@ -127,6 +130,27 @@ def test_second_type_of_a_topic_is_left_out(start_ros2: Start, tmp_path: Path) -
     _wait_for_messages(folder / 'bag_0.mcap', 20, _size_of_messages(folder))
     assert _stop(process)[0] == 0
     assert set(texts(BagReader(str(folder)).messages(), '/mixed')) == {'text'}
+
+
+def test_type_that_is_not_installed_is_left_out(
+    start_talker: Callable[[], None],
+    start_ros2: Start,
+    tmp_path: Path,
+    ros_environment_variables: dict[str, str],
+) -> None:
+    """A topic whose package is missing is named, and the others are recorded."""
+    (tmp_path / 'shadow' / 'sensor_msgs').mkdir(parents=True)
+    (tmp_path / 'shadow' / 'sensor_msgs' / '__init__.py').touch()
+    path = f'{tmp_path}/shadow:{ros_environment_variables["PYTHONPATH"]}'
+    start_talker()
+    start_ros2('topic', 'pub', '/heat', 'sensor_msgs/msg/Temperature', '{}', '-r', '50')
+    folder = tmp_path / 'bag'
+    words = ['bag', 'record', '-a', '-o', str(folder)]
+    process = start_ros2(*words, extra={'PYTHONPATH': path})
+    _expect_line(process, "Topic '/heat' is not recorded: the package 'sensor_msgs'")
+    _wait_for_messages(folder / 'bag_0.mcap', 20)
+    assert _stop(process)[0] == 0
+    assert '/heat' not in [each.topic.name for each in BagReader(str(folder)).metadata.topics]
 
 
 def test_times_are_those_of_arrival_and_of_sending(
