@@ -2,6 +2,7 @@
 """Tests of `ros2 bag record` with real nodes."""
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 import os
 from pathlib import Path
 import signal
@@ -151,6 +152,31 @@ def test_type_that_is_not_installed_is_left_out(
     _wait_for_messages(folder / 'bag_0.mcap', 20)
     assert _stop(process)[0] == 0
     assert '/heat' not in [each.topic.name for each in BagReader(str(folder)).metadata.topics]
+
+
+def test_what_arrived_before_the_signal_is_recorded(
+    start_ros2: Start,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    ros_environment_variables: dict[str, str],
+) -> None:
+    """A burst that is followed by Ctrl-C at once is in the bag to the last message."""
+    from rclpy.duration import Duration
+    from std_msgs.msg import String
+
+    process = start_ros2('bag', 'record', '--topics', '/ticks', '-o', str(tmp_path / 'bag'))
+    with _node(ros_environment_variables, monkeypatch) as (node, _):
+        publisher = node.create_publisher(String, '/ticks', 1000)
+        _expect_line(process, "Subscribed to topic '/ticks'")
+        end = time.monotonic() + TIMEOUT_S
+        while not publisher.get_subscription_count():
+            assert time.monotonic() < end
+            time.sleep(0.01)
+        for number in range(300):
+            publisher.publish(String(data=str(number)))
+        assert publisher.wait_for_all_acked(Duration(seconds=TIMEOUT_S))
+        assert _stop(process)[0] == 0
+    assert _numbers(tmp_path / 'bag') == list(range(300))
 
 
 def test_times_are_those_of_arrival_and_of_sending(
@@ -307,23 +333,31 @@ def _size_of_messages(folder: Path) -> int:
 
 
 def _call_trigger(name: str, variables: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
-    import rclpy
     from rclpy.executors import SingleThreadedExecutor
     from std_srvs.srv import Trigger
 
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    context = rclpy.Context()
-    rclpy.init(context=context, domain_id=int(variables['ROS_DOMAIN_ID']))
-    node = rclpy.create_node('caller', context=context)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    try:
+    with _node(variables, monkeypatch) as (node, context):
+        executor = SingleThreadedExecutor(context=context)
+        executor.add_node(node)
         client = node.create_client(Trigger, name)
         assert client.wait_for_service(timeout_sec=TIMEOUT_S)
         future = client.call_async(Trigger.Request())
         executor.spin_until_future_complete(future, timeout_sec=TIMEOUT_S)
-        assert future.result().success
-    finally:
         executor.shutdown()
+        assert future.result().success
+
+
+@contextmanager
+def _node(variables: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[Any, Any]]:
+    """Run a node in the domain of the tests; yield it and its context."""
+    import rclpy
+
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=int(variables['ROS_DOMAIN_ID']))
+    node = rclpy.create_node('tester', context=context)
+    try:
+        yield node, context
+    finally:
         node.destroy_node()
         rclpy.shutdown(context=context)

@@ -46,6 +46,7 @@ class Recorder:
         self._latched: set[str] = set()
         self._publisher_counts: dict[str, int] = {}
         self._held: list[RecordedMessage] = []
+        self.received_count = 0
 
     @property
     def topic_count(self) -> int:
@@ -125,6 +126,7 @@ class Recorder:
 
     def _receiver(self, name: str) -> Callable[[bytes, dict[str, int]], None]:
         def receive(data: bytes, info: dict[str, int]) -> None:
+            self.received_count += 1
             log_ns = self._now_ns() if self._use_sim_time else info['received_timestamp']
             sequence = info['publication_sequence_number'] or 0
             message = RecordedMessage(name, data, log_ns, info['source_timestamp'], sequence)
