@@ -5,6 +5,7 @@ from collections.abc import Callable
 import contextlib
 from pathlib import Path
 import re
+import struct
 from subprocess import CompletedProcess
 import zlib
 
@@ -98,10 +99,10 @@ def test_damaged_chunk_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert saved == [str(number) for number in range(COUNT) if number not in range(20, 24)]
 
 
-@pytest.mark.parametrize('damage', ['flip', 'blot'])
+@pytest.mark.parametrize('size', [1, 20])
 @pytest.mark.parametrize('compression', ['none', 'zstd'])
 def test_damage_anywhere_costs_one_chunk_at_most(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, damage: str, compression: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, size: int, compression: str
 ) -> None:
     """Whatever byte is damaged, reading tells it or is right, and recover saves the rest."""
     path = _unfinished_bag(tmp_path / 'bag', monkeypatch, compression=compression)
@@ -111,9 +112,10 @@ def test_damage_anywhere_costs_one_chunk_at_most(
     (path.parent / 'metadata.yaml').unlink()
     wanted = [str(number) for number in range(COUNT)]
     for offset in range(3, len(content), 97):
-        wrong = bytes(each ^ 0x15 for each in content[offset : offset + 20])
-        wrong = wrong if damage == 'blot' else wrong[:1]
-        path.write_bytes(content[:offset] + wrong + content[offset + len(wrong) :])
+        damaged = bytearray(content)
+        for place in range(offset, min(offset + size, len(content))):
+            damaged[place] ^= 0x15
+        path.write_bytes(damaged)
         with contextlib.suppress(BagError):
             assert texts(BagReader(str(path)).messages(), '/ticks') == wanted
         (outcome,) = recover(str(path.parent))
@@ -154,7 +156,8 @@ def test_check_sum_of_the_data_is_right(tmp_path: Path) -> None:
     assert len(found) == 21
     content = (tmp_path / 'bag' / 'bag_0.mcap').read_bytes()
     end = content.rindex(b'\x0f\x04\x00\x00\x00\x00\x00\x00\x00')
-    assert int.from_bytes(content[end + 9 : end + 13], 'little') == zlib.crc32(content[:end])
+    (written,) = struct.unpack_from('<I', content, end + 9)
+    assert written == zlib.crc32(content[:end])
 
 
 def test_tail_of_zeros_ends_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
