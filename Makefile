@@ -46,10 +46,11 @@ fix: setup ## Format the code and mend what ruff can
 	@tools/in_environment --underlay ruff format .
 	@tools/in_environment --underlay ruff check --fix .
 
-bench: build ## Measure what the commands and launches cost
+bench: build ## Measure what commands, launches and bags cost
 	@$(RUN) python3 tools/benchmarks/command_times.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/launch.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/prefork_times.py $(ARGS)
+	@$(RUN) python3 tools/benchmarks/bag.py $(ARGS)
 
 docs: build ## Write docs/reference anew from the commands and launch files
 	@tools/in_environment python3 tools/reference/generate.py

@@ -73,12 +73,15 @@ def test_missing_bags_are_sentences(tmp_path: Path, ros2_here: Ros2) -> None:
     assert (result.returncode, result.stderr) == (1, expected)
 
 
-def test_missing_file_of_a_bag_is_named(tmp_path: Path) -> None:
+def test_missing_file_of_a_bag_is_named(tmp_path: Path, ros2_here: Ros2) -> None:
     """A recording of which a file was deleted is refused before anything is played."""
     write_bag(tmp_path / 'bag')
     (tmp_path / 'bag' / 'bag_0.mcap').unlink()
-    with pytest.raises(RuntimeError, match=r"the file '.*bag_0.mcap' of the recording is missing"):
+    text = f"the file '{tmp_path}/bag/bag_0.mcap' of the recording is missing"
+    with pytest.raises(RuntimeError, match=f'{text}. .* ros2 bag reindex {tmp_path}/bag'):
         BagReader(str(tmp_path / 'bag')).check()
+    result = ros2_here('bag', 'info', str(tmp_path / 'bag'))
+    assert (result.returncode, result.stderr) == (0, f'WARNING: {text}\n')
 
 
 def test_list_and_convert(ros2_here: Ros2) -> None:
@@ -99,6 +102,12 @@ def test_list_and_convert(ros2_here: Ros2) -> None:
         (['record', '-e', '('], 2, "'(' is no regular expression"),
         (['record', '-a', '-b', '-1'], 2, 'is not a whole number from zero on'),
         (['record', '-a', '--custom-data', 'x'], 2, "'x' is not of the form KEY=VALUE"),
+        (['record', '-a', '-o', ''], 1, 'The name of the output folder is empty'),
+        (['record', '--services', '/a'], 2, 'services and actions are not recorded'),
+        (['record', '-a', '--snapshot-mode'], 2, '--snapshot-mode is not possible here'),
+        (['play', 'x', '--publish-service-requests'], 2, 'services are not played'),
+        (['info', ''], 1, 'The path of the bag is empty: name its folder'),
+        (['info', '/etc/passwd'], 1, "'/etc/passwd' is not an MCAP file\n"),
         (['record', '-a', '-s', 'sqlite3'], 2, "invalid choice: 'sqlite3'"),
         (['record', '-a', '--qos-profile-overrides-path', '/nope'], 1, "'/nope' is no file with"),
         (['play'], 2, 'the following arguments are required: bag_path'),

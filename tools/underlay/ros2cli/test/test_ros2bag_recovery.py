@@ -2,17 +2,21 @@
 """Tests of what is saved of recordings that were not finished, or are damaged."""
 
 from collections.abc import Callable
+import contextlib
 from pathlib import Path
 import re
+import struct
 from subprocess import CompletedProcess
+import zlib
 
 from bag_samples import MS, start_bag, string, texts, topic, write_bag
+from mcap.reader import NonSeekingReader
 import pytest
 from ros2bag.storage import BagError
 from ros2bag.storage.bag_reader import BagReader
+from ros2bag.storage.damage import BrokenFile
 from ros2bag.storage.definitions import Definition
 from ros2bag.storage.mcap_file import McapFile
-from ros2bag.storage.mcap_summary import BrokenFile
 from ros2bag.storage.recovery import recover, write_metadata
 from ros2bag.storage.reserve import Reserve
 from rosbags.highlevel import AnyReader
@@ -20,16 +24,19 @@ from rosbags.highlevel import AnyReader
 Ros2 = Callable[..., CompletedProcess[str]]
 
 COUNT = 40
+CHUNK_COUNT = 4
 WHOLE_MESSAGE = re.compile(rb'\x00\x01\x00\x00[\x02\x03]\x00\x00\x00\d+\x00')
 
 
-def _unfinished_bag(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def _unfinished_bag(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, compression: str = 'none'
+) -> Path:
     """Leave a recording as its killed recorder does: a file without an end, and the reserve."""
     monkeypatch.setattr('ros2bag.storage.mcap_file.CHUNK_TIME_S', 0.0)
-    writer = start_bag(folder, topic('/ticks'))
+    writer = start_bag(folder, topic('/ticks'), compression=compression)
     for number in range(COUNT):
         writer.write(string('/ticks', str(number), number * MS))
-        if number % 4 == 3:
+        if number % CHUNK_COUNT == CHUNK_COUNT - 1:
             writer.flush_if_due()
     writer._file.close()
     monkeypatch.undo()
@@ -87,9 +94,70 @@ def test_damaged_chunk_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     content[content.index(b'\x03\x00\x00\x0021\x00') + 4] ^= 0xFF
     path.write_bytes(content)
     (outcome,) = recover(str(tmp_path / 'bag'))
-    assert (outcome.message_count, outcome.damaged_chunks) == (COUNT - 4, 1)
+    assert (outcome.message_count, outcome.damaged_parts) == (COUNT - 4, 1)
     saved = texts(BagReader(str(tmp_path / 'bag')).messages(), '/ticks')
     assert saved == [str(number) for number in range(COUNT) if number not in range(20, 24)]
+
+
+@pytest.mark.parametrize('size', [1, 20])
+@pytest.mark.parametrize('compression', ['none', 'zstd'])
+def test_damage_anywhere_costs_one_chunk_at_most(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, size: int, compression: str
+) -> None:
+    """Whatever byte is damaged, reading tells it or is right, and recover saves the rest."""
+    path = _unfinished_bag(tmp_path / 'bag', monkeypatch, compression=compression)
+    monkeypatch.setattr('ros2bag.storage.copying.CHUNK_BYTES', 150)
+    recover(str(path.parent))
+    content = path.read_bytes()
+    (path.parent / 'metadata.yaml').unlink()
+    wanted = [str(number) for number in range(COUNT)]
+    for offset in range(3, len(content), 97):
+        damaged = bytearray(content)
+        for place in range(offset, min(offset + size, len(content))):
+            damaged[place] ^= 0x15
+        path.write_bytes(damaged)
+        with contextlib.suppress(BagError):
+            assert texts(BagReader(str(path)).messages(), '/ticks') == wanted
+        (outcome,) = recover(str(path.parent))
+        saved = texts(BagReader(str(path.parent)).messages(), '/ticks')
+        assert len(saved) >= COUNT - CHUNK_COUNT, (offset, outcome)
+        assert saved == [text for text in wanted if text in saved]
+
+
+@pytest.mark.parametrize('size', [0, 5, 8, 20])
+def test_file_that_was_hardly_begun_does_not_stop_the_others(tmp_path: Path, size: int) -> None:
+    """A recorder that is killed while it starts a file leaves a few bytes: no messages."""
+    write_bag(tmp_path / 'bag', max_duration_ns=100 * MS)
+    (tmp_path / 'bag' / 'bag_0.mcap').rename(tmp_path / 'bag' / 'bag_2.mcap')
+    path = tmp_path / 'bag' / 'bag_3.mcap'
+    path.write_bytes((tmp_path / 'bag' / 'bag_1.mcap').read_bytes()[:size])
+    counts = [each.message_count for each in recover(str(tmp_path / 'bag'))]
+    assert counts == [11, 11, 0]
+    with AnyReader([tmp_path / 'bag']) as other:
+        assert other.message_count == 22
+
+
+def test_what_was_broken_is_never_overwritten(tmp_path: Path) -> None:
+    """When a file breaks again, what it was then is kept beside what it was before."""
+    write_bag(tmp_path / 'bag')
+    path = tmp_path / 'bag' / 'bag_0.mcap'
+    for _ in range(2):
+        path.write_bytes(path.read_bytes()[:-30])
+        recover(str(tmp_path / 'bag'))
+    names = {each.name for each in (tmp_path / 'bag').glob('*.broken*')}
+    assert names == {'bag_0.mcap.broken', 'bag_0.mcap.broken2'}
+
+
+def test_check_sum_of_the_data_is_right(tmp_path: Path) -> None:
+    """The reader of `mcap` that checks all sums finds none that is wrong."""
+    write_bag(tmp_path / 'bag')
+    with (tmp_path / 'bag' / 'bag_0.mcap').open('rb') as stream:
+        found = list(NonSeekingReader(stream, validate_crcs=True).iter_messages())
+    assert len(found) == 21
+    content = (tmp_path / 'bag' / 'bag_0.mcap').read_bytes()
+    end = content.rindex(b'\x0f\x04\x00\x00\x00\x00\x00\x00\x00')
+    (written,) = struct.unpack_from('<I', content, end + 9)
+    assert written == zlib.crc32(content[:end])
 
 
 def test_tail_of_zeros_ends_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

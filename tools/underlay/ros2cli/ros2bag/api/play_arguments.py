@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2bag.api.argument_types import not_negative
+from ros2bag.api.argument_types import count, not_negative, Refused
 from ros2bag.api.topic_filter import regular_expression, TopicFilter
 from ros2cli.argument_types import positive_number
 from ros2cli.names import absolute
@@ -21,6 +21,7 @@ __all__ = [
 ]
 
 CLOCK_HZ = 40.0
+SERVICES = 'services are not played, only topics'
 AS_FAST_AS_POSSIBLE = {
     'rate': float('inf'),
     'loop': False,
@@ -121,6 +122,15 @@ def add_play_arguments(parser: argparse.ArgumentParser) -> None:
         action='store_true',
         help='do not listen to SPACE (pause), RIGHT (next message), UP and DOWN (rate)',
     )
+    parser.add_argument(
+        '--read-ahead-queue-size',
+        type=count,
+        default=0,
+        metavar='N',
+        help='accepted for scripts: messages are read when they are needed',
+    )
+    for name in ('--services', '--exclude-services', '--publish-service-requests'):
+        parser.add_argument(name, action=Refused, reason=SERVICES)
     parser.set_defaults(num_messages=None)
 
 

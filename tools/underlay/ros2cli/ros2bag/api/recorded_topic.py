@@ -25,27 +25,25 @@ class RecordedTopic:
     def __init__(
         self,
         node: Any,
-        name: str,
-        message_type: Any,
+        what: tuple[str, str, Any],
         receive: Callable[[bytes, dict[str, int]], None],
         override: Any = None,
     ) -> None:
-        """Prepare the subscription; `update` makes it."""
+        """Prepare the subscription to a topic, its type by name and class; `update` makes it."""
         self._node = node
-        self._name = name
-        self._message_type = message_type
+        self.name, self.type_name, self._message_type = what
         self._receive = receive
         self._override = override
         self._profile: Any = None
         self._subscription: Any = None
 
-    def update(self, type_name: str, publishers: list[Any]) -> Topic:
+    def update(self, publishers: list[Any]) -> Topic:
         """Subscribe so that all publishers are heard, and describe the topic."""
         profile = self._override or matching_qos(publishers)[0]
         if self._subscription is None or self._is_weaker(profile):
             self._subscribe(profile)
         hashes = (str(info.topic_type_hash) for info in publishers)
-        return Topic(self._name, type_name, next(hashes, ''), offered_by(publishers))
+        return Topic(self.name, self.type_name, next(hashes, ''), offered_by(publishers))
 
     def _is_weaker(self, profile: Any) -> bool:
         """Tell if a publisher now offers less than what the subscription asks for."""
@@ -62,7 +60,7 @@ class RecordedTopic:
         self._profile = profile
         self._subscription = self._node.create_subscription(
             self._message_type,
-            self._name,
+            self.name,
             # rclpy looks at how many arguments a callback has.
             lambda data, info: self._receive(data, info),
             profile,

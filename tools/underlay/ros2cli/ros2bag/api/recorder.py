@@ -46,11 +46,17 @@ class Recorder:
         self._latched: set[str] = set()
         self._publisher_counts: dict[str, int] = {}
         self._held: list[RecordedMessage] = []
+        self.received_count = 0
 
     @property
     def topic_count(self) -> int:
         """Return how many topics are subscribed to."""
         return sum(topic is not None for topic in self._topics.values())
+
+    @property
+    def missing(self) -> list[str]:
+        """Return the topics that were asked for by name and have not appeared."""
+        return sorted(self._filter.topics.difference(self._topics))
 
     def discover(self) -> None:
         """Subscribe to topics that have appeared, and follow their publishers."""
@@ -81,7 +87,17 @@ class Recorder:
             self._topics[name] = self._create(name, types)
         topic = self._topics.get(name)
         if topic is not None and (publishers or self._include_unpublished):
-            self._note(topic.update(types[0], publishers))
+            self._warn_of_types(topic, types)
+            self._note(topic.update(publishers))
+
+    def _warn_of_types(self, topic: RecordedTopic, types: list[str]) -> None:
+        """Say that what others now publish with another type is left out."""
+        others = [each for each in types if each != topic.type_name]
+        if others:
+            self._node.get_logger().warning(
+                f"Of topic '{topic.name}' only {topic.type_name} is recorded: "
+                f'it now has {", ".join(others)} as well'
+            )
 
     def _note(self, topic: Topic) -> None:
         self._writer.set_topic(topic)
@@ -92,7 +108,9 @@ class Recorder:
         """Return the subscription, or say why this topic cannot be recorded."""
         logger = self._node.get_logger()
         if len(types) > 1:
-            logger.warning(f"Topic '{name}' is not recorded: it has types {', '.join(types)}")
+            logger.warning(
+                f"Topic '{name}' is not recorded: it has several types, {', '.join(types)}"
+            )
             return None
         try:
             message_type = get_message(types[0])
@@ -101,11 +119,15 @@ class Recorder:
             return None
         logger.info(f"Subscribed to topic '{name}'")
         return RecordedTopic(
-            self._node, name, message_type, self._receiver(name), self._overrides.get(name)
+            self._node,
+            (name, types[0], message_type),
+            self._receiver(name),
+            self._overrides.get(name),
         )
 
     def _receiver(self, name: str) -> Callable[[bytes, dict[str, int]], None]:
         def receive(data: bytes, info: dict[str, int]) -> None:
+            self.received_count += 1
             log_ns = self._now_ns() if self._use_sim_time else info['received_timestamp']
             sequence = info['publication_sequence_number'] or 0
             message = RecordedMessage(name, data, log_ns, info['source_timestamp'], sequence)

@@ -21,15 +21,22 @@ from ros2bag.storage.bag_writer import BagWriter, DEFAULT_DISTRO, WriterOptions
 from ros2bag.storage.definitions import Definition, definition_of
 from ros2cli.node.direct import DirectNode
 from ros2cli.patience import Patience
+from ros2cli.suggest import did_you_mean
 
 __all__ = ['record']
 
 PERIOD_S = 0.02
+DRAIN_S = 0.1
 NS_PER_S = 1_000_000_000
 
 
 def record(args: argparse.Namespace) -> None:
-    """Record until a signal comes; RuntimeError says why nothing, or no more, can be recorded."""
+    """
+    Record until a signal comes, which is how a recording that is complete ends.
+
+    RuntimeError says why nothing, or no more, can be recorded. A signal that comes before there
+    is a recording is raised, as in other commands.
+    """
     topic_filter = filter_of(args)
     overrides = read_overrides(args.qos_profile_overrides_path)
     stop = StopSignals()
@@ -37,9 +44,8 @@ def record(args: argparse.Namespace) -> None:
         if args.quiet:
             node.get_logger().set_level(LoggingSeverity.WARN)
         _wait_for_clock(node, args.use_sim_time, stop)
-        if not stop:
-            _record(node, topic_filter, overrides, args, stop)
-    stop.raise_if_any()
+        stop.raise_if_any()
+        _record(node, topic_filter, overrides, args, stop)
 
 
 def _record(
@@ -68,6 +74,8 @@ def _record(
     finally:
         writer.close()
     node.get_logger().info(f"Recorded {writer.message_count} messages to '{folder}'.")
+    if recorder.missing:
+        node.get_logger().warning(f'Not recorded: {", ".join(recorder.missing)} never appeared.')
 
 
 def find_definition(type_name: str) -> Definition:
@@ -105,7 +113,7 @@ def _run(
     logger.info(
         'Paused: SPACE or the service ~/resume starts.' if args.start_paused else 'Recording...'
     )
-    patience = Patience('a topic that is to be recorded')
+    patience = Patience('a topic that is to be recorded', lambda: _missing_text(node, recorder))
     # Without discovery there is one look, when the graph is known.
     period_s = float('inf') if args.no_discovery else args.polling_interval / 1e3
     node.watch.settled()
@@ -121,5 +129,22 @@ def _run(
                 switch.toggle()
             if not switch.is_paused:
                 recorder.release_held()
-            if not recorder.topic_count:
+            if recorder.missing or not recorder.topic_count:
                 patience.check()
+    _drain(node, recorder)
+
+
+def _drain(node: Any, recorder: Recorder) -> None:
+    """Take what had arrived before the signal."""
+    end = time.monotonic() + DRAIN_S
+    before = -1
+    while recorder.received_count > before and time.monotonic() < end:
+        before = recorder.received_count
+        node.spin_once(PERIOD_S)
+
+
+def _missing_text(node: Any, recorder: Recorder) -> str:
+    """Return which topics that were named are not there yet, and what may be meant."""
+    known = [name for name, _ in node.get_topic_names_and_types()]
+    missing = (f'{name}. {did_you_mean(name, known)}'.rstrip() for name in recorder.missing)
+    return ' '.join(f'Not there yet: {text}' for text in missing)

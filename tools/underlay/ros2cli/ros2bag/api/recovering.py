@@ -6,7 +6,7 @@ from __future__ import annotations
 import sys
 import time
 
-from ros2bag.storage.recovery import BROKEN_SUFFIX, recover, RecoveredFile
+from ros2bag.storage.recovery import recover, RecoveredFile
 
 __all__ = ['recover_and_report']
 
@@ -25,10 +25,13 @@ def recover_and_report(folder: str) -> None:
 def _outcome_text(outcome: RecoveredFile) -> str:
     if not outcome.was_broken:
         return f'{outcome.path}: whole, {outcome.message_count} messages'
-    damage = f', {outcome.damaged_chunks} damaged parts left out' if outcome.damaged_chunks else ''
+    if outcome.damaged_parts:
+        damage, advice = f', {outcome.damaged_parts} damaged parts left out', ''
+    else:
+        damage, advice = '', ', which can be deleted'
     return (
         f'{outcome.path}: recovered {outcome.message_count} messages{damage}; what it was is '
-        f'in {outcome.path}{BROKEN_SUFFIX}, which can be deleted'
+        f'in {outcome.kept_path}{advice}'
     )
 
 

@@ -19,11 +19,13 @@ class BagReader:
 
     def __init__(self, path: str) -> None:
         """Read the metadata; BagError says why that is not possible."""
+        if not path:
+            raise BagError('The path of the bag is empty: name its folder')
         self.path = path
         if os.path.isdir(path):
             self._folder = path
             self.metadata = _read_metadata(path)
-        elif os.path.isfile(path):
+        elif os.path.exists(path):
             from ros2bag.storage.mcap_summary import describe_file
 
             self._folder = os.path.dirname(path)
@@ -35,6 +37,11 @@ class BagReader:
     def size_bytes(self) -> int:
         """Return how large the files are that exist."""
         return sum(os.path.getsize(path) for path in self._paths() if os.path.exists(path))
+
+    @property
+    def missing_paths(self) -> list[str]:
+        """Return the files that do not exist."""
+        return [path for path in self._paths() if not os.path.exists(path)]
 
     def check(self) -> None:
         """Raise BagError if the messages cannot be read from all files."""
@@ -51,10 +58,11 @@ class BagReader:
     ) -> Iterator[RecordedMessage]:
         """Yield the messages of these topics, or of all, from a time on."""
         from mcap.reader import SeekingReader
+        from ros2bag.storage.damage import BoundedFile, damage_told
 
         for path in self._paths():
-            with open(path, 'rb') as stream:
-                reader = SeekingReader(stream)
+            with damage_told(path), BoundedFile(path) as stream:
+                reader = SeekingReader(stream, validate_crcs=True)
                 for _, channel, message in reader.iter_messages(topics, starting_at=start_ns):
                     yield RecordedMessage(
                         channel.topic,
@@ -102,6 +110,6 @@ def _foreign_text(path: str, metadata: BagMetadata) -> str:
     )
     return (
         f"'{path}' is {what}, and only plain MCAP is read here. Convert it first: "
-        f'pip install rosbags; rosbags-convert --src {path} --dst {path.rstrip("/")}_mcap '
+        f'rosbags-convert --src {path} --dst {path.rstrip("/")}_mcap '
         '--dst-storage mcap'
     )

@@ -62,6 +62,7 @@ class McapFile:
             cast(Any, self._stream),
             chunk_size=sys.maxsize,
             compression=COMPRESSIONS[compression],
+            enable_data_crcs=True,
         )
         self._writer.start(profile='ros2', library='ros2bag')
         self._is_finished = False
@@ -152,6 +153,8 @@ class McapFile:
         return BagMetadata((FileInformation(self._name, span),), topics, self._ros_distro)
 
     def _write_end(self) -> None:
+        # The check sum of the data is to have the last chunk as well.
+        self._writer.flush()
         self._writer.add_metadata(
             'rosbag2', {'serialized_metadata': metadata_to_text(self.metadata())}
         )

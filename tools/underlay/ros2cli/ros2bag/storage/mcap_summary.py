@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 import os
-from typing import IO
+import struct
+import zlib
 
-from mcap.exceptions import McapError
 from mcap.reader import SeekingReader
 from mcap.records import Channel, Statistics
 from mcap.summary import Summary
+from ros2bag.storage.damage import BoundedFile, damage_told
 from ros2bag.storage.errors import BagError
 from ros2bag.storage.metadata import (
     BagMetadata,
@@ -21,31 +23,35 @@ from ros2bag.storage.metadata import (
 from ros2bag.storage.metadata_yaml import metadata_from_text
 from ros2bag.storage.offered_qos import qos_from_text
 
-__all__ = ['BrokenFile', 'describe_file']
+__all__ = ['describe_file', 'topic_of']
 
-# What the reader of the library raises for files that are cut off or overwritten.
-BROKEN = (McapError, EOFError, OSError, ValueError, KeyError, StopIteration, RuntimeError)
-
-
-class BrokenFile(BagError):
-    """A file has no index at its end, because its recorder was killed or it is damaged."""
+FOOTER = struct.Struct('<BQQQI')
+MAGIC_BYTES = 8
+CRC_BYTES = 4
 
 
 def describe_file(path: str) -> BagMetadata:
     """Return the metadata of a recording that consists of this file; BrokenFile if it is cut."""
-    try:
-        with open(path, 'rb') as stream:
-            return _describe(SeekingReader(stream), stream, os.path.basename(path))
-    except FileNotFoundError as error:
-        raise BagError(f"the file '{path}' of the recording is missing") from error
-    except BROKEN as error:
-        raise BrokenFile(
-            f"'{path}' was not finished, or is damaged ({type(error).__name__}). "
-            f'What it has can be saved: ros2 bag recover {os.path.dirname(path) or path}'
-        ) from error
+    with damage_told(path), BoundedFile(path) as stream:
+        reader = SeekingReader(stream)
+        _check_sum(stream)
+        return _describe(reader, os.path.basename(path))
 
 
-def _describe(reader: SeekingReader, stream: IO[bytes], name: str) -> BagMetadata:
+def _check_sum(stream: BoundedFile) -> None:
+    """Raise ValueError if the index is not what was written; zero is no check sum."""
+    stream.seek(-FOOTER.size - MAGIC_BYTES, os.SEEK_END)
+    footer = stream.read(FOOTER.size)
+    _, _, start, _, expected = FOOTER.unpack(footer)
+    if not start or not expected:
+        return
+    stream.seek(start)
+    length = stream.size - MAGIC_BYTES - CRC_BYTES - start
+    if zlib.crc32(stream.read(length)) != expected:
+        raise ValueError('the index is damaged')
+
+
+def _describe(reader: SeekingReader, name: str) -> BagMetadata:
     summary = reader.get_summary()
     if summary is None or summary.statistics is None:
         raise EOFError
@@ -84,8 +90,8 @@ def topic_of(channel: Channel, type_name: str) -> Topic:
 
 def _distro(reader: SeekingReader) -> str:
     for record in reader.iter_metadata():
-        if record.name == 'rosbag2' and 'serialized_metadata' in record.metadata:
-            return metadata_from_text(
-                record.metadata['serialized_metadata'], 'the file'
-            ).ros_distro
+        with suppress(BagError):
+            if record.name == 'rosbag2':
+                text = record.metadata.get('serialized_metadata', '')
+                return metadata_from_text(text, 'the file').ros_distro
     return ''

@@ -5,26 +5,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 import glob
+from itertools import chain, count
 import os
 import re
 from typing import NamedTuple
 
-from mcap.records import Channel, Message, Schema
-from ros2bag.storage.definitions import Definition
+from ros2bag.storage.copying import copy_messages
 from ros2bag.storage.errors import BagError
-from ros2bag.storage.mcap_file import McapFile
-from ros2bag.storage.mcap_summary import BrokenFile, describe_file, topic_of
+from ros2bag.storage.mcap_summary import describe_file
 from ros2bag.storage.metadata_yaml import FILE_NAME, metadata_to_text
 from ros2bag.storage.patient_file import is_being_written
 from ros2bag.storage.reserve import FILE_NAME as RESERVE_NAME
-from ros2bag.storage.salvage import Salvage
 from ros2bag.storage.summary import merged
+from ros2bag.storage.survey import Survey
 
 __all__ = ['RecoveredFile', 'recover', 'write_metadata']
 
 BROKEN_SUFFIX = '.broken'
 NEW_SUFFIX = '.recovered'
-CHUNK_BYTES = 1024 * 1024
 NUMBER = re.compile(r'(\d+)')
 
 
@@ -33,8 +31,13 @@ class RecoveredFile(NamedTuple):
 
     path: str
     message_count: int
-    was_broken: bool
-    damaged_chunks: int = 0
+    kept_path: str = ''
+    damaged_parts: int = 0
+
+    @property
+    def was_broken(self) -> bool:
+        """Tell if the file was written anew; what it was is at `kept_path`."""
+        return bool(self.kept_path)
 
 
 def recover(
@@ -43,9 +46,7 @@ def recover(
     """Save what broken files have, and write `metadata.yaml`; the broken files are kept."""
     outcomes = [_recover_file(path, progress) for path in _paths(folder)]
     write_metadata(folder)
-    reserve = os.path.join(folder, RESERVE_NAME)
-    if os.path.exists(reserve):
-        os.unlink(reserve)
+    _remove(os.path.join(folder, RESERVE_NAME))
     return outcomes
 
 
@@ -80,67 +81,33 @@ def _numbers_in(path: str) -> list[tuple[int, str]]:
 
 
 def _recover_file(path: str, progress: Callable[[str, float], None]) -> RecoveredFile:
-    try:
-        return RecoveredFile(path, describe_file(path).span.message_count, was_broken=False)
-    except BrokenFile:
-        return _rewrite(path, progress)
+    def tell(share: float) -> None:
+        progress(path, share)
 
-
-def _rewrite(path: str, progress: Callable[[str, float], None]) -> RecoveredFile:
+    survey = Survey(path, tell)
+    if survey.is_whole:
+        return RecoveredFile(path, survey.message_count)
     new_path = f'{path}{NEW_SUFFIX}'
-    if os.path.exists(new_path):
-        os.unlink(new_path)
-    salvage = Salvage(path)
+    _remove(new_path)
     try:
-        count = _copy(salvage, new_path, os.path.basename(path), lambda s: progress(path, s))
+        count = copy_messages(path, survey, new_path, tell)
     except OSError as error:
-        if os.path.exists(new_path):
-            os.unlink(new_path)
+        _remove(new_path)
         raise BagError(
             f"'{new_path}' cannot be written: {error.strerror}. The recording is as it was"
         ) from error
-    os.replace(path, f'{path}{BROKEN_SUFFIX}')
+    kept_path = _free_path(f'{path}{BROKEN_SUFFIX}')
+    os.replace(path, kept_path)
     os.replace(new_path, path)
-    return RecoveredFile(path, count, was_broken=True, damaged_chunks=salvage.damaged_chunks)
+    return RecoveredFile(path, count, kept_path, survey.damaged_parts)
 
 
-def _copy(salvage: Salvage, path: str, name: str, progress: Callable[[float], None]) -> int:
-    """Write what a file has to a new one, and return the number of messages."""
-    copier: _Copier | None = None
-    for record in salvage.records(progress):
-        copier = copier or _Copier(path, name, salvage.compression or 'none')
-        copier.add(record)
-    copier = copier or _Copier(path, name, 'none')
-    try:
-        copier.file.finish()
-    finally:
-        copier.file.close()
-    return copier.file.message_count
+def _remove(path: str) -> None:
+    if os.path.exists(path):
+        os.unlink(path)
 
 
-class _Copier:
-    """Writes records of one file to another."""
-
-    def __init__(self, path: str, name: str, compression: str) -> None:
-        self.file = McapFile(path, name=name, compression=compression, chunk_bytes=CHUNK_BYTES)
-        self._schemas: dict[int, Schema] = {}
-        self._names: dict[int, str] = {}
-
-    def add(self, record: Schema | Channel | Message) -> None:
-        """Write a record; what belongs to a lost schema or channel is lost too."""
-        if isinstance(record, Schema):
-            self._schemas[record.id] = record
-        elif isinstance(record, Channel):
-            self._add_channel(record)
-        elif record.channel_id in self._names:
-            name = self._names[record.channel_id]
-            self.file.write(
-                name, record.data, record.log_time, record.publish_time, record.sequence
-            )
-
-    def _add_channel(self, channel: Channel) -> None:
-        schema = self._schemas.get(channel.schema_id)
-        if schema is not None and channel.id not in self._names:
-            self._names[channel.id] = channel.topic
-            definition = Definition(schema.encoding, schema.data.decode(errors='replace'))
-            self.file.add_topic(topic_of(channel, schema.name), definition)
+def _free_path(path: str) -> str:
+    """Return a path that does not exist yet."""
+    numbered = (f'{path}{number}' for number in count(2))
+    return next(each for each in chain([path], numbered) if not os.path.exists(each))

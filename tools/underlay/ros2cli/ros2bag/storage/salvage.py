@@ -5,25 +5,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from io import BytesIO
-import os
 import struct
-from typing import IO
+import zlib
 
-from mcap.data_stream import ReadDataStream
-from mcap.exceptions import McapError
 from mcap.opcode import Opcode
-from mcap.records import Channel, Chunk, Message, Schema
-from mcap.stream_reader import get_chunk_data_stream
+from mcap.records import Channel, Message, Schema
+from ros2bag.storage.chunk_search import next_chunk, unpacked
+from ros2bag.storage.damage import BoundedFile
 from ros2bag.storage.errors import BagError
-from zstandard import ZstdError
+from ros2bag.storage.mcap_record import McapRecord, read_record, RECORD_HEADER
 
-__all__ = ['Salvage']
+__all__ = ['Content', 'Salvage']
 
 MAGIC = b'\x89MCAP0\r\n'
-RECORD_HEADER = struct.Struct('<BQ')
-# A disk that lost its power may have a tail of zeros.
-ENDS = (0, Opcode.DATA_END, Opcode.FOOTER)
-DAMAGED = (McapError, RuntimeError, ValueError, struct.error, ZstdError)
+CRC = struct.Struct('<I')
+Content = Schema | Channel | Message
 
 
 class Salvage:
@@ -32,65 +28,92 @@ class Salvage:
     def __init__(self, path: str) -> None:
         """Start without having read anything."""
         self._path = path
-        self.damaged_chunks = 0
+        self._sum = 0
+        # A message between chunks is something else whose kind was damaged.
+        self._has_chunks = False
         self.compression = ''
+        self.damaged_parts = 0
+        self.is_sound = True
 
-    def records(
-        self, progress: Callable[[float], None] = lambda share: None
-    ) -> Iterator[Schema | Channel | Message]:
-        """Yield the records; `progress` is told which share of the file has been read."""
-        size = os.path.getsize(self._path)
-        with open(self._path, 'rb') as stream:
-            if stream.read(len(MAGIC)) != MAGIC:
-                raise BagError(f"'{self._path}' is not an MCAP file: there is nothing to save")
-            for opcode, content, is_whole in _records(stream, size):
-                if opcode == Opcode.CHUNK:
-                    yield from self._in_chunk(content, is_whole)
-                elif is_whole:
-                    yield from _parsed(opcode, content)
-                progress(stream.tell() / size)
+    def records(self, progress: Callable[[float], None] = lambda share: None) -> Iterator[Content]:
+        """
+        Yield the records; `progress` is told which share of the file has been read.
 
-    def _in_chunk(self, content: bytes, is_whole: bool) -> Iterator[Schema | Channel | Message]:
-        """Yield what a chunk has; of one that is cut off, if it is not compressed, the start."""
-        try:
-            chunk = Chunk.read(ReadDataStream(BytesIO(content)))
-            data = chunk.data if not is_whole and not chunk.compression else _unpacked(chunk)
-        except DAMAGED:
-            self.damaged_chunks += is_whole
+        Afterwards `damaged_parts` tells how many parts were left out, and `is_sound` if the data
+        are those that were written, as far as there are check sums.
+        """
+        self.damaged_parts, self.is_sound = 0, True
+        with BoundedFile(self._path) as stream:
+            if not self._is_begun(stream):
+                return
+            while (record := read_record(stream)) is not None:
+                yield from self._contents(record, stream)
+                progress(stream.tell() / stream.size)
+
+    def _is_begun(self, stream: BoundedFile) -> bool:
+        """Tell if there is something; BagError if it is something else than a recording."""
+        start = stream.read(len(MAGIC))
+        self._sum = zlib.crc32(start)
+        self.is_sound = start == MAGIC
+        if MAGIC.startswith(start):
+            return self.is_sound
+        if next_chunk(stream, 0) is None:
+            raise BagError(
+                f"'{self._path}' is not an MCAP file: there is nothing to save. If the recording "
+                'has other files, move this one out of the folder and try again'
+            )
+        stream.seek(len(MAGIC))
+        return True
+
+    def _contents(self, record: McapRecord, stream: BoundedFile) -> Iterator[Content]:
+        """Yield what a record is or has, and go on behind damage at the next whole chunk."""
+        if record.opcode == Opcode.DATA_END:
+            self._compare_sums(record.content)
+        self._sum = zlib.crc32(RECORD_HEADER.pack(*record[:2]), self._sum)
+        self._sum = zlib.crc32(record.content, self._sum)
+        if record.opcode == Opcode.CHUNK:
+            yield from self._chunk(record, stream)
             return
-        self.compression = chunk.compression
-        for opcode, inner, inner_is_whole in _records(BytesIO(data), len(data)):
-            if inner_is_whole:
-                yield from _parsed(opcode, inner)
+        value, used = record.parsed()
+        if not record.is_plausible or used != record.length:
+            start = stream.tell() - record.size
+            self.damaged_parts += self._go_on_behind(stream, start)
+        elif isinstance(value, Content) and not (self._has_chunks and isinstance(value, Message)):
+            yield value
+
+    def _chunk(self, record: McapRecord, stream: BoundedFile) -> Iterator[Content]:
+        """Yield what a chunk has; of one at the end that is cut off, the start."""
+        start = stream.tell() - record.size
+        chunk, used = record.parsed()
+        data = chunk and unpacked(chunk)
+        if data is not None:
+            self.compression = self.compression or chunk.compression
+            self._has_chunks = True
+            yield from _contents_of(data)
+            if used != record.length:
+                self._go_on_behind(stream, start + RECORD_HEADER.size + used)
+        elif self._go_on_behind(stream, start) or record.is_whole:
+            self.damaged_parts += 1
+        elif used == len(record.content) and chunk and not chunk.compression:
+            yield from _contents_of(chunk.data)
+
+    def _go_on_behind(self, stream: BoundedFile, position: int) -> bool:
+        """Move on to the next chunk that is whole, or to the end; tell if there is one."""
+        self.is_sound = False
+        following = next_chunk(stream, position)
+        stream.seek(stream.size if following is None else following)
+        return following is not None
+
+    def _compare_sums(self, content: bytes) -> None:
+        """Compare the data with their check sum; zero is none."""
+        expected = CRC.unpack(content)[0] if len(content) == CRC.size else 0
+        self.is_sound = self.is_sound and expected in (0, self._sum)
 
 
-def _records(stream: IO[bytes], size: int) -> Iterator[tuple[int, bytes, bool]]:
-    """Yield kind and content of the records, up to the end of the data; the last may be cut."""
-    while True:
-        header = stream.read(RECORD_HEADER.size)
-        if len(header) < RECORD_HEADER.size:
-            return
-        opcode, length = RECORD_HEADER.unpack(header)
-        if opcode in ENDS:
-            return
-        content = stream.read(min(length, size))
-        yield opcode, content, len(content) == length
-
-
-def _unpacked(chunk: Chunk) -> bytes:
-    stream, size = get_chunk_data_stream(chunk, validate_crc=True)
-    return stream.read(size)
-
-
-def _parsed(opcode: int, content: bytes) -> Iterator[Schema | Channel | Message]:
-    """Yield the record, unless it is damaged or of a kind that is made anew anyway."""
-    stream = ReadDataStream(BytesIO(content))
-    try:
-        if opcode == Opcode.SCHEMA:
-            yield Schema.read(stream)
-        elif opcode == Opcode.CHANNEL:
-            yield Channel.read(stream)
-        elif opcode == Opcode.MESSAGE:
-            yield Message.read(stream, len(content))
-    except DAMAGED:
-        return
+def _contents_of(data: bytes) -> Iterator[Content]:
+    """Yield the records of a chunk, up to one that is cut off."""
+    stream = BytesIO(data)
+    while (record := read_record(stream)) is not None and record.is_whole:
+        value = record.parsed()[0]
+        if isinstance(value, Content):
+            yield value

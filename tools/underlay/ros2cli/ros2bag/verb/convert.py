@@ -9,7 +9,8 @@ from ros2bag.verb import VerbExtension
 
 ADVICE = (
     'Bags are not converted here. The program rosbags-convert does it, between ROS 1, sqlite3 '
-    'and MCAP:\n  pip install rosbags\n  rosbags-convert --src OLD --dst NEW --dst-storage mcap'
+    'and MCAP, and is installed with this:\n  '
+    'rosbags-convert --src OLD --dst NEW --dst-storage mcap'
 )
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 
 from ros2bag.api.play_arguments import add_bag_argument
 from ros2bag.verb import VerbExtension
@@ -31,6 +32,8 @@ class InfoVerb(VerbExtension):
         from ros2bag.storage.bag_reader import BagReader
 
         reader = BagReader(args.bag_path)
+        for path in reader.missing_paths:
+            print(f"WARNING: the file '{path}' of the recording is missing", file=sys.stderr)
         print(
             topic_names_text(reader)
             if args.topic_name

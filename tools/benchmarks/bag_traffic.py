@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is recorded and played by the benchmark of bags: a robot's joint states, numbered."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+import subprocess
+import time
+from typing import Any
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import QoSProfile
+from rclpy.serialization import serialize_message
+from sensor_msgs.msg import JointState
+
+TYPE = 'sensor_msgs/msg/JointState'
+JOINTS = 26
+DEPTH = 1000
+TIMEOUT_S = 60.0
+SILENCE_S = 1.0
+
+
+class Traffic:
+    """A node that sends serialized messages on some topics, or notes when it receives them."""
+
+    def __init__(self, node: Any, topics: list[str]) -> None:
+        """Make neither publishers nor subscriptions."""
+        self._node = node
+        self._topics = topics
+        self._executor = SingleThreadedExecutor()
+        self._executor.add_node(node)
+        self._publishers: dict[str, Any] = {}
+        self.sent: list[tuple[str, bytes, int]] = []
+        self.received: list[tuple[str, bytes, int]] = []
+
+    def connect(self) -> None:
+        """Make the publishers, and wait until somebody listens to each."""
+        self._publishers = {
+            topic: self._node.create_publisher(JointState, topic, QoSProfile(depth=DEPTH))
+            for topic in self._topics
+        }
+        self.sent = []
+        end = time.monotonic() + TIMEOUT_S
+        while not all(each.get_subscription_count() for each in self._publishers.values()):
+            if time.monotonic() > end:
+                raise TimeoutError('nobody subscribed')
+            time.sleep(0.01)
+
+    def send(self, rate_hz: float, seconds: float) -> None:
+        """Send so many messages a second, the topics in turn."""
+        begin_s = time.monotonic()
+        for number in range(int(rate_hz * seconds)):
+            topic, data = self._topics[number % len(self._topics)], joint_states(number)
+            time.sleep(max(0.0, begin_s + number / rate_hz - time.monotonic()))
+            self.sent.append((topic, data, time.time_ns()))
+            self._publishers[topic].publish(data)
+
+    def disconnect(self) -> None:
+        """Destroy the publishers."""
+        for publisher in self._publishers.values():
+            self._node.destroy_publisher(publisher)
+
+    def listen(self) -> None:
+        """Subscribe to the topics."""
+        for topic in self._topics:
+            self._node.create_subscription(
+                JointState, topic, self._receiver(topic), QoSProfile(depth=DEPTH), raw=True
+            )
+
+    def hear(self, process: subprocess.Popen[bytes]) -> None:
+        """Note what comes until a process has ended and it is silent."""
+        self.received = []
+        last_s = time.monotonic()
+        while process.poll() is None or time.monotonic() < last_s + SILENCE_S:
+            if process.poll() is None:
+                last_s = time.monotonic()
+            self._executor.spin_once(timeout_sec=0.1)
+
+    def _receiver(self, topic: str) -> Any:
+        def receive(data: bytes, info: dict[str, int]) -> None:
+            self.received.append((topic, data, info['received_timestamp']))
+
+        return receive
+
+
+@contextmanager
+def traffic(topics: list[str]) -> Iterator[Traffic]:
+    """Run a node for the time of a `with`."""
+    rclpy.init()
+    node = rclpy.create_node('bag_traffic')
+    try:
+        yield Traffic(node, topics)
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()
+
+
+def joint_states(number: int) -> bytes:
+    """Return a message of about a kilobyte, different for each number."""
+    message = JointState(name=[f'joint_number_{index}' for index in range(JOINTS)])
+    message.position = message.velocity = [number / (index + 1) for index in range(JOINTS)]
+    message.header.stamp.sec = number
+    return serialize_message(message)

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find the chunks of an MCAP file of which the records before are damaged."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import re
+
+from mcap.records import Chunk
+from mcap.stream_reader import get_chunk_data_stream
+from ros2bag.storage.damage import BoundedFile, DAMAGE
+from ros2bag.storage.mcap_record import read_record
+
+__all__ = ['next_chunk', 'unpacked']
+
+# Kind; length below 2**40; first and last time, size, check sum; name of the compression.
+CHUNK_START = re.compile(
+    rb'\x06(?=.{5}\x00{3}.{28}(?:\x00{4}|\x03\x00{3}lz4|\x04\x00{3}zstd))', re.DOTALL
+)
+START_BYTES = 45
+BLOCK_BYTES = 1024 * 1024
+
+
+def next_chunk(stream: BoundedFile, position: int) -> int | None:
+    """Return where the next whole chunk with a right check sum begins, or None."""
+    return next((at for at in _candidates(stream, position) if _is_chunk(stream, at)), None)
+
+
+def unpacked(chunk: Chunk) -> bytes | None:
+    """Return the records of a chunk, or None if they are not those that were written."""
+    try:
+        stream, size = get_chunk_data_stream(chunk, validate_crc=True)
+        return stream.read(size)
+    except DAMAGE:
+        return None
+
+
+def _candidates(stream: BoundedFile, position: int) -> Iterator[int]:
+    """Yield where something begins that looks like a chunk."""
+    while position < stream.size:
+        stream.seek(position)
+        block = stream.read(BLOCK_BYTES + START_BYTES)
+        for match in CHUNK_START.finditer(block):
+            if match.start() < BLOCK_BYTES:
+                yield position + match.start()
+        position += BLOCK_BYTES
+
+
+def _is_chunk(stream: BoundedFile, position: int) -> bool:
+    stream.seek(position)
+    record = read_record(stream)
+    if record is None or not record.is_whole:
+        return False
+    chunk = record.parsed()[0]
+    return chunk is not None and chunk.uncompressed_crc != 0 and unpacked(chunk) is not None

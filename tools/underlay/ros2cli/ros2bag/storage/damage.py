@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Files that are cut off or damaged: what the libraries raise for them, as a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+import errno
+import io
+import os
+import struct
+
+from mcap.exceptions import InvalidMagic, McapError
+from ros2bag.storage.errors import BagError
+import yaml
+from zstandard import ZstdError
+
+__all__ = ['DAMAGE', 'BoundedFile', 'BrokenFile', 'damage_told']
+
+# A flipped byte may become a length, a number of a channel, a text or a compression.
+DAMAGE = (
+    ArithmeticError,
+    AttributeError,
+    EOFError,
+    LookupError,
+    McapError,
+    MemoryError,
+    RuntimeError,
+    StopIteration,
+    TypeError,
+    ValueError,
+    ZstdError,
+    struct.error,
+    yaml.YAMLError,
+)
+LARGE_BYTES = 1024 * 1024
+
+
+class BrokenFile(BagError):
+    """A file has no index at its end, because its recorder was killed, or it is damaged."""
+
+
+class BoundedFile(io.BufferedReader):
+    """A file of which no more is read than there is, whatever a damaged length says."""
+
+    def __init__(self, path: str) -> None:
+        """Open the file."""
+        super().__init__(io.FileIO(path))
+        self.size = os.path.getsize(path)
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        """Return as many bytes, or what is left."""
+        if size is not None and size > LARGE_BYTES:
+            size = min(size, max(0, self.size - self.tell()))
+        return super().read(size)
+
+
+@contextmanager
+def damage_told(path: str) -> Iterator[None]:
+    """Turn the errors of reading a file into a BagError, those of damage into a BrokenFile."""
+    try:
+        yield
+    except BagError:
+        raise
+    except FileNotFoundError as error:
+        raise BagError(
+            f"the file '{path}' of the recording is missing. To go on without it: "
+            f'ros2 bag reindex {os.path.dirname(path)}'
+        ) from error
+    except OSError as error:
+        if error.errno != errno.EINVAL:
+            raise BagError(f"'{path}' cannot be read: {error.strerror}") from error
+        raise _broken(path, error) from error
+    except DAMAGE as error:
+        if isinstance(error, InvalidMagic) and not path.endswith('.mcap'):
+            raise BagError(f"'{path}' is not an MCAP file") from error
+        raise _broken(path, error) from error
+
+
+def _broken(path: str, error: BaseException) -> BrokenFile:
+    return BrokenFile(
+        f"'{path}' was not finished, or is damaged ({type(error).__name__}). "
+        f'What it has can be saved: ros2 bag recover {os.path.dirname(path) or path}'
+    )
