@@ -25,7 +25,7 @@ START_UP_HOOK = (
     "sys.orig_argv[1:2] and sys.orig_argv[1].endswith('/_local_setup_util_sh.py') or "
     "__import__('ros_wheels_bootstrapper')\n"
 )
-GENERATOR_IMPORT = re.compile(r'try:\n    from \.generate_py_impl import generate_py\n.*', re.DOTALL)
+GENERATOR_IMPORT = re.compile(r'try:\n    from \.generate_py_impl import .*', re.DOTALL)
 GENERATOR_WHEN_NEEDED = """\
 def __getattr__(name):
     if name != 'generate_py':

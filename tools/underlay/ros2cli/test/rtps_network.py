@@ -164,8 +164,8 @@ class Participant:
         offset = HEADER_BYTES
         while offset < len(datagram):
             kind, _, size = struct.unpack_from('<BBH', datagram, offset)
-            body = datagram[offset + 4 : offset + 4 + size]
-            offset += 4 + size
+            start, offset = offset + 4, offset + 4 + size
+            body = datagram[start:offset]
             if kind == DATA and body[8:12] == PARTICIPANTS_WRITER:
                 if PID_STATUS_INFO.to_bytes(2, 'little') + b'\x04\x00\0\0\0\3' in body:
                     self._network.farewells.append(self.port)

@@ -38,7 +38,7 @@ def parser() -> Parser:
         (['--range', '1', '2', 'T'], ['--range', '1', '2', '--', 'T']),
         (['--names', 'a', 'b', '-s', 'T'], ['--names', 'a', 'b', '-s', '--', 'T']),
         (['--names', 'a', '--', '-s'], ['--names', 'a', '--', '-s']),
-        (['--nope', 'T'], ['--nope', '--', 'T']),
+        (['--xyz', 'T'], ['--xyz', '--', 'T']),
         (['- a', 'T'], ['--', '- a', 'T']),
         (['-', '', 'T'], ['--', '-', '', 'T']),
         (['-s'], ['-s']),
@@ -71,7 +71,7 @@ def test_order_does_not_matter(parser: Parser, words: list[str]) -> None:
         ([], 'the following arguments are required: topic'),
         (['T', '--rate'], 'argument -r/--rate: expected one argument'),
         (['T', '--rate', 'x'], "argument -r/--rate: invalid float value: 'x'"),
-        (['T', '--nope', 'X', 'V', 'W'], 'unrecognized arguments: --nope W'),
+        (['T', '--xyz', 'X', 'V', 'W'], 'unrecognized arguments: --xyz W'),
     ],
 )
 def test_errors_are_those_of_argparse(

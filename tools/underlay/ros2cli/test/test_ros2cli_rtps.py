@@ -2,6 +2,7 @@
 """Tests of reading the graph from participants, in a network of our own."""
 
 import random
+import struct
 
 import pytest
 from ros2cli.rtps.entities import decode_entities
@@ -209,7 +210,7 @@ def test_destinations_and_byte_orders() -> None:
 def test_request_names_what_is_missing() -> None:
     """The bits of a request are counted from its base, the most significant one first."""
     request = acknack(b'rrrr', b'wwww', 3, [3, 4, 36], 9)
-    size, *words = (int.from_bytes(request[i : i + 4], 'little') for i in (20, 24, 28))
+    size, *words = struct.unpack_from('<III', request, 20)
     assert request[12:20] == b'\0\0\0\0\3\0\0\0'
     assert size == 34
     assert words == [0b11 << 30, 0b01 << 30]

@@ -82,7 +82,7 @@ def test_pub_of_other_type_is_explained(ros2_here: Ros2) -> None:
     result = ros2_here(*words)
     assert result.returncode == 1
     assert result.stderr.splitlines()[0] == (
-        "Still waiting for subscriptions of '/orders' (Ctrl-C to stop) '/orders' has the type "
+        "Still waiting for subscriptions of '/orders' (Ctrl-C to stop). '/orders' has the type "
         'std_msgs/msg/String, so that no std_msgs/msg/Int8 passes.'
     )
 

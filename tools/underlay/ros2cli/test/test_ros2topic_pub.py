@@ -126,11 +126,11 @@ FIELD = 'Failed to populate field: '
         ),
         (
             ['std_msgs/msg/Int8', '{data: 300}'],
-            f'{FIELD}300 is no int8, a whole number from -128 to 127\n',
+            f"{FIELD}'data' needs a whole number from -128 to 127 (int8), but got 300\n",
         ),
         (
             ['std_msgs/msg/Float64', '{data: abc}'],
-            f"{FIELD}could not convert string to float: 'abc'\n",
+            f"{FIELD}'data' needs a number, but got 'abc'\n",
         ),
         (
             ['geometry_msgs/msg/Twist', '{linear: 1}'],

@@ -75,23 +75,21 @@ def _play_all(
     start_ns = reader.metadata.span.start_ns + int(args.start_offset * NS_PER_S)
     limited = args.playback_duration >= 0
     end_ns = start_ns + int(args.playback_duration * NS_PER_S) if limited else FOR_EVER_NS
-    _rest(player, start_ns, args.delay)
+    pacing = Pacing(start_ns - int(args.delay * NS_PER_S), 1.0)
+    player.rest_until(start_ns, pacing)
+    pacing.set_rate(args.rate)
     while True:
         messages = _messages(reader, outlets.topics, start_ns, end_ns)
-        count = player.play(islice(messages, args.num_messages), Pacing(start_ns, args.rate))
+        count = player.play(islice(messages, args.num_messages), pacing)
         if not count:
             raise BagError(f"'{args.bag_path}' has no messages in what was chosen")
         if not args.loop:
             node.get_logger().info(f'Played {count} messages.')
             return
+        pacing.jump_to(start_ns)
 
 
 def _messages(
     reader: BagReader, topics: list[str], start_ns: int, end_ns: int
 ) -> Iterator[RecordedMessage]:
     return takewhile(lambda message: message.log_ns <= end_ns, reader.messages(topics, start_ns))
-
-
-def _rest(player: Player, start_ns: int, delay_s: float) -> None:
-    """Let the time before the first message pass."""
-    player.rest_until(start_ns, Pacing(start_ns - int(delay_s * NS_PER_S), 1.0))

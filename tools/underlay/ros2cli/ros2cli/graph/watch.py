@@ -32,12 +32,9 @@ class GraphWatch:
         """Choose how long to wait for those who cannot be counted: nodes on other machines."""
         self._reach = read_reach()
         self._spin_time_s = spin_time_s
+        self._link: Link | None = None
+        self._start_s = self._latest_s = 0.0
         self._has_told = False
-        self._open()
-
-    def _open(self) -> None:
-        self._link = Link(self._reach)
-        self._start_s = self._latest_s = time.monotonic()
 
     def __enter__(self) -> GraphWatch:
         """Nobody is asked yet."""
@@ -54,12 +51,14 @@ class GraphWatch:
 
     def close(self) -> None:
         """Take leave of those who were asked."""
-        self._link.close()
+        if self._link:
+            self._link.close()
+        self._link = None
 
     @property
     def graph(self) -> Graph:
         """Return what is known now, complete or not."""
-        neighbours = self._link.observer.neighbours
+        neighbours = self._link.observer.neighbours if self._link else []
         return Graph(
             (node for each in neighbours for node in each.nodes),
             (end for each in neighbours for end in each.endpoints.values()),
@@ -112,15 +111,17 @@ class GraphWatch:
     def _exchange(self, *, waits: bool) -> None:
         """Hear what is new; after a pause, in which others have given us up, ask all anew."""
         now_s = time.monotonic()
-        if now_s - self._latest_s > LEASE_S / 2:
+        if self._link and now_s - self._latest_s > LEASE_S / 2:
             self.close()
-            self._open()
+        if self._link is None:
+            self._link = Link(self._reach)
+            self._start_s = now_s
         self._latest_s = now_s
         self._link.exchange(waits=waits)
 
     def _is_settled(self) -> bool:
         """Tell if all is known of those who can be counted, and others have had their time."""
-        is_over = time.monotonic() >= self._start_s + self._spin_time_s
-        return self._link.observer.is_complete and (
-            is_over or (self._reach.is_local and self._link.can_count)
-        )
+        if self._link is None or not self._link.observer.is_complete:
+            return False
+        is_over = self._latest_s >= self._start_s + self._spin_time_s
+        return is_over or (self._reach.is_local and self._link.can_count)

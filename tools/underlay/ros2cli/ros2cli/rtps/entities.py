@@ -54,9 +54,9 @@ class _Cursor:
         return frozenset(self._take(GID_BYTES) for _ in range(self.length()))
 
     def _take(self, size: int) -> bytes:
-        end = self._offset + size
+        start, end = self._offset, self._offset + size
         if end > len(self._data):
             raise ValueError(f'{end - len(self._data)} bytes are missing')
-        taken = self._data[self._offset : end]
+        taken = self._data[start:end]
         self._offset = end
         return taken

@@ -40,7 +40,7 @@ class Parameters(NamedTuple):
         if not raw:
             return b''
         (size,) = struct.unpack_from(f'{self.order}I', raw)
-        return raw[4 : 4 + int(size)]
+        return raw[4:][: int(size)]
 
     def number(self, identifier: int, default: int) -> int:
         """Return an enumerator."""
@@ -82,11 +82,11 @@ def read_parameters(data: bytes, offset: int, order: str) -> tuple[Parameters, i
     values: dict[int, list[bytes]] = {}
     while True:
         kind, length = struct.unpack_from(f'{order}HH', data, offset)
-        offset += 4
+        start = offset + 4
+        offset = start + length
         if kind == PID_SENTINEL:
-            return Parameters(values, order), offset
-        values.setdefault(kind, []).append(data[offset : offset + length])
-        offset += length
+            return Parameters(values, order), start
+        values.setdefault(kind, []).append(data[start:offset])
 
 
 def encode_parameters(parameters: Iterable[tuple[int, bytes]]) -> bytes:

@@ -61,7 +61,7 @@ def sender(datagram: bytes) -> bytes | None:
     """Return the GUID prefix of who sent a datagram; None if it is not one of RTPS."""
     if len(datagram) < HEADER_BYTES or not datagram.startswith(MAGIC):
         return None
-    return datagram[HEADER_BYTES - PREFIX_BYTES : HEADER_BYTES]
+    return datagram[:HEADER_BYTES][-PREFIX_BYTES:]
 
 
 def submessages(datagram: bytes, own_prefix: bytes) -> Iterator[Submessage]:

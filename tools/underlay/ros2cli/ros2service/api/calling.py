@@ -11,7 +11,7 @@ from ros2cli.messages.outgoing import OutgoingMessage
 from ros2cli.node.calls import wait_for_response
 from ros2cli.node.waiting import spin_until, wait_until
 from ros2cli.patience import Patience
-from ros2service.api import service_hint
+from ros2service.api import get_service_types, service_hint
 
 
 class Caller:
@@ -26,7 +26,7 @@ class Caller:
 
     def wait_for_service(self) -> None:
         """Wait as long as it takes, and say so if the service is not there at once."""
-        if not self._node.graph.count_services(self._name):
+        if not self._is_offered():
             print('waiting for service to become available...')
         patience = Patience(f"the service '{self._name}'", self._hint)
         wait_until(self._node, self._client.service_is_ready, patience)
@@ -47,5 +47,11 @@ class Caller:
         response = wait_for_response(self._node, self._client, future)
         print(f'response:\n{response!r}\n')
 
+    def _is_offered(self) -> bool:
+        """Tell if somebody offers the service with this type; then it connects in a moment."""
+        graph = self._node.graph
+        types = get_service_types(graph, self._name)
+        return bool(graph.count_services(self._name)) and self._type_name in types
+
     def _hint(self) -> str:
-        return service_hint(self._node.watch.updated(), self._name, self._type_name)
+        return service_hint(self._node.graph, self._name, self._type_name)

@@ -30,7 +30,7 @@ def echo(node: Any, service: str, args: argparse.Namespace) -> None:
     topic = f'{service}{EVENT_SUFFIX}'
 
     def hint() -> str:
-        if node.watch.updated().count_publishers(topic):
+        if node.graph.count_publishers(topic):
             return ''
         return (
             'No node publishes them: the server or a client must turn its introspection on, '

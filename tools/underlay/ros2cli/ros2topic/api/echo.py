@@ -27,7 +27,7 @@ def echo(node: Any, topic: str, message_type: Any, args: argparse.Namespace) -> 
     listener = Listener(node, topic, message_type, args)
 
     def hint() -> str:
-        graph = node.watch.updated()
+        graph = node.graph
         if graph.count_publishers(topic):
             return ''
         return f'Nobody publishes it. {closest_topic(graph, topic)}'

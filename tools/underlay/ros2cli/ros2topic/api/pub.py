@@ -91,8 +91,9 @@ class Publication:
             spin_until(self._node, time.monotonic() + SETTLE_S)
 
     def _hint(self) -> str:
-        mismatch = type_mismatch(self._node, self._topic, type(self._message.message))
-        return mismatch or closest_topic(self._node, self._topic)
+        graph = self._node.graph
+        mismatch = type_mismatch(graph, self._topic, type(self._message.message))
+        return mismatch or closest_topic(graph, self._topic)
 
     def _check_limit(self, waited_s: float, wanted: int) -> None:
         limit_s = self._args.max_wait_time_secs

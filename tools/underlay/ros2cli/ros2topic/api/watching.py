@@ -48,5 +48,9 @@ def _wait_until_published(node: Any, topic: str) -> None:
     if get_topic_types(node.graph, topic):
         return
     print(f'WARNING: topic [{topic}] does not appear to be published yet')
-    patience = Patience(f"a publisher of '{topic}'", lambda: closest_topic(node.graph, topic))
+
+    def hint() -> str:
+        return closest_topic(node.watch.graph, topic)
+
+    patience = Patience(f"a publisher of '{topic}'", hint)
     node.watch.wait_for(lambda graph: get_topic_types(graph, topic), patience)
