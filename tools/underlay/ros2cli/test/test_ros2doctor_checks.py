@@ -6,8 +6,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 import errno
+import fcntl
 from pathlib import Path
 import shlex
+import subprocess
 from typing import Any
 
 import pytest
@@ -23,6 +25,7 @@ from ros2doctor.check.network import network_findings
 from ros2doctor.check.nodes import name_findings
 from ros2doctor.check.qos import pair_findings
 from ros2doctor.check.scripts import mending_command, script_findings
+from ros2doctor.check.shared_memory import CLEAN_UP
 from ros2doctor.check.wheels import wheel_findings
 from ros2doctor.check.workspace import workspace_findings
 from ros2doctor.facts.environment import Environment
@@ -31,6 +34,7 @@ from ros2doctor.facts.graphics import Graphics
 from ros2doctor.facts.libraries import Libraries, LibraryFolder
 from ros2doctor.facts.network import Network
 from ros2doctor.facts.scripts import Script
+from ros2doctor.facts.shared_memory import read_shared_memory, SharedMemory
 from ros2doctor.facts.transforms import Transform
 from ros2doctor.facts.wheels import install_command, Wheels
 from ros2doctor.facts.workspace import PackageState, Workspace
@@ -224,7 +228,7 @@ def network() -> Network:
         multicast={'lo': None, 'eth0': None},
         has_multicast_route=True,
         ephemeral_ports=(32768, 60999),
-        shared_memory_bytes=10**9,
+        shared_memory=SharedMemory(free=10**9),
     )
 
 
@@ -299,14 +303,37 @@ def test_multicast_that_works_nowhere(network: Network) -> None:
     assert finding.mend.startswith('sudo sysctl net.ipv4.igmp_max_memberships=20, or ')
 
 
-def test_shared_memory(network: Network) -> None:
-    """Too little room, or none at all, is a warning."""
-    full = replace(network, shared_memory_bytes=5 * 10**6)
-    assert sentences(network_findings(full)) == ['WARNING: /dev/shm has 5 MB left']
-    missing = replace(network, shared_memory_bytes=None)
-    assert sentences(network_findings(missing)) == [
-        'WARNING: /dev/shm is missing or cannot be written'
-    ]
+@pytest.mark.parametrize(
+    ('memory', 'sentence'),
+    [
+        (SharedMemory(free=10**9, orphans=3, orphan_bytes=10**7), ''),
+        (SharedMemory(free=5 * 10**6), 'WARNING: /dev/shm has 5 MB left'),
+        (None, 'WARNING: /dev/shm is missing or cannot be written'),
+        (
+            SharedMemory(free=10**9, orphans=100, orphan_bytes=4 * 10**8),
+            'WARNING: /dev/shm holds 400 MB of 100 processes that were killed',
+        ),
+    ],
+)
+def test_shared_memory(network: Network, memory: SharedMemory | None, sentence: str) -> None:
+    """Too little room, none at all, or much that killed processes have left, is a warning."""
+    found = sentences(network_findings(replace(network, shared_memory=memory)))
+    assert found == ([sentence] if sentence else [])
+
+
+def test_clean_up_keeps_what_is_used(tmp_path: Path) -> None:
+    """The command that is named deletes the segments of killed processes, and only these."""
+    for name in ('fastrtps_a1', 'fastrtps_b2', 'fastrtps_port7411'):
+        (tmp_path / name).write_bytes(bytes(8192))
+        (tmp_path / f'{name}_el').touch()
+    with (tmp_path / 'fastrtps_a1_el').open() as used:
+        fcntl.flock(used, fcntl.LOCK_EX)
+        memory = read_shared_memory(tmp_path)
+        assert memory is not None
+        assert (memory.orphans, memory.orphan_bytes) == (1, 8192)
+        subprocess.run(CLEAN_UP.replace('/dev/shm', str(tmp_path)), shell=True, check=False)
+    left = sorted(path.name for path in tmp_path.iterdir() if not path.name.endswith('_el'))
+    assert left == ['fastrtps_a1', 'fastrtps_port7411']
 
 
 @pytest.mark.parametrize(

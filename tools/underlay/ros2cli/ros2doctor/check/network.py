@@ -9,6 +9,7 @@ import os
 from ros2doctor.api.extension import DoctorCheck
 from ros2doctor.api.finding import Finding, Result, Severity
 from ros2doctor.check.multicast import multicast_findings
+from ros2doctor.check.shared_memory import shared_memory_findings
 from ros2doctor.facts.network import Network, read_network
 
 RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')
@@ -17,7 +18,6 @@ LAST_DOMAIN = 232
 PORT_BASE = 7400
 PORTS_PER_DOMAIN = 250
 PROFILES_VARIABLE = 'FASTRTPS_DEFAULT_PROFILES_FILE'
-ENOUGH_SHARED_MEMORY = 64 * 1000 * 1000
 
 
 class NetworkCheck(DoctorCheck):
@@ -38,7 +38,7 @@ def network_findings(facts: Network) -> Iterator[Finding]:
     yield from _domain(facts)
     yield from _interfaces(facts)
     yield from _profiles(facts)
-    yield from _shared_memory(facts)
+    yield from shared_memory_findings(facts.shared_memory)
 
 
 def discovery_range(facts: Network) -> str:
@@ -117,22 +117,4 @@ def _profiles(facts: Network) -> Iterator[Finding]:
             f"{PROFILES_VARIABLE} names '{path}', which does not exist",
             'nodes run with the defaults of DDS, with which camera images get lost',
             f'unset {PROFILES_VARIABLE}, then source the environment again',
-        )
-
-
-def _shared_memory(facts: Network) -> Iterator[Finding]:
-    free = facts.shared_memory_bytes
-    if free is None or free < ENOUGH_SHARED_MEMORY:
-        state, mend = 'is missing or cannot be written', 'sudo mount -t tmpfs tmpfs /dev/shm'
-        if free is not None:
-            state = f'has {free // 10**6} MB left'
-            mend = (
-                'end old nodes and delete what they left (rm /dev/shm/*fastrtps_* while none runs)'
-            )
-        yield Finding(
-            Severity.WARNING,
-            f'/dev/shm {state}',
-            'messages between processes of this machine go through it, several MB a node: nodes '
-            'fail to start, or large messages get lost',
-            f'{mend}; in a container: docker run --shm-size=1g',
         )

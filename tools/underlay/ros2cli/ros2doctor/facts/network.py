@@ -7,12 +7,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 import os
 from pathlib import Path
-import shutil
 
 from ros2cli.graph.interfaces import Interface, read_interfaces
 from ros2doctor.facts.multicast import has_multicast_route, multicast_error
+from ros2doctor.facts.shared_memory import read_shared_memory, SharedMemory
 
-SHARED_MEMORY = '/dev/shm'
 PORT_RANGE = Path('/proc/sys/net/ipv4/ip_local_port_range')
 USUAL_PORT_RANGE = (32768, 60999)
 
@@ -25,7 +24,7 @@ class Network:
     :param multicast: why multicast is not delivered, if it is not, by name of interface
     :param has_multicast_route: whether it has a way where no interface is named, as in Fast DDS
     :param ephemeral_ports: the ports that the kernel gives to whoever asks for any
-    :param shared_memory_bytes: the room left for messages on this machine; None without any
+    :param shared_memory: the room for messages on this machine; None without any
     """
 
     variables: Mapping[str, str]
@@ -33,7 +32,7 @@ class Network:
     multicast: Mapping[str, OSError | None]
     has_multicast_route: bool
     ephemeral_ports: tuple[int, int]
-    shared_memory_bytes: int | None
+    shared_memory: SharedMemory | None
 
 
 def read_network() -> Network:
@@ -49,7 +48,7 @@ def read_network() -> Network:
         },
         has_multicast_route=has_multicast_route(),
         ephemeral_ports=_ephemeral_ports(),
-        shared_memory_bytes=_shared_memory_bytes(),
+        shared_memory=read_shared_memory(),
     )
 
 
@@ -59,9 +58,3 @@ def _ephemeral_ports() -> tuple[int, int]:
     except (OSError, ValueError):
         return USUAL_PORT_RANGE
     return int(first), int(last)
-
-
-def _shared_memory_bytes() -> int | None:
-    if not os.access(SHARED_MEMORY, os.W_OK):
-        return None
-    return shutil.disk_usage(SHARED_MEMORY).free

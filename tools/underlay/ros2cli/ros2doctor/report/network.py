@@ -27,7 +27,9 @@ class NetworkReport(DoctorReport):
         report.add_to_report('domain', variables.get('ROS_DOMAIN_ID') or '0')
         report.add_to_report('static peers', variables.get('ROS_STATIC_PEERS', ''))
         report.add_to_report('middleware', variables.get('RMW_IMPLEMENTATION', ''))
-        report.add_to_report('bytes free in /dev/shm', facts.shared_memory_bytes)
+        memory = facts.shared_memory
+        report.add_to_report('bytes free in /dev/shm', memory and memory.free)
+        report.add_to_report('bytes of killed processes', memory and memory.orphan_bytes)
         report.add_to_report('multicast', 'routed' if facts.has_multicast_route else 'no route')
         for interface in facts.interfaces:
             report.add_to_report(interface.name, _state(facts, interface))

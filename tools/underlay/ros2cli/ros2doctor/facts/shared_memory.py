@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The shared memory through which messages between processes of this machine go."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import fcntl
+import os
+from pathlib import Path
+import shutil
+
+FOLDER = Path('/dev/shm')
+LOCKS = 'fastrtps_[0-9a-f]*_el'  # of segments; ports have other locks
+LOCK_SUFFIX = '_el'
+BLOCK_BYTES = 512
+
+
+@dataclass(frozen=True)
+class SharedMemory:
+    """
+    What there is, in bytes.
+
+    :param free: the room left
+    :param orphans: how many segments belong to processes that were killed
+    :param orphan_bytes: the memory that these still take
+    """
+
+    free: int
+    orphans: int = 0
+    orphan_bytes: int = 0
+
+
+def read_shared_memory(folder: Path = FOLDER) -> SharedMemory | None:
+    """Return what there is; None if there is none, or none that may be written."""
+    if not os.access(folder, os.W_OK):
+        return None
+    orphans = [lock for lock in sorted(folder.glob(LOCKS)) if _is_orphan(lock)]
+    segments = [lock.with_name(lock.name.removesuffix(LOCK_SUFFIX)) for lock in orphans]
+    return SharedMemory(
+        shutil.disk_usage(folder).free, len(orphans), sum(_bytes(each) for each in segments)
+    )
+
+
+def _is_orphan(lock: Path) -> bool:
+    """Tell if nobody holds a lock; Fast DDS holds one on each segment as long as it is used."""
+    try:
+        with lock.open('rb') as stream:
+            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True
+
+
+def _bytes(segment: Path) -> int:
+    try:
+        return segment.stat().st_blocks * BLOCK_BYTES
+    except OSError:
+        return 0
