@@ -2,14 +2,13 @@
 """A container of components that loads only names."""
 
 import os
-import signal
 import sys
 
 from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
 import rclpy
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
+from spinning import run_until_signal
 
 
 class Container(Node):
@@ -61,9 +60,4 @@ def main() -> None:
 
 
 if __name__ == '__main__':
-    try:
-        main()
-    except (KeyboardInterrupt, ExternalShutdownException):
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        rclpy.try_shutdown()
-        sys.exit(0)
+    run_until_signal(main)

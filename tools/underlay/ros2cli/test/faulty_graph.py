@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A process with nodes that do not understand each other."""
 
-import signal
-import sys
-
 from geometry_msgs.msg import TransformStamped
 import rclpy
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from spinning import run_until_signal
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
@@ -41,9 +39,4 @@ def main() -> None:
 
 
 if __name__ == '__main__':
-    try:
-        main()
-    except (KeyboardInterrupt, ExternalShutdownException):
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        rclpy.try_shutdown()
-        sys.exit(0)
+    run_until_signal(main)

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A process with nodes that have services, parameters, an action and a life cycle."""
 
-import signal
-import sys
 import time
 
 from rcl_interfaces.msg import (
@@ -14,12 +12,13 @@ from rcl_interfaces.msg import (
 import rclpy
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.executors import MultiThreadedExecutor
 from rclpy.lifecycle import Node as LifecycleNode
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 from rclpy.service_introspection import ServiceIntrospectionState
+from spinning import run_until_signal
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.action import LookupTransform
 
@@ -118,9 +117,4 @@ def main() -> None:
 
 
 if __name__ == '__main__':
-    try:
-        main()
-    except (KeyboardInterrupt, ExternalShutdownException):
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        rclpy.try_shutdown()
-        sys.exit(0)
+    run_until_signal(main)

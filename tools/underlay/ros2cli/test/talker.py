@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A process with two nodes that publish what the tests look at."""
 
-import signal
-import sys
-
 import rclpy
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState, Temperature
+from spinning import run_until_signal
 from std_msgs.msg import String
 
 
@@ -38,9 +36,4 @@ def main() -> None:
 
 
 if __name__ == '__main__':
-    try:
-        main()
-    except (KeyboardInterrupt, ExternalShutdownException):
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        rclpy.try_shutdown()
-        sys.exit(0)
+    run_until_signal(main)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 
 from ros2action.verb import VerbExtension
+from ros2cli.listing import add_count_argument, add_types_argument, print_names, with_types
 from ros2cli.node.arguments import add_strategy_arguments
 
 
@@ -15,15 +16,8 @@ class ListVerb(VerbExtension):
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """Add what to show of each action."""
         add_strategy_arguments(parser)
-        parser.add_argument(
-            '-t', '--show-types', action='store_true', help='Additionally show the action type'
-        )
-        parser.add_argument(
-            '-c',
-            '--count-actions',
-            action='store_true',
-            help='Only display the number of actions discovered',
-        )
+        add_types_argument(parser, 'action')
+        add_count_argument(parser, 'actions')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the actions, or their count."""
@@ -32,9 +26,6 @@ class ListVerb(VerbExtension):
 
         with NodeStrategy(args) as node:
             actions = get_action_names_and_types(node=node)
-        if args.count_actions:
-            print(len(actions))
-            return None
-        for name, types in actions:
-            print(f'{name} [{", ".join(types)}]' if args.show_types else name)
+        lines = with_types(actions, show_types=args.show_types)
+        print_names(lines, only_count=args.count_actions)
         return None

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli.listing import add_all_nodes_argument, add_count_argument, print_names
 from ros2cli.node.arguments import add_strategy_arguments
 from ros2lifecycle.verb import VerbExtension
 
@@ -15,15 +16,8 @@ class NodesVerb(VerbExtension):
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """Add the choice of nodes and of a mere count."""
         add_strategy_arguments(parser)
-        parser.add_argument(
-            '-a', '--all', action='store_true', help='Display all nodes even hidden ones'
-        )
-        parser.add_argument(
-            '-c',
-            '--count-nodes',
-            action='store_true',
-            help='Only display the number of nodes discovered',
-        )
+        add_all_nodes_argument(parser)
+        add_count_argument(parser, 'nodes')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print one full name a line, or the count."""
@@ -32,6 +26,5 @@ class NodesVerb(VerbExtension):
 
         with NodeStrategy(args) as node:
             names = get_lifecycle_nodes(node, include_hidden_nodes=args.all)
-        for line in [str(len(names))] if args.count_nodes else names:
-            print(line)
+        print_names(names, only_count=args.count_nodes)
         return None

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import sys
 
+from ros2cli.listing import add_all_nodes_argument, add_count_argument, print_names
 from ros2cli.node.arguments import add_strategy_arguments
 from ros2node.verb import VerbExtension
 
@@ -16,15 +17,8 @@ class ListVerb(VerbExtension):
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """Add the choice of nodes and of a mere count."""
         add_strategy_arguments(parser)
-        parser.add_argument(
-            '-a', '--all', action='store_true', help='Display all nodes even hidden ones'
-        )
-        parser.add_argument(
-            '-c',
-            '--count-nodes',
-            action='store_true',
-            help='Only display the number of nodes discovered',
-        )
+        add_all_nodes_argument(parser)
+        add_count_argument(parser, 'nodes')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print one full name a line, or the count."""
@@ -33,12 +27,9 @@ class ListVerb(VerbExtension):
 
         with NodeStrategy(args) as node:
             names = get_node_names(node=node, include_hidden_nodes=args.all)
-        if args.count_nodes:
-            print(len(names))
-            return None
-        _warn_about(shared_names(names))
-        for name in names:
-            print(name.full_name)
+        if not args.count_nodes:
+            _warn_about(shared_names(names))
+        print_names([name.full_name for name in names], only_count=args.count_nodes)
         return None
 
 

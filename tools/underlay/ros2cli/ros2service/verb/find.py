@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli.listing import add_count_argument, add_hidden_argument, print_names
 from ros2cli.node.arguments import add_strategy_arguments
 from ros2service.verb import VerbExtension
 
@@ -19,18 +20,8 @@ class FindVerb(VerbExtension):
             'service_type',
             help="Name of the ROS service type to filter for (e.g. 'std_srvs/srv/Empty')",
         )
-        parser.add_argument(
-            '-c',
-            '--count-services',
-            action='store_true',
-            help='Only display the number of services discovered',
-        )
-        parser.add_argument(
-            '--include-hidden-services',
-            action='store_true',
-            default=argparse.SUPPRESS,
-            help='Consider hidden services as well',
-        )
+        add_count_argument(parser, 'services')
+        add_hidden_argument(parser, 'services')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the services of the type, or their number."""
@@ -42,6 +33,5 @@ class FindVerb(VerbExtension):
                 node=node, include_hidden_services=args.include_hidden_services
             )
         names = [name for name, types in services if args.service_type in types]
-        for line in [str(len(names))] if args.count_services else names:
-            print(line)
+        print_names(names, only_count=args.count_services)
         return None

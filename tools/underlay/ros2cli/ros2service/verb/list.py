@@ -5,6 +5,13 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli.listing import (
+    add_count_argument,
+    add_hidden_argument,
+    add_types_argument,
+    print_names,
+    with_types,
+)
 from ros2cli.node.arguments import add_strategy_arguments
 from ros2service.verb import VerbExtension
 
@@ -15,21 +22,9 @@ class ListVerb(VerbExtension):
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """Add what to show of each service."""
         add_strategy_arguments(parser)
-        parser.add_argument(
-            '-t', '--show-types', action='store_true', help='Additionally show the service type'
-        )
-        parser.add_argument(
-            '-c',
-            '--count-services',
-            action='store_true',
-            help='Only display the number of services discovered',
-        )
-        parser.add_argument(
-            '--include-hidden-services',
-            action='store_true',
-            default=argparse.SUPPRESS,
-            help='Consider hidden services as well',
-        )
+        add_types_argument(parser, 'service')
+        add_count_argument(parser, 'services')
+        add_hidden_argument(parser, 'services')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the services, or their count."""
@@ -40,9 +35,6 @@ class ListVerb(VerbExtension):
             services = get_service_names_and_types(
                 node=node, include_hidden_services=args.include_hidden_services
             )
-        if args.count_services:
-            print(len(services))
-            return None
-        for name, types in services:
-            print(f'{name} [{", ".join(types)}]' if args.show_types else name)
+        lines = with_types(services, show_types=args.show_types)
+        print_names(lines, only_count=args.count_services)
         return None

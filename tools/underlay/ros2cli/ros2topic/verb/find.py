@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 
+from ros2cli.listing import add_count_argument, add_hidden_argument, print_names
 from ros2cli.node.arguments import add_strategy_arguments
 from ros2topic.verb import VerbExtension
 
@@ -19,18 +20,8 @@ class FindVerb(VerbExtension):
             'topic_type',
             help="Name of the ROS topic type to filter for (e.g. 'std_msgs/msg/String')",
         )
-        parser.add_argument(
-            '-c',
-            '--count-topics',
-            action='store_true',
-            help='Only display the number of topics discovered',
-        )
-        parser.add_argument(
-            '--include-hidden-topics',
-            action='store_true',
-            default=argparse.SUPPRESS,
-            help='Consider hidden topics as well',
-        )
+        add_count_argument(parser, 'topics')
+        add_hidden_argument(parser, 'topics')
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the topics of the type, or their number."""
@@ -42,11 +33,5 @@ class FindVerb(VerbExtension):
                 node=node, include_hidden_topics=args.include_hidden_topics
             )
         names = [name for name, types in topics if args.topic_type in types]
-        lines = [str(len(names))] if args.count_topics else names
-        _print_lines(lines)
+        print_names(names, only_count=args.count_topics)
         return None
-
-
-def _print_lines(lines: list[str]) -> None:
-    for line in lines:
-        print(line)

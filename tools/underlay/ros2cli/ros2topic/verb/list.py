@@ -6,6 +6,13 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from ros2cli.listing import (
+    add_count_argument,
+    add_hidden_argument,
+    add_types_argument,
+    print_names,
+    with_types,
+)
 from ros2cli.node.arguments import add_strategy_arguments
 from ros2topic.verb import VerbExtension
 
@@ -16,21 +23,9 @@ class ListVerb(VerbExtension):
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """Add what to show of each topic."""
         add_strategy_arguments(parser)
-        parser.add_argument(
-            '-t', '--show-types', action='store_true', help='Additionally show the topic type'
-        )
-        parser.add_argument(
-            '-c',
-            '--count-topics',
-            action='store_true',
-            help='Only display the number of topics discovered',
-        )
-        parser.add_argument(
-            '--include-hidden-topics',
-            action='store_true',
-            default=argparse.SUPPRESS,
-            help='Consider hidden topics as well',
-        )
+        add_types_argument(parser, 'topic')
+        add_count_argument(parser, 'topics')
+        add_hidden_argument(parser, 'topics')
         parser.add_argument(
             '-v', '--verbose', action='store_true', help='List full details about each topic'
         )
@@ -44,13 +39,11 @@ class ListVerb(VerbExtension):
             topics = get_topic_names_and_types(
                 node=node, include_hidden_topics=args.include_hidden_topics
             )
-            if args.count_topics:
-                print(len(topics))
-            elif args.verbose:
-                _print_verbose(node, topics)
-            else:
-                for name, types in topics:
-                    print(f'{name} [{", ".join(types)}]' if args.show_types else name)
+        if args.verbose and not args.count_topics:
+            _print_verbose(node, topics)
+        else:
+            lines = with_types(topics, show_types=args.show_types)
+            print_names(lines, only_count=args.count_topics)
         return None
 
 
