@@ -120,6 +120,7 @@ def test_the_controller_keeps_its_rate(ros2: Start) -> None:
 def test_a_temperature_is_echoed(root: Path, ros2: Start) -> None:
     """The smallest package, seen with the command line."""
     publisher = ros2('run', 'temperature_monitor', 'temp_publisher')
+    publisher.wait_for('Publishing the temperature')
     echo = ros2('topic', 'echo', '/temperature', '--once', '--field', 'temperature')
     assert echo.process.wait(timeout=30) == 0
     assert 20.0 <= float(echo.output.splitlines()[-2]) <= 30.0

@@ -177,6 +177,17 @@ def test_appearing_node_is_waited_for(domain: int) -> None:
             process.kill()
 
 
+def test_name_that_is_not_there_yet_is_waited_for(domain: int) -> None:
+    """What is looked for may appear within the spin time; what is never found ends the wait."""
+    with GraphWatch(DISCOVERY_S) as watch:
+        with subprocess.Popen([sys.executable, '-c', CHILD], stdout=subprocess.PIPE) as process:
+            graph = watch.settled_with(lambda graph: graph.count_publishers('/children'))
+            assert names(graph) == ['child']
+            process.kill()
+    with GraphWatch(0.01) as watch:
+        assert names(watch.settled_with(lambda graph: False)) == []
+
+
 def test_watch_after_a_pause(
     child: subprocess.Popen[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -34,7 +34,10 @@ class InfoVerb(VerbExtension):
         from ros2action.api import get_action_clients, get_action_servers
         from ros2cli.node.strategy import NodeStrategy
 
-        with NodeStrategy(args) as node:
+        def find(graph: Any) -> list[Any]:
+            return get_action_servers(graph, args.action_name)
+
+        with NodeStrategy(args, find) as node:
             clients = get_action_clients(node, args.action_name)
             servers = get_action_servers(node, args.action_name)
         print(f'Action: {args.action_name}')

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 from ros2action.verb import VerbExtension
 from ros2cli.node.arguments import add_strategy_arguments
@@ -24,8 +25,11 @@ class TypeVerb(VerbExtension):
         from ros2action.api import get_action_names_and_types
         from ros2cli.node.strategy import NodeStrategy
 
-        with NodeStrategy(args) as node:
-            types = dict(get_action_names_and_types(node=node)).get(args.action_name, [])
+        def find(graph: Any) -> list[str]:
+            return dict(get_action_names_and_types(node=graph)).get(args.action_name, [])
+
+        with NodeStrategy(args, find) as node:
+            types = find(node)
         for name in types:
             print(name)
         return 0 if types else 1

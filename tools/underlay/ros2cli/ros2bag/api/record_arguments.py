@@ -14,10 +14,10 @@ from ros2cli.names import absolute
 __all__ = ['add_record_arguments', 'compression_of', 'filter_of', 'output_folder', 'usage_error']
 
 PRESETS = {'none': 'none', 'fastwrite': 'none', 'zstd_fast': 'zstd', 'zstd_small': 'zstd'}
-EPILOG = (
-    'Ctrl-C, SIGTERM and SIGHUP end the recording, with status 0 if the bag is complete. After '
-    'kill -9 or a loss of power, "ros2 bag recover" saves all but the last 0.2 seconds.'
-)
+EPILOG = """\
+Ctrl-C, SIGTERM and SIGHUP end the recording, with status 0 if the bag is
+complete. After kill -9 or a loss of power, "ros2 bag recover" saves all but
+the last 0.2 seconds."""
 SERVICES = 'services and actions are not recorded, only topics'
 SNAPSHOT = 'everything is recorded; split the recording with -d and delete what is too old'
 

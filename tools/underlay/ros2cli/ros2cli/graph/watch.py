@@ -86,6 +86,18 @@ class GraphWatch:
             self._exchange(waits=True)
         return self.graph
 
+    def settled_with(self, find: Callable[[Graph], object]) -> Graph:
+        """
+        Return the complete graph with what is looked for, if that comes within the spin time.
+
+        So a command finds a node that has been started just before it.
+        """
+        graph = self.settled()
+        while not find(graph) and self._latest_s < self._start_s + self._spin_time_s:
+            self._exchange(waits=True)
+            graph = self.graph
+        return self.settled()
+
     def updated(self) -> Graph:
         """Return what is known at this moment, without waiting for anybody."""
         self._exchange(waits=False)

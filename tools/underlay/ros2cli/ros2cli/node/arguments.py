@@ -16,7 +16,8 @@ def add_node_arguments(parser: argparse.ArgumentParser) -> None:
         type=positive_number,
         default=DEFAULT_SPIN_TIME_S,
         metavar='SECONDS',
-        help='time to wait for nodes on other machines (default: %(default)s)',
+        help='time to wait for nodes on other machines, and for names that are not there yet '
+        '(default: %(default)s)',
     )
     parser.add_argument(
         '-s', '--use-sim-time', action='store_true', help='use the time of the topic /clock'

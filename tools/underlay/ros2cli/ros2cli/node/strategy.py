@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from ros2cli.graph.graph import Graph
@@ -15,8 +15,14 @@ __all__ = ['NodeStrategy', 'add_arguments']
 
 
 @contextmanager
-def NodeStrategy(args: argparse.Namespace) -> Iterator[Graph]:  # noqa: N802
-    """Yield the complete graph; the name is the one that extensions know."""
+def NodeStrategy(  # noqa: N802
+    args: argparse.Namespace, find: Callable[[Graph], object] = lambda _: True
+) -> Iterator[Graph]:
+    """
+    Yield the complete graph; the name is the one that extensions know.
+
+    What `find` does not find at once is waited for during the spin time.
+    """
     with GraphWatch(args.spin_time) as watch:
-        graph = watch.settled()
+        graph = watch.settled_with(find)
     yield graph

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from rcl_interfaces.msg import Parameter
 from ros2cli.graph.graph import Graph
+from ros2cli.graph.watch import GraphWatch
 from ros2cli.names import closest
 from ros2cli.node.calls import call
 from ros2cli.node.lookup import nodes_with_service
@@ -39,10 +40,10 @@ def get_containers(graph: Graph) -> list[str]:
     return nodes_with_service(graph, f'{SERVICE}/list_nodes', LIST_TYPE, include_hidden_nodes=True)
 
 
-def find_container(graph: Graph, name: str) -> str:
+def find_container(watch: GraphWatch, name: str) -> str:
     """Return the full name of a container that is there, or RuntimeError."""
     full_name = name if name.startswith('/') else f'/{name}'
-    known = get_containers(graph)
+    known = get_containers(watch.settled_with(lambda graph: full_name in get_containers(graph)))
     if full_name not in known:
         text = f"Unable to find container node '{name}'"
         raise RuntimeError('\n'.join([text, closest(full_name, known)]).rstrip())

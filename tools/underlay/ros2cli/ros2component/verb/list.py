@@ -33,8 +33,9 @@ class ListVerb(VerbExtension):
 
         name = args.container_node_name
         with DirectNode(args) as node:
-            graph = node.graph
-            containers = get_containers(graph) if name is None else [find_container(graph, name)]
+            containers = (
+                get_containers(node.graph) if name is None else [find_container(node.watch, name)]
+            )
             for container in containers:
                 if args.containers_only:
                     print(container)

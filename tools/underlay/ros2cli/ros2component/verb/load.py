@@ -30,7 +30,7 @@ class LoadVerb(VerbExtension):
         from ros2component.api import find_container, load_component
 
         with DirectNode(args) as node:
-            container = find_container(node.graph, args.container_node_name)
+            container = find_container(node.watch, args.container_node_name)
             component = load_component(node, container, args)
         if args.quiet:
             print(component.uid)

@@ -31,7 +31,7 @@ class UnloadVerb(VerbExtension):
 
         status = 0
         with DirectNode(args) as node:
-            container = find_container(node.graph, args.container_node_name)
+            container = find_container(node.watch, args.container_node_name)
             for uid in args.component_uid:
                 reason = unload_component(node, container, uid)
                 if reason:

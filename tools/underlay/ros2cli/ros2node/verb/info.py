@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 from ros2cli.names import closest
 from ros2cli.node.arguments import add_strategy_arguments
@@ -26,12 +27,16 @@ class InfoVerb(VerbExtension):
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print what the node publishes, subscribes to, serves and calls."""
         from ros2cli.node.strategy import NodeStrategy
-        from ros2node.api import get_node_names, node_sections
+        from ros2node.api import get_node_names, node_sections, NodeName
 
-        with NodeStrategy(args) as node:
-            names = get_node_names(node=node, include_hidden_nodes=True)
-            chosen = [name for name in names if name.full_name == args.node_name]
+        def find(graph: Any) -> list[NodeName]:
+            names = get_node_names(node=graph, include_hidden_nodes=True)
+            return [name for name in names if name.full_name == args.node_name]
+
+        with NodeStrategy(args, find) as node:
+            chosen = find(node)
             if not chosen:
+                names = get_node_names(node=node, include_hidden_nodes=True)
                 return _unknown_node(args.node_name, [name.full_name for name in names])
             sections = node_sections(node, chosen[0], args.include_hidden)
         print(args.node_name)

@@ -56,7 +56,7 @@ def event_formatter(args: argparse.Namespace) -> Callable[[Any, Any], str]:
 
 
 def _discovered_type(node: Any, service: str) -> str:
-    graph = node.graph
+    graph = node.watch.settled_with(lambda graph: get_service_types(graph, service))
     types = get_service_types(graph, service)
     if not types:
         print(f'WARNING: service [{service}] does not appear to be available yet')

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 from ros2cli.node.arguments import add_strategy_arguments
 from ros2service.verb import VerbExtension
@@ -24,8 +25,11 @@ class InfoVerb(VerbExtension):
         from ros2cli.node.strategy import NodeStrategy
         from ros2service.api import get_service_types, unknown_service_text
 
-        with NodeStrategy(args) as node:
-            types = get_service_types(node, args.service_name)
+        def find(graph: Any) -> list[str]:
+            return get_service_types(graph, args.service_name)
+
+        with NodeStrategy(args, find) as node:
+            types = find(node)
             if not types:
                 return unknown_service_text(node, args.service_name)
             clients = node.count_clients(args.service_name)

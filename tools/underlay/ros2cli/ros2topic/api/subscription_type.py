@@ -23,7 +23,7 @@ def resolve_type(node: Any, topic: str, name: str | None) -> Any:
 
 
 def _discovered_type(node: Any, topic: str) -> str:
-    graph = node.graph
+    graph = node.watch.settled_with(lambda graph: get_topic_types(graph, topic))
     types = get_topic_types(graph, topic)
     if not types:
         print(f'WARNING: topic [{topic}] does not appear to be published yet')

@@ -32,8 +32,11 @@ class InfoVerb(VerbExtension):
         from ros2cli.node.strategy import NodeStrategy
         from ros2topic.api import get_topic_types, unknown_topic_text
 
-        with NodeStrategy(args) as node:
-            types = get_topic_types(node, args.topic_name)
+        def find(graph: Any) -> list[str]:
+            return get_topic_types(graph, args.topic_name)
+
+        with NodeStrategy(args, find) as node:
+            types = find(node)
             if not types:
                 return unknown_topic_text(node, args.topic_name)
         line_end = '\n' if args.verbose else ''

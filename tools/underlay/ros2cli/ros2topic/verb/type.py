@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 from ros2cli.node.arguments import add_strategy_arguments
 from ros2topic.verb import VerbExtension
@@ -24,8 +25,11 @@ class TypeVerb(VerbExtension):
         from ros2cli.node.strategy import NodeStrategy
         from ros2topic.api import get_topic_types
 
-        with NodeStrategy(args) as node:
-            types = get_topic_types(node, args.topic_name)
+        def find(graph: Any) -> list[str]:
+            return get_topic_types(graph, args.topic_name)
+
+        with NodeStrategy(args, find) as node:
+            types = find(node)
         for name in types:
             print(name)
         return 0 if types else 1
