@@ -234,3 +234,28 @@ def test_topic_that_was_not_recorded_is_named(ros2_here: Ros2, tmp_path: Path) -
     assert (result.returncode, result.stderr) == (1, expected)
     result = ros2_here('bag', 'play', path, '--start-offset', '99')
     assert (result.returncode, 'has no messages in what was chosen' in result.stderr) == (1, True)
+
+
+def test_unknown_topic_to_rename_or_leave_out_is_warned_of(
+    start_ros2: Start, ear: Ear, tmp_path: Path
+) -> None:
+    """Who misspells a topic learns that it keeps its name; a bag without it is no mistake."""
+    write_bag(tmp_path / 'bag', count=2)
+    path = str(tmp_path / 'bag')
+    words = ['--remap', '/tick:=/copy', '--exclude-topics', '/description', '/image']
+    errors = ear.spin_with(start_ros2('bag', 'play', path, *words))
+    text = f"'{path}' has no topic '{{}}' to rename or to leave out."
+    assert f"{text.format('/tick')} Did you mean '/ticks'?\n" in errors
+    assert f'{text.format("/image")}\n' in errors
+    assert text.format('/description') not in errors
+
+
+def test_clock_can_be_renamed(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
+    """The recorded time goes where --remap sends it, and nodes on /clock do not notice."""
+    write_bag(tmp_path / 'bag', count=20)
+    ear.listen('/clock', Clock)
+    ear.listen('/bag_clock', Clock)
+    words = ['--clock', '--remap', '/clock:=/bag_clock']
+    errors = ear.spin_with(start_ros2('bag', 'play', str(tmp_path / 'bag'), *words))
+    assert {name for name, _, _ in ear.heard} == {'/bag_clock'}
+    assert 'has no topic' not in errors

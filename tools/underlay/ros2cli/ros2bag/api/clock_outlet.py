@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Publish the recorded time on /clock."""
+"""Publish the recorded time, on /clock unless that is renamed."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ NS_PER_S = 1_000_000_000
 class ClockOutlet:
     """Publishes the recorded time so many times a second, also during a pause."""
 
-    def __init__(self, node: Any, rate_hz: float) -> None:
+    def __init__(self, node: Any, topic: str, rate_hz: float) -> None:
         """Create the publisher."""
         from rosgraph_msgs.msg import Clock
 
         self._clock = Clock()
-        self._publisher = node.create_publisher(Clock, CLOCK_TOPIC, 10)
+        self._publisher = node.create_publisher(Clock, topic, 10)
         self._period_ns = int(NS_PER_S / rate_hz)
         self._next_ns = 0
 

@@ -40,8 +40,10 @@ def play(args: argparse.Namespace) -> None:
         DirectNode(args, node_name=NODE_NAME) as node,
         Keyboard(enabled=not args.disable_keyboard_controls) as keyboard,
     ):
+        _warn_of_unknown_topics(reader, args, node.get_logger())
         outlets = Outlets(node, topics, names, overrides)
-        clock = ClockOutlet(node, args.clock) if args.clock else None
+        clock_topic = names.get(CLOCK_TOPIC, CLOCK_TOPIC)
+        clock = ClockOutlet(node, clock_topic, args.clock) if args.clock else None
         switch = PauseSwitch(args.start_paused, node.get_logger().info)
         offer_pause_services(node, switch)
         outlets.wait_for_subscribers()
@@ -67,6 +69,17 @@ def _chosen_topics(reader: BagReader, args: argparse.Namespace) -> list[Topic]:
         if chosen.wants(topic.name, topic.type_name)
         and not (args.clock and topic.name == CLOCK_TOPIC)
     ]
+
+
+def _warn_of_unknown_topics(reader: BagReader, args: argparse.Namespace, logger: Any) -> None:
+    """Warn of topics that are to be renamed or left out, but are not there."""
+    recorded = [each.topic.name for each in reader.metadata.topics]
+    there = [*recorded, CLOCK_TOPIC] if args.clock else recorded
+    for name in sorted({*remaps(args), *filter_of(args).excluded_topics}.difference(there)):
+        logger.warning(
+            f"'{args.bag_path}' has no topic '{name}' to rename or to leave out. "
+            f'{did_you_mean(name, recorded)}'.rstrip()
+        )
 
 
 def _play_all(
