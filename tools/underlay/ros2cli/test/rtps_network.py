@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A network in memory with participants that answer as those of Fast DDS do."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 import heapq
 import itertools
 import random
@@ -28,6 +28,7 @@ from ros2cli.rtps.identifiers import (
     SUBSCRIPTIONS_WRITER,
     UNKNOWN_ENTITY,
 )
+from ros2cli.rtps.message import data, heartbeat, message
 from ros2cli.rtps.observer import Observer
 from ros2cli.rtps.parameters import (
     Address,
@@ -39,12 +40,12 @@ from ros2cli.rtps.parameters import (
     text_value,
     THIS_HOST,
 )
-from ros2cli.rtps.wire import data, heartbeat, message
 
 OBSERVER: Address = (THIS_HOST, 50000)
 ENTITIES_WRITER = bytes.fromhex('00000103')
 HEADER_BYTES = 20
 ACKNACK, DATA = 0x06, 0x15
+FRAGMENT_BYTES = 32000
 ANSWER_S = 0.1
 HASH = 'RIHS01_' + 'ab' * 32
 
@@ -127,7 +128,7 @@ class Participant:
         self.port = 7410 + 2 * index
         self.prefix = struct.pack('>HHII', 0x010F, 7, index, network._random.randrange(2**32))
         self._network = network
-        self._samples: dict[bytes, dict[int, bytes]] = {
+        self._samples: dict[bytes, dict[int, list[bytes]]] = {
             PUBLICATIONS_WRITER: {},
             SUBSCRIPTIONS_WRITER: {},
             ENTITIES_WRITER: {},
@@ -154,7 +155,7 @@ class Participant:
     def destroy(self, guid: bytes) -> None:
         """End a publisher: its sample is replaced by the news that it is no more."""
         samples = self._samples[PUBLICATIONS_WRITER]
-        gone = [number for number, payload in samples.items() if guid in payload]
+        gone = [number for number, parts in samples.items() if guid in parts[0]]
         for number in gone:
             del samples[number]
         self._add(PUBLICATIONS_WRITER, encode_parameters([(PID_ENDPOINT_GUID, guid)]), guid)
@@ -197,8 +198,7 @@ class Participant:
     def _send_wanted(self, writer: bytes) -> None:
         for number in sorted(self._wanted.pop(writer, set())):
             if number in self._samples[writer]:
-                self._send(self._samples[writer][number])
-                self._tell(writer)
+                self._send_sample(writer, number)
             else:
                 self._send(gap(_reader(writer), writer, number))
 
@@ -209,7 +209,7 @@ class Participant:
 
     def _create(self, writer: bytes, topic: str, type_name: str, kind: int) -> bytes:
         number = self._last[writer] + 1
-        entity = bytes.fromhex('00000103') if topic == TOPIC else bytes([0, 0, number + 1, kind])
+        entity = ENTITIES_WRITER if topic == TOPIC else struct.pack('>xHB', number + 1, kind)
         guid = self.prefix + entity
         self._add(
             writer,
@@ -230,11 +230,18 @@ class Participant:
         qos = encode_inline([(PID_KEY_HASH, gone), (PID_STATUS_INFO, b'\0\0\0\3')])
         self._last[writer] += 1
         number = self._last[writer]
-        sample = data(_reader(writer), writer, number, payload, qos if gone else b'')
-        self._samples[writer][number] = sample
+        if len(payload) > FRAGMENT_BYTES:
+            parts = list(fragments(_reader(writer), writer, number, payload))
+        else:
+            parts = [data(_reader(writer), writer, number, payload, qos if gone else b'')]
+        self._samples[writer][number] = parts
         if self._is_known:
-            self._send(sample)
-            self._tell(writer)
+            self._send_sample(writer, number)
+
+    def _send_sample(self, writer: bytes, number: int) -> None:
+        for part in self._samples[writer][number]:
+            self._send(part)
+        self._tell(writer)
 
     def _tell_entities(self) -> None:
         payload = b'\0\1\0\0' + bytes(16) + struct.pack('<I', len(self._nodes))
@@ -255,6 +262,16 @@ def gap(reader: bytes, writer: bytes, number: int) -> bytes:
     """Return the submessage by which a writer tells that it no longer has a sample."""
     body = reader + writer + struct.pack('<iIiII', 0, number, 0, number + 1, 0)
     return struct.pack('<BBH', 0x08, 1, len(body)) + body
+
+
+def fragments(reader: bytes, writer: bytes, number: int, payload: bytes) -> Iterator[bytes]:
+    """Yield the submessages that carry a large sample, a part each."""
+    for index in range(0, len(payload), FRAGMENT_BYTES):
+        first = index // FRAGMENT_BYTES + 1
+        body = struct.pack('<HH', 0, 28) + reader + writer + struct.pack('<iI', 0, number)
+        body += struct.pack('<IHHI', first, 1, FRAGMENT_BYTES, len(payload))
+        body += payload[index : index + FRAGMENT_BYTES]
+        yield struct.pack('<BBH', 0x16, 1, len(body)) + body
 
 
 def _reader(writer: bytes) -> bytes:
