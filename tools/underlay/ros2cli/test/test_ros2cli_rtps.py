@@ -7,6 +7,7 @@ import struct
 import pytest
 from ros2cli.rtps.entities import decode_entities
 from ros2cli.rtps.identifiers import (
+    MULTICAST_ADDRESS,
     PARTICIPANTS_WRITER,
     PID_DEFAULT_UNICAST_LOCATOR,
     PID_ENDPOINT_GUID,
@@ -30,7 +31,7 @@ from ros2cli.rtps.parameters import (
 )
 from ros2cli.rtps.stream import MAX_AHEAD, Stream
 from ros2cli.rtps.wire import Gap, Heartbeat, submessages
-from rtps_network import gap, Network
+from rtps_network import DISTANT_HOST, gap, Network
 
 LONG_S = 30.0
 
@@ -158,6 +159,21 @@ def test_fragments_are_put_together(loss: float) -> None:
     assert [len(each.writers) for each in network.observer.neighbours[0].nodes] == [0, 4000]
 
 
+@pytest.mark.parametrize('loss', [0.0, 0.4])
+def test_distant_processes_are_greeted_themselves(loss: float) -> None:
+    """Who was met by multicast tells its nodes at once, though it heard nothing of our reader."""
+    network = Network(loss=loss)
+    for index in range(3):
+        network.add(index, topics=['a'], host=DISTANT_HOST)
+    for _ in range(5):
+        network.observer.greet((MULTICAST_ADDRESS, 7400))
+        network.step()
+    if not loss:
+        assert network.run(2.0) < 1.0
+    network.run(LONG_S)
+    assert len(names(network)) == 3
+
+
 def test_ended_process_is_forgotten() -> None:
     """A process whose port is closed is gone, even if it was killed without a word."""
     network = Network()
@@ -213,7 +229,7 @@ def test_damaged_datagrams_are_as_good_as_lost(seed: int) -> None:
     noise = random.Random(seed)
     while not network.observer.is_complete and network.now_s < LONG_S:
         if network._socket:
-            whole = noise.choice(network._socket)
+            whole, _ = noise.choice(network._socket)
             network.observer.handle(whole[: noise.randrange(len(whole))], THIS_HOST)
             network.observer.handle(noise.randbytes(noise.randrange(200)), THIS_HOST)
         network.step()
@@ -229,10 +245,10 @@ def test_wrong_bytes_raise_nothing(seed: int) -> None:
     network.count()
     noise = random.Random(seed)
     for _ in range(400):
-        for index, datagram in enumerate(network._socket):
+        for index, (datagram, host) in enumerate(network._socket):
             wrong = bytearray(datagram)
             wrong[noise.randrange(20, len(wrong))] = noise.randrange(256)
-            network._socket[index] = bytes(wrong)
+            network._socket[index] = bytes(wrong), host
         network.step()
     assert names(network) is not None
 

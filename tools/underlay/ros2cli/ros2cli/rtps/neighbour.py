@@ -63,6 +63,11 @@ class Neighbour:
         return all(stream.is_complete for stream in self._streams())
 
     @property
+    def knows_reader(self) -> bool:
+        """Tell if it has tried to tell us its nodes, or cannot do so yet."""
+        return self._entities is None or self._entities.is_announced
+
+    @property
     def due_s(self) -> float:
         """Return when to ask again."""
         return float('inf') if self._is_acknowledged else self._ask_again_s

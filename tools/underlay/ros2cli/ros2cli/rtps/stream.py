@@ -27,6 +27,11 @@ class Stream:
         self._requested = 0
 
     @property
+    def is_announced(self) -> bool:
+        """Tell if the writer has said what it has."""
+        return self._last is not None
+
+    @property
     def is_complete(self) -> bool:
         """Tell if all has come that the writer has, as far as it has said."""
         return self._last is not None and self._next > self._last
