@@ -226,7 +226,10 @@ def test_topics_and_services_have_prefixes() -> None:
             (7, 'LOCALHOST', ()),
         ),
         ({'ROS_LOCALHOST_ONLY': '1'}, (0, 'LOCALHOST', ())),
+        ({'ROS_LOCALHOST_ONLY': '1', 'ROS_STATIC_PEERS': 'robot'}, (0, 'LOCALHOST', ())),
         ({'ROS_AUTOMATIC_DISCOVERY_RANGE': 'OFF'}, (0, 'OFF', ())),
+        ({'ROS_AUTOMATIC_DISCOVERY_RANGE': ''}, (0, 'SUBNET', ())),
+        ({'ROS_AUTOMATIC_DISCOVERY_RANGE': 'subnet'}, (0, 'LOCALHOST', ())),
         ({'ROS_STATIC_PEERS': '10.0.0.2; robot;'}, (0, 'SUBNET', ('10.0.0.2', 'robot'))),
     ],
 )
@@ -258,10 +261,10 @@ def test_participants_have_two_ports() -> None:
     """The pair of ports of a participant counts, not one alone, nor our own nor a foreign one."""
     rows = [row(port, 1) for port in (17910, 17911, 17912, 17916, 17917, 7410, 7411)]
     rows += [row(17914, 4), row(17915, 4)]
-    assert ports_in_table(rows, {'4'}, domain_id=42) == [17910, 17916]
-    assert ports_in_table(rows, set(), domain_id=42) == [17910, 17914, 17916]
-    assert ports_in_table(rows, set(), domain_id=0) == [7410]
-    assert ports_in_table([], set(), domain_id=42) == []
+    assert list(ports_in_table(rows, {'4'}, domain_id=42)) == [17910, 17916]
+    assert list(ports_in_table(rows, set(), domain_id=42)) == [17910, 17914, 17916]
+    assert ports_in_table(rows, set(), domain_id=0) == {7410: '1'}
+    assert ports_in_table([], set(), domain_id=42) == {}
 
 
 def test_own_participant_is_not_counted(rclpy_node: Node, robot: dict[str, str]) -> None:

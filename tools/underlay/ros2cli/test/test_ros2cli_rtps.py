@@ -6,10 +6,32 @@ import struct
 
 import pytest
 from ros2cli.rtps.entities import decode_entities
-from ros2cli.rtps.identifiers import unicast_ports
-from ros2cli.rtps.parameters import decode_parameters, INFINITE_NS, THIS_HOST
-from ros2cli.rtps.wire import acknack, Gap, Heartbeat, heartbeat, message, submessages
-from rtps_network import gap, Network
+from ros2cli.rtps.identifiers import (
+    MULTICAST_ADDRESS,
+    PARTICIPANTS_WRITER,
+    PID_DEFAULT_UNICAST_LOCATOR,
+    PID_ENDPOINT_GUID,
+    PID_LIVELINESS,
+    PID_METATRAFFIC_UNICAST_LOCATOR,
+    PID_RELIABILITY,
+    PID_SENTINEL,
+    PID_TOPIC_NAME,
+    PID_USER_DATA,
+    PUBLICATIONS_READER,
+    PUBLICATIONS_WRITER,
+    unicast_ports,
+    UNKNOWN_ENTITY,
+)
+from ros2cli.rtps.message import acknack, data, heartbeat, message
+from ros2cli.rtps.parameters import (
+    decode_parameters,
+    encode_parameters,
+    INFINITE_NS,
+    THIS_HOST,
+)
+from ros2cli.rtps.stream import MAX_AHEAD, Stream
+from ros2cli.rtps.wire import Gap, Heartbeat, submessages
+from rtps_network import DISTANT_HOST, gap, Network
 
 LONG_S = 30.0
 
@@ -113,6 +135,45 @@ def test_history_with_gaps() -> None:
     assert topics(network) == ['/a', '/in0']
 
 
+def test_large_process_is_asked_without_pause() -> None:
+    """More endpoints than one request can name are asked for without a pause."""
+    network = Network(room=10_000)
+    network.add(0, topics=[f't{index}' for index in range(1200)])
+    network.count()
+    assert network.run(LONG_S) < 2.0
+    assert len(topics(network)) == 1201
+
+
+@pytest.mark.parametrize('loss', [0.0, 0.3])
+def test_fragments_are_put_together(loss: float) -> None:
+    """A process whose nodes have more endpoints than one datagram can name is complete."""
+    network = Network(loss=loss, room=10_000)
+    participant = network.add(0)
+    guids = [participant.prefix + struct.pack('>HBB', index, 0, 3) for index in range(4000)]
+    participant._nodes.append(('large', [], guids))
+    participant._tell_entities()
+    network.count()
+    network.run(LONG_S)
+    assert network.observer.is_complete
+    assert names(network) == ['large', 'node0_0']
+    assert [len(each.writers) for each in network.observer.neighbours[0].nodes] == [0, 4000]
+
+
+@pytest.mark.parametrize('loss', [0.0, 0.4])
+def test_distant_processes_are_greeted_themselves(loss: float) -> None:
+    """Who was met by multicast tells its nodes at once, though it heard nothing of our reader."""
+    network = Network(loss=loss)
+    for index in range(3):
+        network.add(index, topics=['a'], host=DISTANT_HOST)
+    for _ in range(5):
+        network.observer.greet((MULTICAST_ADDRESS, 7400))
+        network.step()
+    if not loss:
+        assert network.run(2.0) < 1.0
+    network.run(LONG_S)
+    assert len(names(network)) == 3
+
+
 def test_ended_process_is_forgotten() -> None:
     """A process whose port is closed is gone, even if it was killed without a word."""
     network = Network()
@@ -168,7 +229,7 @@ def test_damaged_datagrams_are_as_good_as_lost(seed: int) -> None:
     noise = random.Random(seed)
     while not network.observer.is_complete and network.now_s < LONG_S:
         if network._socket:
-            whole = noise.choice(network._socket)
+            whole, _ = noise.choice(network._socket)
             network.observer.handle(whole[: noise.randrange(len(whole))], THIS_HOST)
             network.observer.handle(noise.randbytes(noise.randrange(200)), THIS_HOST)
         network.step()
@@ -184,12 +245,81 @@ def test_wrong_bytes_raise_nothing(seed: int) -> None:
     network.count()
     noise = random.Random(seed)
     for _ in range(400):
-        for index, datagram in enumerate(network._socket):
+        for index, (datagram, host) in enumerate(network._socket):
             wrong = bytearray(datagram)
             wrong[noise.randrange(20, len(wrong))] = noise.randrange(256)
-            network._socket[index] = bytes(wrong)
+            network._socket[index] = bytes(wrong), host
         network.step()
     assert names(network) is not None
+
+
+def hostile_samples(guid: bytes) -> list[bytes]:
+    """Return descriptions that no participant sends."""
+    named = struct.pack('<HH', PID_ENDPOINT_GUID, 16) + guid
+    wrong = [
+        struct.pack('<HH2s', kind, 2, b'ab') + struct.pack('<HH', PID_SENTINEL, 0)
+        for kind in (PID_TOPIC_NAME, PID_RELIABILITY, PID_LIVELINESS, PID_USER_DATA)
+    ]
+    large = struct.pack('<HH', 0x8001, 0) * 15_000
+    huge = struct.pack('<HHI', PID_TOPIC_NAME, 4, 2**32 - 1)
+    return [b'\0\3\0\0' + named + rest for rest in (*wrong, large, huge)]
+
+
+def test_hostile_descriptions_are_no_harm() -> None:
+    """Parameters that are too short, too many or too long are not asked for again."""
+    network = Network()
+    participant = network.add(0, topics=['a'])
+    network.count()
+    network.run(LONG_S)
+    for payload in hostile_samples(participant.prefix + b'\0\0\x77\x03'):
+        participant._add(PUBLICATIONS_WRITER, payload)
+    for _ in range(300):
+        network.step()
+    assert network.observer.is_complete
+    assert topics(network) == ['/a', '/in0']
+
+
+@pytest.mark.parametrize(
+    'value', [b'abcd', struct.pack('<iI', 1, 70_000), struct.pack('<iI', 1, 0)]
+)
+def test_impossible_locators_are_nobody(value: bytes) -> None:
+    """Who cannot be reached is not met."""
+    network = Network()
+    described = [(PID_METATRAFFIC_UNICAST_LOCATOR, value), (PID_DEFAULT_UNICAST_LOCATOR, value)]
+    met = data(UNKNOWN_ENTITY, PARTICIPANTS_WRITER, 1, encode_parameters(described))
+    network.observer.handle(message(b'x' * 12, met), '10.0.0.1')
+    assert network.observer.neighbours == []
+
+
+def test_huge_numbers_cost_nothing() -> None:
+    """Whatever a writer says of its samples, what we keep in mind is bounded."""
+    stream = Stream(PUBLICATIONS_READER, PUBLICATIONS_WRITER)
+    for last in range(10**6, 10**9, 10**6):
+        stream.on_heartbeat(1, last)
+        stream.skip(2, last)
+        stream.settle([last])
+    assert not stream.is_complete
+    assert len(stream._ahead) < 2 * MAX_AHEAD
+    stream.skip(1, 10**9)
+    assert stream.is_complete
+    assert stream._ahead == set()
+    assert len(stream.request()) < 100
+
+
+@pytest.mark.parametrize(('first', 'last'), [(0, 5), (-1, 5), (5, 3), (2**63 - 1, 2**63 - 1)])
+def test_impossible_heartbeats(first: int, last: int) -> None:
+    """Heartbeats that the specification calls invalid are errors (8.3.8.6.3)."""
+    told = heartbeat(PUBLICATIONS_READER, PUBLICATIONS_WRITER, first, last, 1)
+    with pytest.raises(ValueError, match='number|samples'):
+        list(submessages(message(b'x' * 12, told), b'y' * 12))
+
+
+def test_empty_time_is_not_the_end() -> None:
+    """A submessage that may be empty does not reach to the end of the datagram."""
+    told = heartbeat(PUBLICATIONS_READER, PUBLICATIONS_WRITER, 1, 5, 1)
+    datagram = message(b'x' * 12, b'\x09\x03\0\0', b'\x01\x01\0\0', told)
+    expected = [Heartbeat(PUBLICATIONS_READER, PUBLICATIONS_WRITER, 1, 5)]
+    assert list(submessages(datagram, b'y' * 12)) == expected
 
 
 def test_destinations_and_byte_orders() -> None:
@@ -200,7 +330,7 @@ def test_destinations_and_byte_orders() -> None:
     for_other = b'\x0e\x01\x0c\x00' + other
     for_us = b'\x0e\x01\x0c\x00' + own
     datagram = message(other, for_other, told, for_us, told, gap(reader, writer, 3))
-    expected = [Heartbeat(reader, writer, 1, 5), Gap(reader, writer, frozenset({3}))]
+    expected = [Heartbeat(reader, writer, 1, 5), Gap(reader, writer, 3, 4, frozenset())]
     assert list(submessages(datagram, own)) == expected
     big = b'\x07\x00\x00\x1c' + reader + writer + bytes.fromhex('00000000 00000001')
     big += bytes.fromhex('00000000 00000005 00000001')

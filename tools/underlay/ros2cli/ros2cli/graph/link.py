@@ -10,8 +10,8 @@ import select
 import socket
 import time
 
+from ros2cli.graph.census import Census
 from ros2cli.graph.interfaces import read_interfaces
-from ros2cli.graph.participants import participant_ports
 from ros2cli.graph.reach import OFF, Reach
 from ros2cli.rtps.identifiers import MULTICAST_ADDRESS, multicast_port, unicast_ports
 from ros2cli.rtps.observer import Observer
@@ -22,7 +22,9 @@ GREETINGS_S = (0.0, 0.1, 0.25)  # of whom cannot be counted, since a greeting ma
 PEERS_PER_HOST = 32
 MAX_DATAGRAM_BYTES = 65536
 RECEIVE_BUFFER_BYTES = 1 << 20
-DATAGRAMS_AT_ONCE = 1000
+HANDLED_AT_ONCE = 1000
+READ_AT_ONCE = 64  # between two that are handled, so that a flood does not hold us up
+MAX_WAITING = 4096
 
 
 class Link:
@@ -37,6 +39,7 @@ class Link:
         """Open a socket; nobody is asked yet."""
         self._reach = reach
         self._hosts = _own_hosts(reach)
+        self._peers = [_address(peer) for peer in reach.peers]
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, RECEIVE_BUFFER_BYTES)
         self._socket.bind((THIS_HOST if reach.is_local else '', 0))
@@ -44,9 +47,15 @@ class Link:
         port = self._socket.getsockname()[1]
         self.observer = Observer([(host, port) for host in self._hosts], self._send)
         self.can_count = True
+        self._census = Census(reach.domain_id)
         self._waiting: deque[tuple[bytes, str]] = deque()
         self._start_s = self._count_s = time.monotonic()
         self._greetings = list(GREETINGS_S)
+
+    @property
+    def is_hopeless(self) -> bool:
+        """Tell if only stopped processes have not answered, and all others have."""
+        return self.observer.is_told and self._census.are_stopped(self.observer.silent)
 
     def close(self) -> None:
         """Take leave."""
@@ -71,28 +80,29 @@ class Link:
 
     def _count(self, now_s: float) -> None:
         self._count_s = now_s + COUNT_PERIOD_S
-        ports = participant_ports(self._reach.domain_id)
-        self.can_count = ports is not None
-        self.observer.expect([(THIS_HOST, port) for port in ports or ()])
+        addresses = self._census.take(now_s, self.observer.silent)
+        self.can_count = addresses is not None
+        self.observer.expect(addresses or ())
 
     def _greet_distant(self) -> None:
-        if not self._reach.is_local:
+        if self._reach.is_wide:
             for host in self._hosts:
-                interface = socket.inet_aton(host)
-                self._socket.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, interface)
-                self.observer.greet((MULTICAST_ADDRESS, multicast_port(self._reach.domain_id)))
-        for address in self._peers():
-            self.observer.greet(address)
-
-    def _peers(self) -> Iterator[Address]:
-        for peer in self._reach.peers:
+                self._greet_through(host)
+        for peer in self._peers:
             for port in unicast_ports(self._reach.domain_id)[:PEERS_PER_HOST]:
-                yield peer, port
+                self.observer.greet((peer, port))
+
+    def _greet_through(self, host: str) -> None:
+        """Greet all whom an interface reaches, which may have gone in the meantime."""
+        with suppress(OSError):
+            interface = socket.inet_aton(host)
+            self._socket.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, interface)
+            self.observer.greet((MULTICAST_ADDRESS, multicast_port(self._reach.domain_id)))
 
     def _receive(self) -> None:
         """Handle what has come; the socket, which holds little, is emptied again and again."""
         self._waiting.extend(self._received())
-        for _ in range(DATAGRAMS_AT_ONCE):
+        for _ in range(HANDLED_AT_ONCE):
             if not self._waiting:
                 break
             datagram, host = self._waiting.popleft()
@@ -101,7 +111,7 @@ class Link:
 
     def _received(self) -> Iterator[tuple[bytes, str]]:
         with suppress(BlockingIOError):
-            while True:
+            for _ in range(min(READ_AT_ONCE, MAX_WAITING - len(self._waiting))):
                 datagram, (host, _port) = self._socket.recvfrom(MAX_DATAGRAM_BYTES)
                 yield datagram, host
 
@@ -109,6 +119,16 @@ class Link:
         """Send; what cannot be sent now is asked again, and unreachable hosts do not answer."""
         with suppress(OSError):
             self._socket.sendto(datagram, address)
+
+
+def _address(peer: str) -> str:
+    try:
+        return socket.gethostbyname(peer)
+    except (OSError, UnicodeError) as error:
+        raise RuntimeError(
+            f"ROS_STATIC_PEERS names '{peer}', whose address cannot be found ({error}), so that "
+            'no node can start, either; write its address, or: unset ROS_STATIC_PEERS'
+        ) from error
 
 
 def _own_hosts(reach: Reach) -> list[str]:

@@ -19,6 +19,12 @@ INODE_COLUMN = 9
 
 def participant_ports(domain_id: int) -> list[int] | None:
     """Return the discovery ports of other processes' participants; None if it is unknown."""
+    sockets = participant_sockets(domain_id)
+    return None if sockets is None else list(sockets)
+
+
+def participant_sockets(domain_id: int) -> dict[int, str] | None:
+    """Return these ports with the inodes of their sockets; None if it is unknown."""
     try:
         with open('/proc/net/udp', encoding='ascii') as stream:
             rows = stream.readlines()[1:]
@@ -28,14 +34,16 @@ def participant_ports(domain_id: int) -> list[int] | None:
     return ports_in_table(rows, own, domain_id)
 
 
-def ports_in_table(rows: Iterable[str], own_inodes: set[str], domain_id: int) -> list[int]:
+def ports_in_table(rows: Iterable[str], own_inodes: set[str], domain_id: int) -> dict[int, str]:
     """Return the ports in the kernel's table of UDP sockets, without our own, ascending."""
-    found = set()
+    found = {}
     for row in rows:
         columns = row.split()
         if columns[INODE_COLUMN] not in own_inodes:
-            found.add(int(columns[LOCAL_ADDRESS_COLUMN].partition(':')[2], 16))
-    return [port for port in unicast_ports(domain_id) if {port, port + 1} <= found]
+            port = int(columns[LOCAL_ADDRESS_COLUMN].partition(':')[2], 16)
+            found[port] = columns[INODE_COLUMN]
+    ports = unicast_ports(domain_id)
+    return {port: found[port] for port in ports if port in found and port + 1 in found}
 
 
 def _own_sockets() -> Iterator[str]:

@@ -25,7 +25,12 @@ class Reach(NamedTuple):
     @property
     def is_local(self) -> bool:
         """Tell if no other machine is reached, so that all participants can be counted."""
-        return self.extent in (LOCALHOST, OFF) and not self.peers
+        return self.extent == OFF or (self.extent == LOCALHOST and not self.peers)
+
+    @property
+    def is_wide(self) -> bool:
+        """Tell if everybody in the network is asked, and not only who is named."""
+        return self.extent in (SUBNET, SYSTEM_DEFAULT)
 
 
 def read_reach(environment: Mapping[str, str] = os.environ) -> Reach:
@@ -49,12 +54,19 @@ def _domain_id(environment: Mapping[str, str]) -> int:
 
 
 def _extent(environment: Mapping[str, str]) -> str:
-    if environment.get('ROS_LOCALHOST_ONLY') == '1':
+    """Return how far discovery goes, by the rules of rcl: what it does not know is LOCALHOST."""
+    if _is_localhost_only(environment):
         return LOCALHOST
-    extent = environment.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '').upper()
-    return extent if extent in (LOCALHOST, SYSTEM_DEFAULT, OFF) else SUBNET
+    extent = environment.get('ROS_AUTOMATIC_DISCOVERY_RANGE') or SUBNET
+    return extent if extent in (SUBNET, SYSTEM_DEFAULT, OFF) else LOCALHOST
 
 
 def _peers(environment: Mapping[str, str]) -> tuple[str, ...]:
+    if _is_localhost_only(environment):
+        return ()
     texts = environment.get('ROS_STATIC_PEERS', '').split(';')
     return tuple(text.strip() for text in texts if text.strip())
+
+
+def _is_localhost_only(environment: Mapping[str, str]) -> bool:
+    return environment.get('ROS_LOCALHOST_ONLY') == '1'

@@ -79,7 +79,7 @@ class GraphWatch:
         patience = Patience('the answers of all ROS processes on this machine')
         self._exchange(waits=False)
         while not self._is_settled() and not is_done(self.graph):
-            if self._latest_s > self._start_s + PATIENCE * self._spin_time_s:
+            if self._is_in_vain():
                 self._tell_incomplete()
                 break
             patience.check()
@@ -137,3 +137,9 @@ class GraphWatch:
             return False
         is_over = self._latest_s >= self._start_s + self._spin_time_s
         return is_over or (self._reach.is_local and self._link.can_count)
+
+    def _is_in_vain(self) -> bool:
+        """Tell if who has not answered yet will hardly do so."""
+        if self._link and self._link.is_hopeless:
+            return self._latest_s >= self._start_s + self._spin_time_s
+        return self._latest_s > self._start_s + PATIENCE * self._spin_time_s

@@ -38,6 +38,7 @@ from ros2cli.rtps.identifiers import (
     UNKNOWN_ENTITY,
     VENDOR_UNKNOWN,
 )
+from ros2cli.rtps.message import data, heartbeat, message
 from ros2cli.rtps.parameters import (
     Address,
     duration_value,
@@ -47,7 +48,6 @@ from ros2cli.rtps.parameters import (
     number_value,
     text_value,
 )
-from ros2cli.rtps.wire import data, heartbeat, message
 
 LEASE_S = 10
 DISPOSED = b'\0\0\0\3'

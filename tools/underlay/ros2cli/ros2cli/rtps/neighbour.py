@@ -15,9 +15,10 @@ from ros2cli.rtps.identifiers import (
     SUBSCRIPTIONS_READER,
     SUBSCRIPTIONS_WRITER,
 )
+from ros2cli.rtps.message import info_destination, message
 from ros2cli.rtps.parameters import Address, decode_parameters, THIS_HOST
 from ros2cli.rtps.stream import Stream
-from ros2cli.rtps.wire import Data, Gap, Heartbeat, info_destination, message, Submessage
+from ros2cli.rtps.wire import Data, Fragment, Gap, Heartbeat, Submessage
 
 PATIENCE_S = 0.13  # longer than the 0.1 s that Fast DDS takes to answer a request
 MAX_PATIENCE_S = 0.5
@@ -62,6 +63,11 @@ class Neighbour:
         return all(stream.is_complete for stream in self._streams())
 
     @property
+    def knows_reader(self) -> bool:
+        """Tell if it has tried to tell us its nodes, or cannot do so yet."""
+        return self._entities is None or self._entities.is_announced
+
+    @property
     def due_s(self) -> float:
         """Return when to ask again."""
         return float('inf') if self._is_acknowledged else self._ask_again_s
@@ -76,12 +82,13 @@ class Neighbour:
                 self._ask_again_s = 0.0
                 self._is_acknowledged = False
         elif isinstance(news, Gap):
+            stream.skip(news.start, news.end)
             stream.settle(news.numbers)
-        elif isinstance(news, Data) and not stream.has(news.number):
-            self._take(news)
-            stream.settle([news.number])
-        if self.is_complete and not self._is_acknowledged:
-            self._ask_again_s = 0.0
+        elif stream.wants(news.number):
+            sample = stream.fragments.add(news) if isinstance(news, Fragment) else news
+            if sample:
+                self._on_sample(stream, sample)
+        self._hurry()
 
     def requests(self, now_s: float) -> Iterator[tuple[bytes, Address]]:
         """
@@ -97,6 +104,23 @@ class Neighbour:
         if self._entities:
             yield self._message(self._entities.request()), self._user
 
+    def _on_sample(self, stream: Stream, sample: Data) -> None:
+        """Take in a sample; a damaged one would be no better if it came again."""
+        stream.settle([sample.number])
+        if stream is self._entities:
+            self._on_nodes(sample)
+        else:
+            self._on_endpoint(sample)
+
+    def _hurry(self) -> None:
+        """Do not wait with the next request when what was asked for is there."""
+        if self.is_complete:
+            if not self._is_acknowledged:
+                self._ask_again_s = 0.0
+        elif all(each.is_complete or each.is_answered for each in self._streams()):
+            self._ask_again_s = 0.0
+            self._patience_s = PATIENCE_S
+
     def _streams(self) -> list[Stream]:
         streams = (self._publications, self._subscriptions, self._entities)
         return [stream for stream in streams if stream]
@@ -109,20 +133,18 @@ class Neighbour:
             self._entities = Stream(ENTITIES_READER, news.writer)
         return next((each for each in self._streams() if each.writer == news.writer), None)
 
-    def _take(self, news: Data) -> None:
-        if self._entities and news.writer == self._entities.writer:
-            if news.number > self._latest_entities:
-                self._latest_entities = news.number
-                self.nodes = decode_entities(news.payload)
-        elif news.is_disposed:
+    def _on_nodes(self, news: Data) -> None:
+        if news.number > self._latest_entities:
+            self._latest_entities = news.number
+            self.nodes = decode_entities(news.payload)
+
+    def _on_endpoint(self, news: Data) -> None:
+        if news.is_disposed:
             described = decode_parameters(news.payload) if news.payload else news.inline
             self.endpoints.pop(guid_of(described), None)
         else:
-            self._add(
-                endpoint_of(
-                    decode_parameters(news.payload), is_writer=news.writer == PUBLICATIONS_WRITER
-                )
-            )
+            is_writer = news.writer == PUBLICATIONS_WRITER
+            self._add(endpoint_of(decode_parameters(news.payload), is_writer=is_writer))
 
     def _add(self, endpoint: Endpoint) -> None:
         self.endpoints[endpoint.guid] = endpoint

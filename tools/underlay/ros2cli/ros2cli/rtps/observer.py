@@ -54,9 +54,19 @@ class Observer:
         return list(self._neighbours.values())
 
     @property
+    def silent(self) -> list[Address]:
+        """Return who is expected, but has not answered."""
+        return list(self._silent)
+
+    @property
+    def is_told(self) -> bool:
+        """Tell if all who have answered have told everything."""
+        return all(each.is_complete for each in self._neighbours.values())
+
+    @property
     def is_complete(self) -> bool:
         """Tell if all whom we know of have told everything."""
-        return not self._silent and all(each.is_complete for each in self.neighbours)
+        return not self._silent and self.is_told
 
     @property
     def due_s(self) -> float:
@@ -89,6 +99,8 @@ class Observer:
                 self._next_greeting_s = now_s + PACE_S
         for neighbour in self.neighbours:
             if neighbour.due_s <= now_s:
+                if not neighbour.knows_reader:
+                    self.greet(neighbour.discovery)
                 for datagram, address in neighbour.requests(now_s):
                     self._send(datagram, address)
         if now_s - self._alive_s > LEASE_S / 4:
@@ -134,4 +146,5 @@ class Observer:
             if each.discovery == address:
                 del self._neighbours[each.prefix]
         self._neighbours[prefix] = Neighbour(self._prefix, prefix, address, (host, user[0]))
-        self._silent.pop(address, None)
+        if self._silent.pop(address, None) is None:
+            self.greet(address)  # for by multicast it hears of participants, but not of readers

@@ -12,6 +12,7 @@ from ros2cli.rtps.identifiers import PID_SENTINEL
 
 PL_CDR_LE = b'\x00\x03\x00\x00'
 UDP_V4 = 1
+MAX_PORT = 65535
 NO_PARAMETER = b''
 INFINITE = (0x7FFFFFFF, 0xFFFFFFFF)
 INFINITE_NS = 2**63 - 1
@@ -39,33 +40,37 @@ class Parameters(NamedTuple):
         raw = self.first(identifier)
         if not raw:
             return b''
-        (size,) = struct.unpack_from(f'{self.order}I', raw)
-        return raw[4:][: int(size)]
+        (size,) = self._unpack('I', raw)
+        return raw[4:][:size]
 
     def number(self, identifier: int, default: int) -> int:
         """Return an enumerator."""
         raw = self.first(identifier)
         if not raw:
             return default
-        (number,) = struct.unpack_from(f'{self.order}I', raw)
-        return int(number)
+        (number,) = self._unpack('I', raw)
+        return number
 
     def duration_ns(self, identifier: int, offset: int = 0) -> int:
         """Return a duration; it is infinite if it is not there."""
         raw = self.first(identifier)
         if not raw:
             return INFINITE_NS
-        seconds, fraction = struct.unpack_from(f'{self.order}iI', raw, offset)
+        seconds, fraction = self._unpack('iI', raw[offset:])
         if (seconds, fraction) == INFINITE:
             return INFINITE_NS
-        return int(seconds) * 10**9 + round(int(fraction) * 10**9 / 2**32)
+        return seconds * 10**9 + round(fraction * 10**9 / 2**32)
 
     def ports(self, identifier: int) -> list[int]:
         """Return the UDP ports of locators."""
-        found = [
-            struct.unpack_from(f'{self.order}iI', raw) for raw in self.values.get(identifier, [])
-        ]
-        return [int(port) for kind, port in found if kind == UDP_V4]
+        found = [self._unpack('iI', raw) for raw in self.values.get(identifier, [])]
+        return [port for kind, port in found if kind == UDP_V4 and 0 < port <= MAX_PORT]
+
+    def _unpack(self, layout: str, raw: bytes) -> tuple[int, ...]:
+        try:
+            return struct.unpack_from(f'{self.order}{layout}', raw)
+        except struct.error as error:
+            raise ValueError(f'a damaged parameter: {error}') from error
 
 
 def decode_parameters(payload: bytes) -> Parameters:

@@ -5,9 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ros2cli.rtps.wire import acknack
+from ros2cli.rtps.fragments import Fragments
+from ros2cli.rtps.message import acknack
+from ros2cli.rtps.wire import MAX_NUMBERS
 
-MAX_SAMPLES = 100_000
+MAX_AHEAD = 10_000  # samples that are kept in mind behind one that is missing
 
 
 class Stream:
@@ -16,37 +18,51 @@ class Stream:
     def __init__(self, reader: bytes, writer: bytes) -> None:
         """Know nothing yet of what the writer has."""
         self.writer = writer
+        self.fragments = Fragments()
         self._reader = reader
         self._last: int | None = None
-        self._missing: set[int] = set()
-        self._settled: set[int] = set()
+        self._next = 1
+        self._ahead: set[int] = set()
         self._requests = 0
+        self._requested = 0
+
+    @property
+    def is_announced(self) -> bool:
+        """Tell if the writer has said what it has."""
+        return self._last is not None
 
     @property
     def is_complete(self) -> bool:
         """Tell if all has come that the writer has, as far as it has said."""
-        return self._last is not None and not self._missing
+        return self._last is not None and self._next > self._last
+
+    @property
+    def is_answered(self) -> bool:
+        """Tell if all has come that was asked for, but not all that there is."""
+        return not self.is_complete and self._next > self._requested > 0
 
     def on_heartbeat(self, first: int, last: int) -> bool:
         """Learn which sequence numbers there are; return whether that asks for more."""
-        known = self._last or 0
-        if last - max(first, known) > MAX_SAMPLES:
-            raise ValueError(f'{last - first} samples of one writer')
-        is_news = self._last is None or last > known
-        self._last = max(last, known)
-        self._missing = {number for number in self._missing if number >= first}
-        self._missing.update(range(max(first, known + 1), last + 1))
-        self._missing -= self._settled
+        is_news = self._last is None or last > self._last
+        self._last = max(last, self._last or 0)
+        self._advance(first)
         return is_news and not self.is_complete
 
-    def has(self, number: int) -> bool:
-        """Tell if a sample is there already; most come twice."""
-        return number in self._settled
+    def wants(self, number: int) -> bool:
+        """Tell if a sample has not come yet; most come twice."""
+        return self._next <= number < self._next + MAX_AHEAD and number not in self._ahead
 
     def settle(self, numbers: Iterable[int]) -> None:
         """Note what has come, or will never come."""
-        self._settled.update(numbers)
-        self._missing.difference_update(numbers)
+        self._ahead.update(number for number in numbers if self.wants(number))
+        self._advance(self._next)
+
+    def skip(self, start: int, end: int) -> None:
+        """Note that nothing will ever come from a number to before another."""
+        if start <= self._next:
+            self._advance(end)
+        else:
+            self.settle(range(start, min(end, self._next + MAX_AHEAD)))
 
     def request(self) -> bytes:
         """
@@ -54,8 +70,17 @@ class Stream:
 
         As long as nothing is known it asks for a heartbeat.
         """
-        missing = sorted(self._missing)
+        base = 0 if self._last is None else self._next
+        end = min(self._last or 0, base + MAX_NUMBERS - 1) + 1
+        missing = [number for number in range(base, end) if number not in self._ahead]
         self._requests += 1
-        unknown = 0 if self._last is None else self._last + 1
-        base = missing[0] if missing else unknown
+        self._requested = max(missing, default=0)
         return acknack(self._reader, self.writer, base, missing, self._requests)
+
+    def _advance(self, to: int) -> None:
+        if to > self._next:
+            self._next = to
+            self._ahead = {number for number in self._ahead if number >= to}
+        while self._next in self._ahead:
+            self._ahead.remove(self._next)
+            self._next += 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Datagrams: a header and submessages (8.3, 9.4)."""
+"""Datagrams that we read: a header and submessages (8.3, 9.4)."""
 
 from __future__ import annotations
 
@@ -7,22 +7,20 @@ from collections.abc import Callable, Iterator
 import struct
 from typing import NamedTuple
 
-from ros2cli.rtps.identifiers import (
-    PID_STATUS_INFO,
-    PREFIX_BYTES,
-    PROTOCOL_VERSION,
-    VENDOR_UNKNOWN,
-)
+from ros2cli.rtps.identifiers import PID_STATUS_INFO, PREFIX_BYTES
 from ros2cli.rtps.parameters import Parameters, read_parameters
 
 MAGIC = b'RTPS'
 HEADER_BYTES = 20
-ACKNACK, HEARTBEAT, GAP, INFO_DESTINATION, DATA = 0x06, 0x07, 0x08, 0x0E, 0x15
+PAD, ACKNACK, HEARTBEAT, GAP, INFO_TIME = 0x01, 0x06, 0x07, 0x08, 0x09
+INFO_DESTINATION, DATA, DATA_FRAG = 0x0E, 0x15, 0x16
+MAY_BE_EMPTY = (PAD, INFO_TIME)  # while the others then reach to the end of the datagram
 LITTLE_ENDIAN = 0b0001
-FINAL = 0b0010
 INLINE_QOS = 0b0010
 PAYLOAD = 0b0100
 KEY = 0b1000
+KEY_OF_FRAGMENT = 0b0100
+MAX_NUMBER = 2**62  # of a sample; the last numbers of 64 bits are not worth a special case
 MAX_NUMBERS = 256  # in a set of sequence numbers
 
 
@@ -37,6 +35,22 @@ class Data(NamedTuple):
     is_disposed: bool
 
 
+class Fragment(NamedTuple):
+    """
+    A part of a sample that is too large for one datagram.
+
+    :param start: of the part in the sample
+    :param size: of the sample
+    """
+
+    reader: bytes
+    writer: bytes
+    number: int
+    start: int
+    size: int
+    payload: bytes
+
+
 class Heartbeat(NamedTuple):
     """The sequence numbers that a writer has."""
 
@@ -47,14 +61,16 @@ class Heartbeat(NamedTuple):
 
 
 class Gap(NamedTuple):
-    """Sequence numbers that a writer no longer has."""
+    """Sequence numbers that a writer no longer has: from start to before end, and some more."""
 
     reader: bytes
     writer: bytes
+    start: int
+    end: int
     numbers: frozenset[int]
 
 
-Submessage = Data | Heartbeat | Gap
+Submessage = Data | Fragment | Heartbeat | Gap
 
 
 def sender(datagram: bytes) -> bytes | None:
@@ -80,7 +96,7 @@ def _submessages(datagram: bytes, own_prefix: bytes) -> Iterator[Submessage]:
         order = '<' if flags & LITTLE_ENDIAN else '>'
         (length,) = struct.unpack_from(f'{order}H', datagram, offset + 2)
         start = offset + 4
-        offset = start + length if length else len(datagram)
+        offset = start + length if length or kind in MAY_BE_EMPTY else len(datagram)
         if offset > len(datagram):
             raise ValueError(f'{offset - len(datagram)} bytes of a datagram are missing')
         body = datagram[start:offset]
@@ -92,7 +108,10 @@ def _submessages(datagram: bytes, own_prefix: bytes) -> Iterator[Submessage]:
 
 def _number(body: bytes, offset: int, order: str) -> int:
     high, low = struct.unpack_from(f'{order}iI', body, offset)
-    return (int(high) << 32) + int(low)
+    number = (int(high) << 32) + int(low)
+    if not 0 <= number <= MAX_NUMBER:
+        raise ValueError(f'the sequence number {number}')
+    return number
 
 
 def _number_set(body: bytes, offset: int, order: str) -> tuple[int, frozenset[int]]:
@@ -115,63 +134,33 @@ def _data(body: bytes, flags: int, order: str) -> Data:
     return Data(body[4:8], body[8:12], _number(body, 12, order), payload, inline, is_disposed)
 
 
+def _fragment(body: bytes, flags: int, order: str) -> Fragment:
+    (to_qos,) = struct.unpack_from(f'{order}H', body, 2)
+    first, _count, unit, size = struct.unpack_from(f'{order}IHHI', body, 20)
+    offset = 4 + to_qos
+    if flags & INLINE_QOS:
+        _, offset = read_parameters(body, offset, order)
+    if flags & KEY_OF_FRAGMENT or not 1 <= first <= size:
+        raise ValueError(f'fragment {first} of a sample of {size} bytes')
+    start = (first - 1) * unit
+    return Fragment(body[4:8], body[8:12], _number(body, 12, order), start, size, body[offset:])
+
+
 def _heartbeat(body: bytes, _: int, order: str) -> Heartbeat:
-    return Heartbeat(body[:4], body[4:8], _number(body, 8, order), _number(body, 16, order))
+    first, last = _number(body, 8, order), _number(body, 16, order)
+    if not 1 <= first <= last + 1:
+        raise ValueError(f'samples from {first} to {last}')
+    return Heartbeat(body[:4], body[4:8], first, last)
 
 
 def _gap(body: bytes, _: int, order: str) -> Gap:
-    start = _number(body, 8, order)
-    base, numbers = _number_set(body, 16, order)
-    if base - start > MAX_NUMBERS * MAX_NUMBERS:
-        raise ValueError(f'a gap of {base - start} sequence numbers')
-    return Gap(body[:4], body[4:8], numbers | frozenset(range(start, base)))
+    end, numbers = _number_set(body, 16, order)
+    return Gap(body[:4], body[4:8], _number(body, 8, order), end, numbers)
 
 
 _DECODERS: dict[int, Callable[[bytes, int, str], Submessage]] = {
     DATA: _data,
+    DATA_FRAG: _fragment,
     HEARTBEAT: _heartbeat,
     GAP: _gap,
 }
-
-
-def message(own_prefix: bytes, *parts: bytes) -> bytes:
-    """Return a datagram of submessages."""
-    return b''.join((MAGIC, PROTOCOL_VERSION, VENDOR_UNKNOWN, own_prefix, *parts))
-
-
-def info_destination(prefix: bytes) -> bytes:
-    """Say for whom the submessages that follow are."""
-    return _submessage(INFO_DESTINATION, 0, prefix)
-
-
-def data(reader: bytes, writer: bytes, number: int, payload: bytes, key_qos: bytes = b'') -> bytes:
-    """Return a sample; with `key_qos`, inline parameters, the payload is only the key."""
-    flags = INLINE_QOS | KEY if key_qos else PAYLOAD
-    ends = struct.pack('<HH', 0, 16) + reader + writer
-    return _submessage(DATA, flags, ends + _sequence_number(number) + key_qos + payload)
-
-
-def heartbeat(reader: bytes, writer: bytes, first: int, last: int, count: int) -> bytes:
-    """Tell a reader which sequence numbers there are, and ask what it lacks."""
-    numbers = _sequence_number(first) + _sequence_number(last)
-    return _submessage(HEARTBEAT, 0, reader + writer + numbers + struct.pack('<I', count))
-
-
-def acknack(reader: bytes, writer: bytes, base: int, missing: list[int], count: int) -> bytes:
-    """Tell a writer that all before `base` has come; ask for what is missing, if anything is."""
-    flags = 0 if missing or not base else FINAL
-    wanted = [number - base for number in missing if number - base < MAX_NUMBERS]
-    size = max(wanted) + 1 if wanted else 0
-    words = [0] * ((size + 31) // 32)
-    for i in wanted:
-        words[i // 32] |= 1 << (31 - i % 32)
-    numbers = _sequence_number(base) + struct.pack(f'<I{len(words)}I', size, *words)
-    return _submessage(ACKNACK, flags, reader + writer + numbers + struct.pack('<I', count))
-
-
-def _sequence_number(number: int) -> bytes:
-    return struct.pack('<iI', number >> 32, number & 0xFFFFFFFF)
-
-
-def _submessage(kind: int, flags: int, body: bytes) -> bytes:
-    return struct.pack('<BBH', kind, flags | LITTLE_ENDIAN, len(body)) + body

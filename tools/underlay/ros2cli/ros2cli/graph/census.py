@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Count who must answer on this machine, and look closer at those who do not."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from ros2cli.graph.holders import find_holders, Holder
+from ros2cli.graph.participants import participant_sockets
+from ros2cli.rtps.parameters import Address, THIS_HOST
+
+SILENCE_S = 0.4  # after which it costs less to look at all processes than to wait on
+
+
+class Census:
+    """The participants of a domain on this machine, as the kernel shows them."""
+
+    def __init__(self, domain_id: int) -> None:
+        """Know of nobody."""
+        self._domain_id = domain_id
+        self._sockets: dict[int, str] = {}
+        self._since_s: dict[str, float] = {}
+        self._holders: dict[str, Holder | None] = {}
+
+    def take(self, now_s: float, silent: Collection[Address]) -> list[Address] | None:
+        """
+        Return the addresses of participants, ourselves apart; None if they cannot be counted.
+
+        :param silent: those of the last time who have not answered yet
+        """
+        sockets = participant_sockets(self._domain_id)
+        if sockets is None:
+            return None
+        self._sockets = sockets
+        self._since_s = {
+            inode: self._since_s.get(inode, now_s) for inode in self._sockets.values()
+        }
+        self._examine(now_s, silent)
+        return [(THIS_HOST, port) for port, inode in sockets.items() if self._may_answer(inode)]
+
+    def are_stopped(self, silent: Collection[Address]) -> bool:
+        """Tell if those who do not answer are stopped processes, so that waiting is no use."""
+        holders = [self._holders.get(self._sockets.get(port, '')) for _, port in silent]
+        return bool(holders) and all(holder and holder.is_stopped for holder in holders)
+
+    def _examine(self, now_s: float, silent: Collection[Address]) -> None:
+        inodes = {self._sockets.get(port, '') for _, port in silent} & self._since_s.keys()
+        doubtful = {inode for inode in inodes if now_s - self._since_s[inode] >= SILENCE_S}
+        if doubtful - self._holders.keys():
+            found = find_holders(doubtful)
+            self._holders.update({inode: found.get(inode) for inode in doubtful})
+
+    def _may_answer(self, inode: str) -> bool:
+        """Tell if a pair of ports may be that of a participant that others can discover."""
+        holder = self._holders.get(inode)
+        return holder is None or holder.may_answer
