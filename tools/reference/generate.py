@@ -29,9 +29,9 @@ def block(text: str) -> str:
 
 
 def listed(help_text: str) -> list[str]:
-    """Return the names that the help of `ros2`, or of a command, lists at its end."""
-    listing = re.split('^(?:Commands|Verbs):$', help_text, flags=re.MULTILINE)[-1]
-    return re.findall(r'^  (\w+)  ', listing, flags=re.MULTILINE)
+    """Return the names that the help of `ros2`, or of a command, lists at its end, if any."""
+    _, *listing = re.split('^(?:Commands|Verbs):$', help_text, flags=re.MULTILINE)
+    return re.findall(r'^  (\w+)  ', ''.join(listing), flags=re.MULTILINE)
 
 
 def commands_page() -> str:

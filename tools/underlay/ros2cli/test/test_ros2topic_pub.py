@@ -125,6 +125,11 @@ FIELD = 'Failed to populate field: '
             f"{FIELD}'String' object has no attribute 'nope'\n",
         ),
         (
+            ['sensor_msgs/msg/Temperature', '{temperatur: 1}'],
+            f"{FIELD}'Temperature' object has no attribute 'temperatur'\n"
+            "Did you mean 'temperature'?\n",
+        ),
+        (
             ['std_msgs/msg/Int8', '{data: 300}'],
             f"{FIELD}'data' needs a whole number from -128 to 127 (int8), but got 300\n",
         ),

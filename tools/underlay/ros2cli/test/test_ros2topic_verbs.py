@@ -175,6 +175,12 @@ ERRORS = [
         "Invalid field 'nope': 'JointState' object has no attribute 'nope'\n",
     ),
     (
+        [*ECHO_JOINTS, '--field', 'positions'],
+        '',
+        "Invalid field 'positions': 'JointState' object has no attribute 'positions'\n"
+        "Did you mean 'position'?\n",
+    ),
+    (
         [*ECHO_JOINTS, '--filter', 'm.nope'],
         '',
         "The filter 'm.nope' does not fit: 'JointState' object has no field 'nope'\n",

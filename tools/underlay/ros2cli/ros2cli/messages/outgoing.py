@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ros2cli.messages.field_hint import field_hint
 from ros2cli.messages.fill import fill
 from ros2cli.messages.lookup import UnknownType
 from ros2cli.messages.values import parse_values
@@ -22,7 +23,8 @@ class OutgoingMessage:
         try:
             self._stamps = fill(message, values)
         except (AttributeError, AssertionError, TypeError, ValueError, UnknownType) as error:
-            raise RuntimeError(error_text.format(error)) from error
+            lines = [error_text.format(error), field_hint(error)]
+            raise RuntimeError('\n'.join(lines).rstrip()) from error
 
     def stamped(self, now: Any) -> Any:
         """Return the message with the time in all fields that want it."""

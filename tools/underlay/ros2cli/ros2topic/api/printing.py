@@ -7,6 +7,7 @@ import argparse
 from collections.abc import Callable
 from typing import Any
 
+from ros2cli.messages.field_hint import field_hint
 from ros2cli.messages.plain import Shortening
 from ros2cli.messages.text import to_csv, to_yaml
 
@@ -39,7 +40,8 @@ def nested_field(message: Any, path: str) -> Any:
         try:
             value = getattr(value, name)
         except AttributeError as error:
-            raise RuntimeError(f"Invalid field '{path}': {error}") from error
+            lines = [f"Invalid field '{path}': {error}", field_hint(error)]
+            raise RuntimeError('\n'.join(lines).rstrip()) from error
     return value
 
 

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which field of a message may be meant."""
+
+from __future__ import annotations
+
+from ros2cli.suggest import did_you_mean
+
+
+def field_hint(error: Exception) -> str:
+    """Return a question that names the field which is meant, for an AttributeError, or ''."""
+    fields = getattr(getattr(error, 'obj', None), 'get_fields_and_field_types', dict)()
+    return did_you_mean(getattr(error, 'name', None) or '', fields)
