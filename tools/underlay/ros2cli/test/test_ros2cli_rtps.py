@@ -30,6 +30,7 @@ from ros2cli.rtps.parameters import (
     THIS_HOST,
 )
 from ros2cli.rtps.stream import MAX_AHEAD, Stream
+from ros2cli.rtps.text import text_of
 from ros2cli.rtps.wire import Gap, Heartbeat, submessages
 from rtps_network import DISTANT_HOST, gap, Network
 
@@ -353,6 +354,22 @@ def test_damaged_payloads(payload: bytes) -> None:
         decode_entities(payload)
     with pytest.raises(ValueError, match='damaged'):
         decode_parameters(payload)
+
+
+@pytest.mark.parametrize(
+    ('raw', 'expected'),
+    [
+        (b'/robot1/arm\0', '/robot1/arm'),
+        ('/gr\u00fcn\0'.encode(), '/gr\u00fcn'),
+        (b'/a\x1b[2J\nb\0', r'/a\x1b[2J\nb'),
+        (b'/\xff\xfe\0', r'/\xff\xfe'),
+        ('/\u202ea'.encode(), r'/\u202ea'),
+        (b'/a\0b\0', r'/a\x00b'),
+    ],
+)
+def test_names_do_nothing_to_a_terminal(raw: bytes, expected: str) -> None:
+    """Whoever sends a name, printing it neither begins a line nor moves a cursor."""
+    assert text_of(raw) == expected
 
 
 def test_ports() -> None:
