@@ -79,8 +79,8 @@ class Network:
 
     def count(self) -> None:
         """Tell the observer which ports are open."""
-        found = self.participants.values()
-        self.observer.expect([(THIS_HOST, each.port) for each in found if each.host == THIS_HOST])
+        here = [each for each in self.participants.values() if each.host == THIS_HOST]
+        self.observer.expect({(THIS_HOST, each.port): each.prefix.hex() for each in here})
 
     def run(self, duration_s: float) -> float:
         """Let time pass until the observer knows all; return the time."""

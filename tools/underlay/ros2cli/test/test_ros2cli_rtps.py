@@ -102,7 +102,7 @@ def test_silent_process_is_never_complete() -> None:
     network = Network()
     network.add(0)
     network.count()
-    network.observer.expect([(THIS_HOST, 7410), (THIS_HOST, 7412)])
+    network.observer.expect({(THIS_HOST, 7410): 'a', (THIS_HOST, 7412): 'b'})
     network.run(2.0)
     assert names(network) == ['node0_0']
     assert not network.observer.is_complete
@@ -199,6 +199,19 @@ def test_restarted_process_replaces_the_old_one() -> None:
         network.step()
     assert topics(network) == ['/in0', '/new']
     assert names(network) == ['node0_0']
+
+
+def test_successor_of_a_killed_process_is_asked() -> None:
+    """Who has taken the port of another that said no farewell is not mistaken for it."""
+    network = Network()
+    network.add(0, topics=['old'])
+    network.count()
+    network.run(LONG_S)
+    network.add(0, topics=['new'])
+    network.count()
+    assert names(network) == []
+    assert network.run(LONG_S) < 1.0
+    assert topics(network) == ['/in0', '/new']
 
 
 def test_everybody_is_taken_leave_of() -> None:

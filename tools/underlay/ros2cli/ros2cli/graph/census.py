@@ -22,9 +22,11 @@ class Census:
         self._since_s: dict[str, float] = {}
         self._holders: dict[str, Holder | None] = {}
 
-    def take(self, now_s: float, silent: Collection[Address]) -> list[Address] | None:
+    def take(self, now_s: float, silent: Collection[Address]) -> dict[Address, str] | None:
         """
         Return the addresses of participants, ourselves apart; None if they cannot be counted.
+
+        With each comes its socket's inode, by which it is told from another at its address.
 
         :param silent: those of the last time who have not answered yet
         """
@@ -36,7 +38,9 @@ class Census:
             inode: self._since_s.get(inode, now_s) for inode in self._sockets.values()
         }
         self._examine(now_s, silent)
-        return [(THIS_HOST, port) for port, inode in sockets.items() if self._may_answer(inode)]
+        return {
+            (THIS_HOST, port): inode for port, inode in sockets.items() if self._may_answer(inode)
+        }
 
     def are_stopped(self, silent: Collection[Address]) -> bool:
         """Tell if those who do not answer are stopped processes, so that waiting is no use."""

@@ -82,7 +82,7 @@ class Link:
         self._count_s = now_s + COUNT_PERIOD_S
         addresses = self._census.take(now_s, self.observer.silent)
         self.can_count = addresses is not None
-        self.observer.expect(addresses or ())
+        self.observer.expect(addresses or {})
 
     def _greet_distant(self) -> None:
         if self._reach.is_wide:

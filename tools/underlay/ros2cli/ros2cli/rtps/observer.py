@@ -8,7 +8,7 @@ would have to be sent again, which takes seconds.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 
 from ros2cli.rtps.greeting import farewell, greeting, LEASE_S, new_prefix
@@ -42,7 +42,7 @@ class Observer:
         self._greeting = greeting(self._prefix, addresses)
         self._send = send
         self._neighbours: dict[bytes, Neighbour] = {}
-        self._expected: set[Address] = set()
+        self._expected: dict[Address, str] = {}
         self._silent: dict[Address, float] = {}  # who has not answered, and when it was greeted
         self._next_greeting_s = NEVER_S
         self._alive_s = NEVER_S
@@ -59,9 +59,14 @@ class Observer:
         return list(self._silent)
 
     @property
+    def told(self) -> int:
+        """Return how many have told everything."""
+        return sum(each.is_complete for each in self._neighbours.values())
+
+    @property
     def is_told(self) -> bool:
         """Tell if all who have answered have told everything."""
-        return all(each.is_complete for each in self._neighbours.values())
+        return self.told == len(self._neighbours)
 
     @property
     def is_complete(self) -> bool:
@@ -75,15 +80,21 @@ class Observer:
         question_s = min((each.due_s for each in self.neighbours), default=float('inf'))
         return min(max(greeting_s, self._next_greeting_s), question_s)
 
-    def expect(self, addresses: Iterable[Address]) -> None:
-        """Set who there is on this machine, ourselves apart; who has left is forgotten."""
-        self._expected = expected = set(addresses)
+    def expect(self, present: Mapping[Address, str]) -> None:
+        """
+        Set who there is on this machine, ourselves apart; who has left is forgotten.
+
+        :param present: where they hear, and by what one is told from the next at its address
+        """
+        before, self._expected = self._expected, dict(present)
+        stayed = {address for address in present if present[address] == before.get(address)}
         for each in self.neighbours:
-            if each.is_here and each.discovery not in expected:
+            if each.is_here and each.discovery not in stayed:
                 del self._neighbours[each.prefix]
         answered = {each.discovery for each in self.neighbours}
         self._silent = {
-            address: self._silent.get(address, NEVER_S) for address in expected - answered
+            address: self._silent.get(address, NEVER_S) if address in stayed else NEVER_S
+            for address in present.keys() - answered
         }
 
     def greet(self, address: Address) -> None:
