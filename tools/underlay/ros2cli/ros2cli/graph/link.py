@@ -55,7 +55,8 @@ class Link:
     @property
     def is_hopeless(self) -> bool:
         """Tell if only stopped processes have not answered, and all others have."""
-        return self.observer.is_told and self._census.are_stopped(self.observer.silent)
+        silent = self.observer.silent
+        return len(silent) == self.observer.missing and self._census.are_stopped(silent)
 
     def close(self) -> None:
         """Take leave."""

@@ -19,7 +19,7 @@ from ros2cli.rtps.greeting import LEASE_S
 T = TypeVar('T')
 
 # How many times as long as the spin time processes are waited for that are there, but do not
-# answer: after the last answer of another one, and in all.
+# answer: since there were the fewest of them, and in all.
 PATIENCE = 8
 MAX_PATIENCE = 40
 INCOMPLETE = (
@@ -37,7 +37,7 @@ class GraphWatch:
         self._spin_time_s = spin_time_s
         self._link: Link | None = None
         self._start_s = self._latest_s = self._news_s = 0.0
-        self._told = 0
+        self._fewest_missing = sys.maxsize
         self._has_told = False
 
     def __enter__(self) -> GraphWatch:
@@ -120,6 +120,7 @@ class GraphWatch:
         if self._link is None:
             self._link = Link(self._reach)
             self._start_s = self._news_s = now_s
+            self._fewest_missing = sys.maxsize
         self._latest_s = now_s
         self._link.exchange(waits=waits)
 
@@ -134,9 +135,9 @@ class GraphWatch:
         """Tell if who has not answered yet will hardly do so: for a while, nobody has."""
         if self._link is None:
             return True
-        told = self._link.observer.told
-        if told != self._told:
-            self._told, self._news_s = told, self._latest_s
+        missing = self._link.observer.missing
+        if missing < self._fewest_missing:
+            self._fewest_missing, self._news_s = missing, self._latest_s
         if self._link.is_hopeless:
             return self._latest_s >= self._start_s + self._spin_time_s
         end_s = self._start_s + MAX_PATIENCE * self._spin_time_s

@@ -59,19 +59,14 @@ class Observer:
         return list(self._silent)
 
     @property
-    def told(self) -> int:
-        """Return how many have told everything."""
-        return sum(each.is_complete for each in self._neighbours.values())
-
-    @property
-    def is_told(self) -> bool:
-        """Tell if all who have answered have told everything."""
-        return self.told == len(self._neighbours)
+    def missing(self) -> int:
+        """Return how many of those whom we know of have not told everything."""
+        return len(self._silent) + sum(not each.is_complete for each in self.neighbours)
 
     @property
     def is_complete(self) -> bool:
         """Tell if all whom we know of have told everything."""
-        return not self._silent and self.is_told
+        return not self.missing
 
     @property
     def due_s(self) -> float:
