@@ -175,6 +175,21 @@ def test_distant_processes_are_greeted_themselves(loss: float) -> None:
     assert len(names(network)) == 3
 
 
+def test_distant_process_is_lost_after_its_lease() -> None:
+    """Who is on another machine is forgotten when it was silent for longer than it promised."""
+    network = Network()
+    network.add(0, host=DISTANT_HOST)._answer_greeting()
+    network.step()
+    network.run(2.0)
+    network.participants.clear()
+    network.now_s += 15.0
+    network.step()
+    assert names(network) == ['node0_0']
+    network.now_s += 21.0
+    network.step()
+    assert names(network) == []
+
+
 def test_ended_process_is_forgotten() -> None:
     """A process whose port is closed is gone, even if it was killed without a word."""
     network = Network()

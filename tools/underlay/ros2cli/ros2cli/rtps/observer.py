@@ -15,6 +15,7 @@ from ros2cli.rtps.greeting import farewell, greeting, LEASE_S, new_prefix
 from ros2cli.rtps.identifiers import (
     PARTICIPANTS_WRITER,
     PID_DEFAULT_UNICAST_LOCATOR,
+    PID_LEASE_DURATION,
     PID_METATRAFFIC_UNICAST_LOCATOR,
 )
 from ros2cli.rtps.neighbour import Neighbour
@@ -45,7 +46,7 @@ class Observer:
         self._expected: dict[Address, str] = {}
         self._silent: dict[Address, float] = {}  # who has not answered, and when it was greeted
         self._next_greeting_s = NEVER_S
-        self._alive_s = NEVER_S
+        self._alive_s = self._now_s = NEVER_S
         self._latest = b''
 
     @property
@@ -98,6 +99,8 @@ class Observer:
 
     def ask(self, now_s: float) -> None:
         """Send what is due: the next greeting, questions, and signs of life."""
+        self._now_s = now_s
+        self._forget_lost()
         for address, greeted_s in self._silent.items():
             if max(greeted_s + GREET_AGAIN_S, self._next_greeting_s) <= now_s:
                 self.greet(address)
@@ -119,6 +122,8 @@ class Observer:
         prefix = sender(datagram)
         if prefix is None or prefix == self._prefix or datagram == self._latest:
             return
+        if prefix in self._neighbours:
+            self._neighbours[prefix].heard_s = self._now_s
         self._latest = datagram  # which often comes a second time, through another interface
         with suppress(ValueError):
             for news in submessages(datagram, self._prefix):
@@ -130,6 +135,12 @@ class Observer:
         greeted = {address for address, when in self._silent.items() if when > NEVER_S}
         for address in addresses | greeted:
             self._send(farewell(self._prefix), address)
+
+    def _forget_lost(self) -> None:
+        """Forget those on other machines who have said nothing for longer than they promise."""
+        for each in self.neighbours:
+            if not each.is_here and self._now_s > each.heard_s + max(each.lease_s, LEASE_S):
+                del self._neighbours[each.prefix]
 
     def _handle(self, news: Submessage, prefix: bytes, host: str) -> None:
         if news.writer != PARTICIPANTS_WRITER:
@@ -151,6 +162,8 @@ class Observer:
         for each in self.neighbours:
             if each.discovery == address:
                 del self._neighbours[each.prefix]
-        self._neighbours[prefix] = Neighbour(self._prefix, prefix, address, (host, user[0]))
+        self._neighbours[prefix] = met = Neighbour(self._prefix, prefix, address, (host, user[0]))
+        met.heard_s = self._now_s
+        met.lease_s = described.duration_ns(PID_LEASE_DURATION) / 10**9
         if self._silent.pop(address, None) is None:
             self.greet(address)  # for by multicast it hears of participants, but not of readers
