@@ -10,8 +10,9 @@ import sys
 from domain_coordinator import domain_id
 import pytest
 from ros2cli.graph import census as module
-from ros2cli.graph.census import Census, SILENCE_S
+from ros2cli.graph.census import AGAIN_S, Census, SILENCE_S
 from ros2cli.graph.holders import find_holders, Holder
+from ros2cli.graph.interfaces import read_interfaces
 from ros2cli.graph.link import Link, MAX_WAITING
 from ros2cli.graph.reach import LOCALHOST, Reach, SUBNET
 from ros2cli.graph.watch import GraphWatch
@@ -95,6 +96,8 @@ def test_strangers_are_not_waited_for(holders: dict[str, Holder]) -> None:
     assert census.take(SILENCE_S, [SECOND]) == {FIRST: '1'}
     assert census.take(2 * SILENCE_S, []) == {FIRST: '1'}
     assert not census.are_stopped([])
+    holders['2'] = Holder(9, True, False)
+    assert census.take(SILENCE_S + AGAIN_S, []) == BOTH
 
 
 def test_stopped_processes(holders: dict[str, Holder]) -> None:
@@ -139,6 +142,12 @@ def test_flood_is_no_endless_loop(monkeypatch: pytest.MonkeyPatch) -> None:
         link._receive()
         assert 0 < len(link._waiting) <= MAX_WAITING
     assert flood.reads > MAX_WAITING
+
+
+def test_interface_that_goes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An interface that is gone between two questions to the kernel is none."""
+    monkeypatch.setattr(socket, 'if_nameindex', lambda: [(1, 'gone0'), (2, 'lo')])
+    assert [each.name for each in read_interfaces()] == ['lo']
 
 
 def test_peer_without_address(monkeypatch: pytest.MonkeyPatch) -> None:
