@@ -17,6 +17,7 @@ from ros2cli.rtps.identifiers import (
     PID_DURABILITY,
     PID_ENDPOINT_GUID,
     PID_KEY_HASH,
+    PID_LEASE_DURATION,
     PID_METATRAFFIC_UNICAST_LOCATOR,
     PID_RELIABILITY,
     PID_STATUS_INFO,
@@ -79,8 +80,8 @@ class Network:
 
     def count(self) -> None:
         """Tell the observer which ports are open."""
-        found = self.participants.values()
-        self.observer.expect([(THIS_HOST, each.port) for each in found if each.host == THIS_HOST])
+        here = [each for each in self.participants.values() if each.host == THIS_HOST]
+        self.observer.expect({(THIS_HOST, each.port): each.prefix.hex() for each in here})
 
     def run(self, duration_s: float) -> float:
         """Let time pass until the observer knows all; return the time."""
@@ -191,8 +192,10 @@ class Participant:
         self._knows_reader |= knows_reader
         locators = (PID_METATRAFFIC_UNICAST_LOCATOR, 0), (PID_DEFAULT_UNICAST_LOCATOR, 1)
         described = encode_parameters(
-            (identifier, locator_value((THIS_HOST, self.port + offset)))
-            for identifier, offset in locators
+            [
+                (PID_LEASE_DURATION, duration_value(20)),
+                *((kind, locator_value((THIS_HOST, self.port + add))) for kind, add in locators),
+            ]
         )
         self._send(data(UNKNOWN_ENTITY, PARTICIPANTS_WRITER, 1, described))
         self._is_known = True

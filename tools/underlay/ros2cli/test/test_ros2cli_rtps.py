@@ -30,6 +30,7 @@ from ros2cli.rtps.parameters import (
     THIS_HOST,
 )
 from ros2cli.rtps.stream import MAX_AHEAD, Stream
+from ros2cli.rtps.text import text_of
 from ros2cli.rtps.wire import Gap, Heartbeat, submessages
 from rtps_network import DISTANT_HOST, gap, Network
 
@@ -101,7 +102,7 @@ def test_silent_process_is_never_complete() -> None:
     network = Network()
     network.add(0)
     network.count()
-    network.observer.expect([(THIS_HOST, 7410), (THIS_HOST, 7412)])
+    network.observer.expect({(THIS_HOST, 7410): 'a', (THIS_HOST, 7412): 'b'})
     network.run(2.0)
     assert names(network) == ['node0_0']
     assert not network.observer.is_complete
@@ -174,6 +175,21 @@ def test_distant_processes_are_greeted_themselves(loss: float) -> None:
     assert len(names(network)) == 3
 
 
+def test_distant_process_is_lost_after_its_lease() -> None:
+    """Who is on another machine is forgotten when it was silent for longer than it promised."""
+    network = Network()
+    network.add(0, host=DISTANT_HOST)._answer_greeting()
+    network.step()
+    network.run(2.0)
+    network.participants.clear()
+    network.now_s += 15.0
+    network.step()
+    assert names(network) == ['node0_0']
+    network.now_s += 21.0
+    network.step()
+    assert names(network) == []
+
+
 def test_ended_process_is_forgotten() -> None:
     """A process whose port is closed is gone, even if it was killed without a word."""
     network = Network()
@@ -198,6 +214,19 @@ def test_restarted_process_replaces_the_old_one() -> None:
         network.step()
     assert topics(network) == ['/in0', '/new']
     assert names(network) == ['node0_0']
+
+
+def test_successor_of_a_killed_process_is_asked() -> None:
+    """Who has taken the port of another that said no farewell is not mistaken for it."""
+    network = Network()
+    network.add(0, topics=['old'])
+    network.count()
+    network.run(LONG_S)
+    network.add(0, topics=['new'])
+    network.count()
+    assert names(network) == []
+    assert network.run(LONG_S) < 1.0
+    assert topics(network) == ['/in0', '/new']
 
 
 def test_everybody_is_taken_leave_of() -> None:
@@ -353,6 +382,22 @@ def test_damaged_payloads(payload: bytes) -> None:
         decode_entities(payload)
     with pytest.raises(ValueError, match='damaged'):
         decode_parameters(payload)
+
+
+@pytest.mark.parametrize(
+    ('raw', 'expected'),
+    [
+        (b'/robot1/arm\0', '/robot1/arm'),
+        ('/gr\u00fcn\0'.encode(), '/gr\u00fcn'),
+        (b'/a\x1b[2J\nb\0', r'/a\x1b[2J\nb'),
+        (b'/\xff\xfe\0', r'/\xff\xfe'),
+        ('/\u202ea'.encode(), r'/\u202ea'),
+        (b'/a\0b\0', r'/a\x00b'),
+    ],
+)
+def test_names_do_nothing_to_a_terminal(raw: bytes, expected: str) -> None:
+    """Whoever sends a name, printing it neither begins a line nor moves a cursor."""
+    assert text_of(raw) == expected
 
 
 def test_ports() -> None:

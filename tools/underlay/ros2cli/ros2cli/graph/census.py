@@ -11,6 +11,8 @@ from ros2cli.rtps.parameters import Address, THIS_HOST
 
 SILENCE_S = 0.4  # after which it costs less to look at all processes than to wait on
 
+AGAIN_S = 2.0
+
 
 class Census:
     """The participants of a domain on this machine, as the kernel shows them."""
@@ -21,10 +23,13 @@ class Census:
         self._sockets: dict[int, str] = {}
         self._since_s: dict[str, float] = {}
         self._holders: dict[str, Holder | None] = {}
+        self._again_s = 0.0
 
-    def take(self, now_s: float, silent: Collection[Address]) -> list[Address] | None:
+    def take(self, now_s: float, silent: Collection[Address]) -> dict[Address, str] | None:
         """
         Return the addresses of participants, ourselves apart; None if they cannot be counted.
+
+        With each comes its socket's inode, by which it is told from another at its address.
 
         :param silent: those of the last time who have not answered yet
         """
@@ -36,7 +41,9 @@ class Census:
             inode: self._since_s.get(inode, now_s) for inode in self._sockets.values()
         }
         self._examine(now_s, silent)
-        return [(THIS_HOST, port) for port, inode in sockets.items() if self._may_answer(inode)]
+        return {
+            (THIS_HOST, port): inode for port, inode in sockets.items() if self._may_answer(inode)
+        }
 
     def are_stopped(self, silent: Collection[Address]) -> bool:
         """Tell if those who do not answer are stopped processes, so that waiting is no use."""
@@ -44,11 +51,14 @@ class Census:
         return bool(holders) and all(holder and holder.is_stopped for holder in holders)
 
     def _examine(self, now_s: float, silent: Collection[Address]) -> None:
+        """Look at who is silent for long; of strangers, look from time to time what became."""
         inodes = {self._sockets.get(port, '') for _, port in silent} & self._since_s.keys()
         doubtful = {inode for inode in inodes if now_s - self._since_s[inode] >= SILENCE_S}
-        if doubtful - self._holders.keys():
-            found = find_holders(doubtful)
-            self._holders.update({inode: found.get(inode) for inode in doubtful})
+        if doubtful - self._holders.keys() or now_s >= self._again_s:
+            strangers = {inode for inode in self._since_s if not self._may_answer(inode)}
+            found = find_holders(doubtful | strangers) if doubtful | strangers else {}
+            self._holders = {inode: found.get(inode) for inode in doubtful | strangers}
+            self._again_s = now_s + AGAIN_S
 
     def _may_answer(self, inode: str) -> bool:
         """Tell if a pair of ports may be that of a participant that others can discover."""

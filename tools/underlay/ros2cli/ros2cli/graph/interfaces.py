@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 import fcntl
 import socket
@@ -35,17 +36,22 @@ class Interface:
 
 
 def read_interfaces() -> Iterator[Interface]:
-    """Yield all interfaces of this machine."""
+    """Yield all interfaces of this machine; one that goes at this moment is none."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
         for _, name in socket.if_nameindex():
-            flags = struct.unpack('H', _ask(asked, GET_FLAGS, name)[NAME_BYTES:][:2])[0]
-            yield Interface(
-                name=name,
-                address=_address(asked, name),
-                is_up=bool(flags & IS_UP),
-                is_loopback=bool(flags & IS_LOOPBACK),
-                has_multicast=bool(flags & HAS_MULTICAST),
-            )
+            with suppress(OSError):
+                yield _interface(asked, name)
+
+
+def _interface(asked: socket.socket, name: str) -> Interface:
+    flags = struct.unpack('H', _ask(asked, GET_FLAGS, name)[NAME_BYTES:][:2])[0]
+    return Interface(
+        name=name,
+        address=_address(asked, name),
+        is_up=bool(flags & IS_UP),
+        is_loopback=bool(flags & IS_LOOPBACK),
+        has_multicast=bool(flags & HAS_MULTICAST),
+    )
 
 
 def _address(asked: socket.socket, name: str) -> str:

@@ -55,7 +55,8 @@ class Link:
     @property
     def is_hopeless(self) -> bool:
         """Tell if only stopped processes have not answered, and all others have."""
-        return self.observer.is_told and self._census.are_stopped(self.observer.silent)
+        silent = self.observer.silent
+        return len(silent) == self.observer.missing and self._census.are_stopped(silent)
 
     def close(self) -> None:
         """Take leave."""
@@ -82,7 +83,7 @@ class Link:
         self._count_s = now_s + COUNT_PERIOD_S
         addresses = self._census.take(now_s, self.observer.silent)
         self.can_count = addresses is not None
-        self.observer.expect(addresses or ())
+        self.observer.expect(addresses or {})
 
     def _greet_distant(self) -> None:
         if self._reach.is_wide:

@@ -18,7 +18,10 @@ from ros2cli.rtps.greeting import LEASE_S
 
 T = TypeVar('T')
 
-PATIENCE = 8  # times as long as the spin time, for processes that are there but do not answer
+# How many times as long as the spin time processes are waited for that are there, but do not
+# answer: since there were the fewest of them, and in all.
+PATIENCE = 8
+MAX_PATIENCE = 40
 INCOMPLETE = (
     'WARNING: a ROS process on this machine does not answer (is it stopped, or just starting?); '
     'what follows may be incomplete'
@@ -33,7 +36,8 @@ class GraphWatch:
         self._reach = read_reach()
         self._spin_time_s = spin_time_s
         self._link: Link | None = None
-        self._start_s = self._latest_s = 0.0
+        self._start_s = self._latest_s = self._news_s = 0.0
+        self._fewest_missing = sys.maxsize
         self._has_told = False
 
     def __enter__(self) -> GraphWatch:
@@ -127,7 +131,8 @@ class GraphWatch:
             self.close()
         if self._link is None:
             self._link = Link(self._reach)
-            self._start_s = now_s
+            self._start_s = self._news_s = now_s
+            self._fewest_missing = sys.maxsize
         self._latest_s = now_s
         self._link.exchange(waits=waits)
 
@@ -139,7 +144,13 @@ class GraphWatch:
         return is_over or (self._reach.is_local and self._link.can_count)
 
     def _is_in_vain(self) -> bool:
-        """Tell if who has not answered yet will hardly do so."""
-        if self._link and self._link.is_hopeless:
+        """Tell if who has not answered yet will hardly do so: for a while, nobody has."""
+        if self._link is None:
+            return True
+        missing = self._link.observer.missing
+        if missing < self._fewest_missing:
+            self._fewest_missing, self._news_s = missing, self._latest_s
+        if self._link.is_hopeless:
             return self._latest_s >= self._start_s + self._spin_time_s
-        return self._latest_s > self._start_s + PATIENCE * self._spin_time_s
+        end_s = self._start_s + MAX_PATIENCE * self._spin_time_s
+        return self._latest_s > min(end_s, self._news_s + PATIENCE * self._spin_time_s)

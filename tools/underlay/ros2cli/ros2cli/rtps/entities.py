@@ -6,6 +6,8 @@ from __future__ import annotations
 import struct
 from typing import NamedTuple
 
+from ros2cli.rtps.text import text_of
+
 TOPIC = 'ros_discovery_info'
 TYPE_NAME = 'rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_'
 GID_BYTES = 16
@@ -26,7 +28,7 @@ def decode_entities(payload: bytes) -> tuple[NodeEntities, ...]:
     try:
         cursor = _Cursor(payload)
         return tuple(cursor.node() for _ in range(cursor.length()))
-    except (struct.error, UnicodeDecodeError) as error:
+    except struct.error as error:
         raise ValueError(f'damaged ParticipantEntitiesInfo: {error}') from error
 
 
@@ -48,7 +50,7 @@ class _Cursor:
         return int(number)
 
     def _text(self) -> str:
-        return self._take(self.length()).rstrip(b'\0').decode()
+        return text_of(self._take(self.length()))
 
     def _gids(self) -> frozenset[bytes]:
         return frozenset(self._take(GID_BYTES) for _ in range(self.length()))

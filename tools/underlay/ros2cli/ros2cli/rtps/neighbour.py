@@ -32,6 +32,8 @@ class Neighbour:
     :param prefix: of its GUIDs
     :param discovery: where it hears about participants and endpoints
     :param user: where it hears about messages
+    :ivar heard_s: when it said something
+    :ivar lease_s: how long it may be silent, before others have to take it for lost
     """
 
     def __init__(
@@ -40,6 +42,8 @@ class Neighbour:
         """Know nothing but the addresses."""
         self.prefix = prefix
         self.discovery = discovery
+        self.heard_s = 0.0
+        self.lease_s = float('inf')
         self.endpoints: dict[bytes, Endpoint] = {}
         self.nodes: tuple[NodeEntities, ...] = ()
         self._own_prefix = own_prefix

@@ -8,13 +8,14 @@ would have to be sent again, which takes seconds.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 
 from ros2cli.rtps.greeting import farewell, greeting, LEASE_S, new_prefix
 from ros2cli.rtps.identifiers import (
     PARTICIPANTS_WRITER,
     PID_DEFAULT_UNICAST_LOCATOR,
+    PID_LEASE_DURATION,
     PID_METATRAFFIC_UNICAST_LOCATOR,
 )
 from ros2cli.rtps.neighbour import Neighbour
@@ -42,10 +43,10 @@ class Observer:
         self._greeting = greeting(self._prefix, addresses)
         self._send = send
         self._neighbours: dict[bytes, Neighbour] = {}
-        self._expected: set[Address] = set()
+        self._expected: dict[Address, str] = {}
         self._silent: dict[Address, float] = {}  # who has not answered, and when it was greeted
         self._next_greeting_s = NEVER_S
-        self._alive_s = NEVER_S
+        self._alive_s = self._now_s = NEVER_S
         self._latest = b''
 
     @property
@@ -59,14 +60,14 @@ class Observer:
         return list(self._silent)
 
     @property
-    def is_told(self) -> bool:
-        """Tell if all who have answered have told everything."""
-        return all(each.is_complete for each in self._neighbours.values())
+    def missing(self) -> int:
+        """Return how many of those whom we know of have not told everything."""
+        return len(self._silent) + sum(not each.is_complete for each in self.neighbours)
 
     @property
     def is_complete(self) -> bool:
         """Tell if all whom we know of have told everything."""
-        return not self._silent and self.is_told
+        return not self.missing
 
     @property
     def due_s(self) -> float:
@@ -75,15 +76,21 @@ class Observer:
         question_s = min((each.due_s for each in self.neighbours), default=float('inf'))
         return min(max(greeting_s, self._next_greeting_s), question_s)
 
-    def expect(self, addresses: Iterable[Address]) -> None:
-        """Set who there is on this machine, ourselves apart; who has left is forgotten."""
-        self._expected = expected = set(addresses)
+    def expect(self, present: Mapping[Address, str]) -> None:
+        """
+        Set who there is on this machine, ourselves apart; who has left is forgotten.
+
+        :param present: where they hear, and by what one is told from the next at its address
+        """
+        before, self._expected = self._expected, dict(present)
+        stayed = {address for address in present if present[address] == before.get(address)}
         for each in self.neighbours:
-            if each.is_here and each.discovery not in expected:
+            if each.is_here and each.discovery not in stayed:
                 del self._neighbours[each.prefix]
         answered = {each.discovery for each in self.neighbours}
         self._silent = {
-            address: self._silent.get(address, NEVER_S) for address in expected - answered
+            address: self._silent.get(address, NEVER_S) if address in stayed else NEVER_S
+            for address in present.keys() - answered
         }
 
     def greet(self, address: Address) -> None:
@@ -92,6 +99,8 @@ class Observer:
 
     def ask(self, now_s: float) -> None:
         """Send what is due: the next greeting, questions, and signs of life."""
+        self._now_s = now_s
+        self._forget_lost()
         for address, greeted_s in self._silent.items():
             if max(greeted_s + GREET_AGAIN_S, self._next_greeting_s) <= now_s:
                 self.greet(address)
@@ -113,6 +122,8 @@ class Observer:
         prefix = sender(datagram)
         if prefix is None or prefix == self._prefix or datagram == self._latest:
             return
+        if prefix in self._neighbours:
+            self._neighbours[prefix].heard_s = self._now_s
         self._latest = datagram  # which often comes a second time, through another interface
         with suppress(ValueError):
             for news in submessages(datagram, self._prefix):
@@ -124,6 +135,12 @@ class Observer:
         greeted = {address for address, when in self._silent.items() if when > NEVER_S}
         for address in addresses | greeted:
             self._send(farewell(self._prefix), address)
+
+    def _forget_lost(self) -> None:
+        """Forget those on other machines who have said nothing for longer than they promise."""
+        for each in self.neighbours:
+            if not each.is_here and self._now_s > each.heard_s + max(each.lease_s, LEASE_S):
+                del self._neighbours[each.prefix]
 
     def _handle(self, news: Submessage, prefix: bytes, host: str) -> None:
         if news.writer != PARTICIPANTS_WRITER:
@@ -145,6 +162,8 @@ class Observer:
         for each in self.neighbours:
             if each.discovery == address:
                 del self._neighbours[each.prefix]
-        self._neighbours[prefix] = Neighbour(self._prefix, prefix, address, (host, user[0]))
+        self._neighbours[prefix] = met = Neighbour(self._prefix, prefix, address, (host, user[0]))
+        met.heard_s = self._now_s
+        met.lease_s = described.duration_ns(PID_LEASE_DURATION) / 10**9
         if self._silent.pop(address, None) is None:
             self.greet(address)  # for by multicast it hears of participants, but not of readers

@@ -9,6 +9,7 @@ import struct
 from typing import NamedTuple
 
 from ros2cli.rtps.identifiers import PID_SENTINEL
+from ros2cli.rtps.text import text_of
 
 PL_CDR_LE = b'\x00\x03\x00\x00'
 UDP_V4 = 1
@@ -32,8 +33,7 @@ class Parameters(NamedTuple):
 
     def text(self, identifier: int) -> str:
         """Return a string, or ''."""
-        raw = self.octets(identifier)
-        return raw.rstrip(b'\0').decode('utf-8', 'replace')
+        return text_of(self.octets(identifier))
 
     def octets(self, identifier: int) -> bytes:
         """Return a sequence of bytes, or nothing."""

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Strings, as anybody in the network may send them."""
+
+from __future__ import annotations
+
+
+def text_of(raw: bytes) -> str:
+    """Return a string; what would make a terminal do something is only shown."""
+    text = raw.rstrip(b'\0').decode('utf-8', 'backslashreplace')
+    if text.isprintable():
+        return text
+    return ''.join(each if each.isprintable() else ascii(each)[1:-1] for each in text)
