@@ -7,6 +7,7 @@
 - Their start-up hook loads half of pathlib into every Python, and starts the small Python that
   reads colcon's set-up files a second time in an environment that the shell does not have.
 - Every program that imports a message loads the generator of messages, with a parser of IDL.
+- bin/activate, which Python users source, knows nothing of the variables of ROS.
 """
 
 from __future__ import annotations
@@ -25,6 +26,14 @@ START_UP_HOOK = (
     "sys.orig_argv[1:2] and sys.orig_argv[1].endswith('/_local_setup_util_sh.py') or "
     "__import__('ros_wheels_bootstrapper')\n"
 )
+ACTIVATION = """
+# What ROS needs besides PATH.
+if [ -n "${BASH_VERSION:-}" ] && [ -f "$VIRTUAL_ENV/setup.bash" ]; then
+    . "$VIRTUAL_ENV/setup.bash"
+elif [ -n "${ZSH_VERSION:-}" ] && [ -f "$VIRTUAL_ENV/setup.zsh" ]; then
+    . "$VIRTUAL_ENV/setup.zsh"
+fi
+"""
 GENERATOR_IMPORT = re.compile(r'try:\n    from \.generate_py_impl import .*', re.DOTALL)
 GENERATOR_WHEN_NEEDED = """\
 def __getattr__(name):
@@ -51,6 +60,8 @@ def mend_wheels(environment: Path, include: str, site_packages: Path) -> None:
     _rewrite(hook, lambda text: START_UP_HOOK)
     generator = site_packages / 'rosidl_generator_py' / '__init__.py'
     _rewrite(generator, lambda text: GENERATOR_IMPORT.sub(GENERATOR_WHEN_NEEDED, text))
+    activate = environment / 'bin' / 'activate'
+    _rewrite(activate, lambda text: text if ACTIVATION in text else text + ACTIVATION)
     link_libraries(environment / 'lib', site_packages)
 
 

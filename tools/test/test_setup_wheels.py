@@ -48,35 +48,53 @@ def test_every_requirement_is_pinned(root: Path) -> None:
 
 def test_cmake_files_name_the_python_at_hand(tmp_path: Path, packages: Path) -> None:
     """The build machine's Python is replaced, and a second mending changes nothing."""
+    write_wheels(tmp_path, packages)
     exported = tmp_path / 'share' / 'std_msgs' / 'cmake' / 'export.cmake'
-    adapter = tmp_path / 'share/rosidl_adapter/cmake/rosidl_adapt_interfaces.cmake'
-    for path, text in (
-        (
-            exported,
-            '"/opt/python/cp312-cp312/include/python3.12;/opt/python/x/numpy/_core/include"',
-        ),
-        (adapter, 'file(STRINGS "${idl_output}" idl_tuples)'),
-    ):
-        path.parent.mkdir(parents=True)
-        path.write_text(text)
-    hook = packages / 'ros_wheels_bootstrapper.pth'
-    hook.write_text('import ros_wheels_bootstrapper')
-    write_generator(packages)
+    exported.parent.mkdir(parents=True)
+    exported.write_text(
+        '"/opt/python/cp312-cp312/include/python3.12;/opt/python/x/numpy/_core/include"'
+    )
     for _ in range(2):
         mend_wheels(tmp_path, '/usr/include/python3.12', packages)
         assert exported.read_text() == (
             f'"/usr/include/python3.12;{packages}/numpy/_core/include"'
         )
+        adapter = tmp_path / 'share/rosidl_adapter/cmake/rosidl_adapt_interfaces.cmake'
         assert 'ENCODING UTF-8' in adapter.read_text()
+        hook = packages / 'ros_wheels_bootstrapper.pth'
         assert '_ROS_WHEELS_BOOTSTRAP_COMPLETE' in hook.read_text()
 
 
-def write_generator(packages: Path) -> None:
-    """Write a generator of messages that is loaded with the package."""
-    folder = packages / 'rosidl_generator_py'
-    folder.mkdir()
-    (folder / 'generate_py_impl.py').write_text("print('loaded')\ngenerate_py = len\n")
-    (folder / '__init__.py').write_text(
+def test_activation_sources_the_environment(tmp_path: Path, packages: Path) -> None:
+    """Who activates the environment as Python users do has the variables of ROS too."""
+    write_wheels(tmp_path, packages)
+    (tmp_path / 'setup.bash').write_text('export AMENT_PREFIX_PATH=/here')
+    for _ in range(2):
+        mend_wheels(tmp_path, '', packages)
+    activate = tmp_path / 'bin' / 'activate'
+    assert activate.read_text().count('What ROS needs') == 1
+    result = subprocess.run(
+        ['bash', '-euc', f'. "{activate}"; echo "$AMENT_PREFIX_PATH"'],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert result.stdout == '/here\n'
+
+
+def write_wheels(environment: Path, packages: Path) -> None:
+    """Write the files that are mended, as the wheels and Python bring them."""
+    (packages / 'ros_wheels_bootstrapper.pth').write_text('import ros_wheels_bootstrapper')
+    adapter = environment / 'share/rosidl_adapter/cmake/rosidl_adapt_interfaces.cmake'
+    adapter.parent.mkdir(parents=True)
+    adapter.write_text('file(STRINGS "${idl_output}" idl_tuples)')
+    activate = environment / 'bin' / 'activate'
+    activate.parent.mkdir()
+    activate.write_text(f'VIRTUAL_ENV={environment}\n')
+    generator = packages / 'rosidl_generator_py'
+    generator.mkdir()
+    (generator / 'generate_py_impl.py').write_text("print('loaded')\ngenerate_py = len\n")
+    (generator / '__init__.py').write_text(
         'try:\n'
         '    from .generate_py_impl import generate_py\n'
         '    assert generate_py\n'
@@ -87,11 +105,7 @@ def write_generator(packages: Path) -> None:
 
 def test_generator_is_loaded_when_it_is_used(tmp_path: Path, packages: Path) -> None:
     """Whoever imports the package does not load the generator, and yet can use it."""
-    write_generator(packages)
-    (packages / 'ros_wheels_bootstrapper.pth').write_text('')
-    adapter = tmp_path / 'share/rosidl_adapter/cmake/rosidl_adapt_interfaces.cmake'
-    adapter.parent.mkdir(parents=True)
-    adapter.write_text('')
+    write_wheels(tmp_path, packages)
     mend_wheels(tmp_path, '', packages)
     code = (
         "import rosidl_generator_py; print('imported')\n"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests of the measurement of rates, bandwidth and delay."""
 
+from ros2topic.api.backlog import Backlog
 from ros2topic.api.bandwidth import BandwidthMeter, human_bytes
 from ros2topic.api.delay import DelayMeter
 from ros2topic.api.rate import RateMeter
@@ -88,3 +89,36 @@ def test_delay_report() -> None:
         'average delay: 0.200\n\tmin: 0.100s max: 0.300s std dev: 0.10000s window: 2'
     )
     assert meter.report() == ''
+
+
+MS = 1_000_000
+
+
+def times(source_ms: int, received_ms: int) -> dict[str, int]:
+    """Return the times that rclpy gives with a message."""
+    return {'source_timestamp': source_ms * MS, 'received_timestamp': received_ms * MS}
+
+
+def test_repeated_messages_are_a_backlog() -> None:
+    """What was published before the first message came is not measured, what comes then is."""
+    backlog = Backlog()
+    assert backlog.has(times(1000, 1300))
+    assert backlog.has(times(1010, 1300))
+    assert backlog.has(times(1290, 1301))
+    assert not backlog.has(times(1300, 1301))
+    assert not backlog.has(times(1310, 1311))
+
+
+def test_prompt_message_is_no_backlog() -> None:
+    """A first message that comes at once is measured."""
+    backlog = Backlog()
+    assert not backlog.has(times(1000, 1001))
+    assert not backlog.has(times(2000, 2001))
+
+
+def test_other_clock_is_not_taken_for_a_backlog_for_ever() -> None:
+    """The clock of another machine may be late; after two seconds all is measured."""
+    backlog = Backlog()
+    assert backlog.has(times(0, 5000))
+    assert backlog.has(times(1900, 6900))
+    assert not backlog.has(times(2100, 7100))

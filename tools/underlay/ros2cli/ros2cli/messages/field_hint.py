@@ -8,5 +8,7 @@ from ros2cli.suggest import did_you_mean
 
 def field_hint(error: Exception) -> str:
     """Return a question that names the field which is meant, for an AttributeError, or ''."""
-    fields = getattr(getattr(error, 'obj', None), 'get_fields_and_field_types', dict)()
+    fields: dict[str, str] = getattr(
+        getattr(error, 'obj', None), 'get_fields_and_field_types', dict[str, str]
+    )()
     return did_you_mean(getattr(error, 'name', None) or '', fields)

@@ -27,6 +27,8 @@ def echo(node: Any, topic: str, message_type: Any, args: argparse.Namespace) -> 
     listener = Listener(node, topic, message_type, args)
 
     def hint() -> str:
+        if listener.has_received:
+            return 'Messages come, but none passes the filter.'
         graph = node.graph
         if graph.count_publishers(topic):
             return ''
@@ -51,6 +53,7 @@ class Listener:
         for notice in notices:
             print(notice)
         self.count = 0
+        self.has_received = False
         self._node = node
         self._once = args.once
         self._accepts = args.filter or _accept_all
@@ -92,6 +95,7 @@ class Listener:
         if self._once and self.count:
             return []
         gap = self._losses.report_gap(info) if self._tells_losses else ''
+        self.has_received = True
         if not self._accepts(message):
             return [gap]
         self.count += 1

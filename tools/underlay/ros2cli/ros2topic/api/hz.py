@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import time
 from typing import Any
 
 from ros2topic.api.rate import RateMeter
@@ -17,13 +16,9 @@ def print_rate(node: Any, topic: str, args: argparse.Namespace) -> None:
     meter = RateMeter(args.window)
     clock = node.get_clock() if args.use_sim_time and not args.wall_time else None
 
-    def count(_: Any) -> None:
-        meter.add(clock.now().nanoseconds / 1e9 if clock else time.monotonic())
+    def count(message: Any, received_s: float) -> None:
+        if not args.filter or args.filter(message):
+            meter.add(clock.now().nanoseconds / 1e9 if clock else received_s)
 
-    def count_accepted(message: Any) -> None:
-        if args.filter(message):
-            count(message)
-
-    callback = count_accepted if args.filter else count
-    watched = subscribe_when_published(node, topic, callback, raw=not args.filter)
+    watched = subscribe_when_published(node, topic, count, raw=not args.filter)
     report_for_ever(node, topic, meter.report, watched)

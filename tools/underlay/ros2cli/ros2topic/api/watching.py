@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import chain
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
 from ros2cli.patience import Patience
 from ros2topic.api import closest_topic, get_topic_types
+from ros2topic.api.backlog import Backlog
 from ros2topic.api.draining import drain
 from ros2topic.api.incompatibility import Incompatibility
 from ros2topic.api.qos import matching_qos
@@ -18,20 +20,28 @@ from ros2topic.api.subscription_type import resolve_type
 def subscribe_when_published(
     node: Any,
     topic: str,
-    callback: Callable[[Any], None],
+    callback: Callable[[Any, float], None],
     *,
     raw: bool = True,
+    check: Callable[[Any], object] = bool,
 ) -> Incompatibility:
-    """Wait for a topic as long as it takes, subscribe to it and return what may be wrong."""
+    """
+    Wait for a topic as long as it takes, subscribe to it and return what may be wrong.
+
+    The callback is given each message and the time at which it arrived, in seconds since 1970;
+    `check` is given the class of the messages first, and may raise RuntimeError.
+    """
     _wait_until_published(node, topic)
     message_type = resolve_type(node, topic, None)
+    check(message_type)
     profile, _ = matching_qos(node.graph.get_publishers_info_by_topic(topic))
     incompatibility = Incompatibility(node, topic, profile)
+    backlog = Backlog()
 
-    def receive(message: Any) -> None:
-        callback(message)
-        for each, _ in drain(subscription):
-            callback(each)
+    def receive(message: Any, info: Any) -> None:
+        for each, times in chain([(message, info)], drain(subscription)):
+            if not backlog.has(times):
+                callback(each, times['received_timestamp'] / 1e9)
 
     subscription = node.create_subscription(
         message_type,

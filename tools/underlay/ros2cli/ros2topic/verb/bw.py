@@ -42,11 +42,11 @@ class BwVerb(VerbExtension):
         topic = absolute(args.topic_name)
         meter = BandwidthMeter(args.window)
 
-        def count(data: Any) -> None:
-            meter.add(time.monotonic(), len(data))
+        def count(data: Any, received_s: float) -> None:
+            meter.add(received_s, len(data))
 
         with DirectNode(args) as node:
             watched = subscribe_when_published(node, topic, count)
             print(f'Subscribed to [{topic}]')
-            report_for_ever(node, topic, lambda: meter.report(time.monotonic()), watched)
+            report_for_ever(node, topic, lambda: meter.report(time.time()), watched)
         return None

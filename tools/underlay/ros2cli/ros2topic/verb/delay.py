@@ -42,17 +42,22 @@ class DelayVerb(VerbExtension):
         meter = DelayMeter(args.window)
         with DirectNode(args) as node:
 
-            def count(message: Any) -> None:
+            def count(message: Any, received_s: float) -> None:
                 now_s = node.get_clock().now().nanoseconds / 1e9
-                meter.add(now_s - _stamp_s(message))
+                meter.add((now_s if args.use_sim_time else received_s) - _stamp_s(message))
 
-            watched = subscribe_when_published(node, topic, count, raw=False)
+            watched = subscribe_when_published(
+                node, topic, count, raw=False, check=_require_header
+            )
             report_for_ever(node, topic, meter.report, watched)
         return None
 
 
-def _stamp_s(message: Any) -> float:
-    if not hasattr(message, 'header'):
+def _require_header(message_type: Any) -> None:
+    if 'header' not in message_type.get_fields_and_field_types():
         raise RuntimeError('msg does not have header')
+
+
+def _stamp_s(message: Any) -> float:
     stamp = message.header.stamp
     return float(stamp.sec + stamp.nanosec / 1e9)

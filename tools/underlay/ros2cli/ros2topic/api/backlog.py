@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tell messages that come as they are published from those that are repeated for a latecomer."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+USUAL_DELAY_NS = 50_000_000
+CONNECTION_NS = 2_000_000_000
+
+
+class Backlog:
+    """
+    Sorts out what was published before we were connected.
+
+    A reliable publisher knows of us some time before we know of it, and repeats what it has
+    published meanwhile all at once: that says nothing about its rate.
+    """
+
+    def __init__(self) -> None:
+        """Wait for the first message."""
+        self._start_ns: int | None = None
+
+    def has(self, info: Mapping[str, int]) -> bool:
+        """Tell if a message, by the times that rclpy gives with it, is a repeated one."""
+        received_ns, source_ns = info['received_timestamp'], info['source_timestamp']
+        if self._start_ns is None:
+            self._start_ns = received_ns
+            return received_ns - source_ns > USUAL_DELAY_NS
+        return source_ns < self._start_ns and received_ns < self._start_ns + CONNECTION_NS
