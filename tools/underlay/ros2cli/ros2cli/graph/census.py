@@ -10,7 +10,6 @@ from ros2cli.graph.participants import participant_sockets
 from ros2cli.rtps.parameters import Address, THIS_HOST
 
 SILENCE_S = 0.4  # after which it costs less to look at all processes than to wait on
-
 AGAIN_S = 2.0
 
 
