@@ -240,7 +240,7 @@ def test_network_without_fault(network: Network) -> None:
 @pytest.mark.parametrize(
     'variables, sentence',
     [
-        ({'ROS_AUTOMATIC_DISCOVERY_RANGE': 'near'}, "ERROR: ROS_AUTOMATIC_DISCOVERY_RANGE is 'N"),
+        ({'ROS_AUTOMATIC_DISCOVERY_RANGE': 'near'}, "ERROR: ROS_AUTOMATIC_DISCOVERY_RANGE is 'n"),
         ({'ROS_AUTOMATIC_DISCOVERY_RANGE': 'OFF'}, 'WARNING: ROS_AUTOMATIC_DISCOVERY_RANGE is O'),
         ({'ROS_LOCALHOST_ONLY': '1'}, 'WARNING: ROS_LOCALHOST_ONLY is set, which is deprecated'),
         ({'ROS_DOMAIN_ID': 'x'}, "ERROR: ROS_DOMAIN_ID is 'x', which is no whole number from 0 t"),

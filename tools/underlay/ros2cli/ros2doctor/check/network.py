@@ -43,7 +43,7 @@ def network_findings(facts: Network) -> Iterator[Finding]:
 
 def discovery_range(facts: Network) -> str:
     """Return how far nodes look for others."""
-    return facts.variables.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '').upper() or 'SUBNET'
+    return facts.variables.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '') or 'SUBNET'
 
 
 def _range(facts: Network) -> Iterator[Finding]:
