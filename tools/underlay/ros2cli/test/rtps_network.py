@@ -287,7 +287,7 @@ def fragments(reader: bytes, writer: bytes, number: int, payload: bytes) -> Iter
         first = index // FRAGMENT_BYTES + 1
         body = struct.pack('<HH', 0, 28) + reader + writer + struct.pack('<iI', 0, number)
         body += struct.pack('<IHHI', first, 1, FRAGMENT_BYTES, len(payload))
-        body += payload[index : index + FRAGMENT_BYTES]
+        body += payload[index:][:FRAGMENT_BYTES]
         yield struct.pack('<BBH', 0x16, 1, len(body)) + body
 
 

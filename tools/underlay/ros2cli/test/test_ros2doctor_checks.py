@@ -269,7 +269,7 @@ def test_interfaces(network: Network) -> None:
         "WARNING: on the interface 'eth0' (192.0.2.1), multicast does not work: packets do not "
         'arrive'
     ]
-    local = replace(deaf, variables={'ROS_AUTOMATIC_DISCOVERY_RANGE': 'localhost'})
+    local = replace(deaf, variables={'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'})
     assert sentences(network_findings(local)) == []
     assert sentences(network_findings(replace(network, interfaces=(CABLE,)))) == [
         'ERROR: the loopback interface is down'

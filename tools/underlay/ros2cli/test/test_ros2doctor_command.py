@@ -270,7 +270,7 @@ def test_rclpy_that_ends_the_process(ros2: Ros2, tmp_path: Path) -> None:
         ),
         (
             {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'near'},
-            "ERROR (network): ROS_AUTOMATIC_DISCOVERY_RANGE is 'NEAR', which is none of SUBNET, ",
+            "ERROR (network): ROS_AUTOMATIC_DISCOVERY_RANGE is 'near', which is none of SUBNET, ",
         ),
     ],
 )

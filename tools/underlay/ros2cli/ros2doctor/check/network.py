@@ -13,7 +13,7 @@ from ros2doctor.check.shared_memory import shared_memory_findings
 from ros2doctor.facts.network import Network, read_network
 
 RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')
-WITHOUT_MULTICAST = ('LOCALHOST', 'OFF')
+WITH_MULTICAST = ('SUBNET', 'SYSTEM_DEFAULT')
 LAST_DOMAIN = 232
 PORT_BASE = 7400
 PORTS_PER_DOMAIN = 250
@@ -105,7 +105,7 @@ def _interfaces(facts: Network) -> Iterator[Finding]:
             'nodes on this machine do not find each other',
             'sudo ip addr add 127.0.0.1/8 dev lo' if usable else 'sudo ip link set lo up',
         )
-    elif discovery_range(facts) not in WITHOUT_MULTICAST:
+    elif discovery_range(facts) in WITH_MULTICAST:
         yield from multicast_findings(facts)
 
 
