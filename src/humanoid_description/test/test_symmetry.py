@@ -42,9 +42,9 @@ def sides(
 
 
 def test_both_sides_have_the_same(robot: ElementTree.Element) -> None:
-    """Each side has ten driven joints, four fixed frames, and a link for each."""
-    assert len(sides(robot, 'joint')) == 14
-    assert len(sides(robot, 'link')) == 14
+    """Each side has ten driven joints, five fixed frames, and a link for each."""
+    assert len(sides(robot, 'joint')) == 15
+    assert len(sides(robot, 'link')) == 15
 
 
 def test_places_are_mirrored(robot: ElementTree.Element) -> None:
