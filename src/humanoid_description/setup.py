@@ -28,7 +28,7 @@ setup(
     zip_safe=True,
     maintainer='Humanoid workspace maintainers',
     maintainer_email='maintainers@humanoid-workspace.dev',
-    description='The model of the humanoid as xacro, what drives its joints, and checks of any model',
+    description='The model of the humanoid, what drives its joints, and checks of any model',
     license='Apache-2.0',
     entry_points={
         'console_scripts': [

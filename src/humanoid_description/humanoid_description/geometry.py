@@ -11,6 +11,7 @@ import numpy as np
 
 # A cylinder is as good as a prism of so many edges.
 EDGES = 24
+_AXES: Array = np.vstack([np.eye(3), -np.eye(3)])
 _SIGNS: Array = np.array(list(product((-1.0, 1.0), repeat=3)))
 
 
@@ -36,14 +37,16 @@ def _placed(points: Array, pose: Array) -> Array:
 
 
 def _corners(shape: Shape) -> Array:
-    """Return points whose convex hull is the shape, in its own frame."""
+    """Return points on the outside of a shape, in its own frame; of a mesh there are none."""
     if shape.kind == 'box':
-        return _SIGNS * np.array(shape.size_m) / 2
+        edges: Array = np.array(shape.size_m)
+        return _SIGNS * edges / 2
     if shape.kind == 'cylinder':
         radius, length = shape.size_m
         return np.vstack([_ring(radius, -length / 2), _ring(radius, length / 2)])
     if shape.kind == 'sphere':
-        return np.vstack([np.eye(3), -np.eye(3)]) * shape.size_m[0]
+        radius = shape.size_m[0]
+        return _AXES * radius
     return np.zeros((0, 3))
 
 

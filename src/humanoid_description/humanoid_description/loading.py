@@ -6,6 +6,7 @@ from __future__ import annotations
 import io
 from typing import Any
 
+from humanoid_description.errors import DescriptionError
 from humanoid_description.robot import Array, Body, Joint, Limits, Link, Robot, Shape
 from humanoid_description.urdf_text import refuse_what_is_unreadable
 import numpy as np
@@ -14,7 +15,12 @@ import numpy as np
 def load_robot(text: str, source: str) -> Robot:
     """Return the robot that a URDF describes; source is what error messages call it."""
     refuse_what_is_unreadable(text, source)
-    from yourdfpy import URDF
+    try:
+        from yourdfpy import URDF
+    except ModuleNotFoundError as error:
+        raise DescriptionError(
+            f"Models are read by the Python package 'yourdfpy', but {error.name} is not there."
+        ) from error
 
     read = URDF.load(io.BytesIO(text.encode()), build_scene_graph=False, load_meshes=False).robot
     return Robot(read.name, tuple(map(_link, read.links)), tuple(map(_joint, read.joints)))

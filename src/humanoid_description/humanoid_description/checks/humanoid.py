@@ -25,7 +25,8 @@ def look_at_frames(robot: Robot) -> tuple[str, Iterable[str]]:
     wanted = [robot.prefix + name for name in build_of(robot).frames]
     missing = [name for name in wanted if name not in robot.link]
     return f'{len(wanted) - len(missing)} of {len(wanted)}', [
-        f"The frame '{name}' is missing, which REP 120 names. {did_you_mean(name, robot.link)}"
+        f"The frame '{name}' is missing, which REP 120 names. "
+        + did_you_mean(name, set(robot.link) - set(wanted))
         for name in missing
     ]
 
