@@ -17,6 +17,7 @@ setup(
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
         ('share/' + package_name, ['package.xml']),
+        ('share/' + package_name + '/launch', glob('launch/*.launch.*')),
         ('share/' + package_name + '/config', glob('config/*')),
         *(
             (f'share/{package_name}/{folder}', glob(f'{folder}/*.xacro'))
