@@ -81,33 +81,33 @@ class Robot:
 
     @cached_property
     def link(self) -> dict[str, Link]:
-        """The links by their names."""
+        """Return the links by their names."""
         return {link.name: link for link in self.links}
 
     @cached_property
     def joint(self) -> dict[str, Joint]:
-        """The joints by their names."""
+        """Return the joints by their names."""
         return {joint.name: joint for joint in self.joints}
 
     @cached_property
     def joint_above(self) -> dict[str, Joint]:
-        """The joint that each link but the root hangs from."""
+        """Return the joint that each link but the root hangs from."""
         return {joint.child: joint for joint in self.joints}
 
     @cached_property
     def roots(self) -> tuple[str, ...]:
-        """The links that hang from no joint."""
+        """Return the links that hang from no joint."""
         return tuple(link.name for link in self.links if link.name not in self.joint_above)
 
     @cached_property
     def prefix(self) -> str:
-        """What the names begin with, if the root is a base_link."""
+        """Return what the names begin with, if the root is a base_link."""
         root = self.roots[0] if self.roots else ''
         return root.removesuffix('base_link') if root.endswith('base_link') else ''
 
     @cached_property
     def mass_kg(self) -> float:
-        """The mass of all links together."""
+        """Return the mass of all links together."""
         return sum(link.body.mass_kg for link in self.links if link.body)
 
 

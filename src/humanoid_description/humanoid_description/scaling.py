@@ -28,7 +28,7 @@ class Scaling:
         if not self.smallest <= scale <= self.largest:
             raise DescriptionError(
                 f'The scale {scale:g} is out of range. '
-                f'Give a scale from {self.smallest} to {self.largest}.'
+                f'Give one from {self.smallest} to {self.largest}.'
             )
 
 

@@ -53,5 +53,5 @@ def test_mirrored_range() -> None:
 
 def test_scale_out_of_range() -> None:
     """There are no drives for a size that there is no model of."""
-    with pytest.raises(DescriptionError, match=r'The scale 2 is out of range\. Give a scale from'):
+    with pytest.raises(DescriptionError, match=r'The scale 2 is out of range\. Give one from'):
         load_drives(2.0)

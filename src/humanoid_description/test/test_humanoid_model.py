@@ -89,9 +89,7 @@ def test_prefix(robot: ElementTree.Element) -> None:
 @pytest.mark.parametrize('scale', [0.49, 1.31, -1.0, float('nan')])
 def test_scale_out_of_range(scale: float) -> None:
     """The model itself refuses a scale that is out of range, and names the range."""
-    with pytest.raises(
-        DescriptionError, match=r'is out of range\. Give a scale from 0\.5 to 1\.3'
-    ):
+    with pytest.raises(DescriptionError, match=r'is out of range\. Give one from 0\.5 to 1\.3'):
         humanoid_urdf(scale)
 
 

@@ -27,7 +27,7 @@ def _view() -> dict[str, Any]:
 
 
 def test_displays(view: dict[str, Any]) -> None:
-    """RViz shows a ground, the robot and its frames, from plugins that it brings along."""
+    """The view shows a ground, the robot and its frames, from plugins that come with RViz."""
     classes = [display['Class'].split('/') for display in view['Displays']]
     assert {library for library, _ in classes} == {'rviz_default_plugins'}
     assert [name for _, name in classes] == ['Grid', 'RobotModel', 'TF']
@@ -35,7 +35,7 @@ def test_displays(view: dict[str, Any]) -> None:
 
 
 def test_description_topic(view: dict[str, Any]) -> None:
-    """RViz takes the model from the latched topic, also if it comes late."""
+    """The view takes the model from the latched topic, also if it comes late."""
     topic = view['Displays'][1]['Description Topic']
     assert topic['Value'] == '/robot_description'
     assert topic['Durability Policy'] == 'Transient Local'

@@ -15,6 +15,8 @@ SOLES = ('l_sole', 'r_sole')
 LEG_FRAMES = ('l_ankle', 'r_ankle', *SOLES)
 # What must be called so by REP 120.
 BODY_FRAMES = ('base_link', 'torso', 'gaze', 'l_wrist', 'r_wrist', 'l_gripper', 'r_gripper')
+# How even a sole is, as a part of the feet's extent.
+LEVEL = 1e-3
 LEG_JOINTS = ('hip', 'knee', 'ankle')
 
 
@@ -48,13 +50,10 @@ def ground_contact(robot: Robot) -> Array:
     at = poses(robot)
     names = {_rigid(robot, robot.prefix + name) for name in build_of(robot).stands_on}
     corners = np.vstack([outline(robot.link[name].collisions, at[name]) for name in names])
-    lowest = corners[:, 2].min() if len(corners) else 0.0
-    return corners[corners[:, 2] < lowest + 1e-3 * _size(corners)]
-
-
-def _size(corners: Array) -> float:
-    """Return the largest extent of points."""
-    return float(np.ptp(corners, axis=0).max())
+    if not len(corners):
+        return corners
+    size_m = np.ptp(corners, axis=0).max()
+    return corners[corners[:, 2] < corners[:, 2].min() + LEVEL * size_m]
 
 
 def _rigid(robot: Robot, link: str) -> str:

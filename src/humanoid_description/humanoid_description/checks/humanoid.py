@@ -43,6 +43,16 @@ def look_at_driven_joints(robot: Robot) -> tuple[str, Iterable[str]]:
     ]
 
 
+def look_at_ground_contact(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Find an area to stand on."""
+    corners = len(ground_contact(robot))
+    defect = (
+        'There is nothing flat to stand on: add a <collision> that is no mesh to the links of '
+        f'{", ".join(build_of(robot).stands_on)}.'
+    )
+    return f'{corners} corners', () if corners > 2 else (defect,)
+
+
 def look_at_height(robot: Robot) -> tuple[str, Iterable[str]]:
     """Measure the height, and refuse what no scale gives."""
     height, rules = height_m(robot), load_scaling()
@@ -70,8 +80,6 @@ def look_at_mass(robot: Robot) -> tuple[str, Iterable[str]]:
 def look_at_stand(robot: Robot) -> tuple[str, Iterable[str]]:
     """Find out whether the robot stands, all joints at zero."""
     ground = ground_contact(robot)
-    if len(ground) < 3:
-        return 'no area', ('There is no flat collision shape at the soles to stand on.',)
     centre = centre_of_mass(robot, poses(robot))
     margin_mm = 1000 * margin_inside(centre[:2], ground[:, :2])
     if margin_mm > 0:
@@ -85,6 +93,7 @@ def look_at_stand(robot: Robot) -> tuple[str, Iterable[str]]:
 NAMES = (
     Check('frames of REP 120', look_at_frames),
     Check('driven joints', look_at_driven_joints),
+    Check('ground contact', look_at_ground_contact),
 )
 SHAPE = (
     Check('mirror symmetry', look_at_mirror),
