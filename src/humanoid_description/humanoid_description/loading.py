@@ -70,5 +70,6 @@ def _joint(joint: Any) -> Joint:
         joint.child,
         _pose(joint.origin),
         joint.axis,
-        limit and Limits(limit.lower, limit.upper, limit.effort, limit.velocity),
+        # URDF takes an end of the range that is not given as zero.
+        limit and Limits(limit.lower or 0.0, limit.upper or 0.0, limit.effort, limit.velocity),
     )

@@ -45,10 +45,10 @@ class Link:
 
 @dataclass(frozen=True)
 class Limits:
-    """The range of a joint in rad or m, and its strength; what is not given is None."""
+    """The range of a joint in rad or m, and its strength; None is not given."""
 
-    lower: float | None
-    upper: float | None
+    lower: float
+    upper: float
     effort: float | None
     velocity: float | None
 

@@ -206,7 +206,7 @@ BROKEN: dict[str, tuple[Break, str]] = {
         exchanged_limits,
         "Joint 'left_knee' has the lower limit 2.3, which is not below the upper limit 0.",
     ),
-    'no limits': (no_limits, "Joint 'head_yaw' is revolute, but <limit> does not say how far"),
+    'no limits': (no_limits, "Joint 'head_yaw' is revolute, but no <limit> says how far"),
     'no effort': (no_effort, "Joint 'head_pitch' has 0 as effort limit"),
     'no axis': (no_axis, "The axis of joint 'waist_yaw' is 0 0 0"),
     'unknown type': (

@@ -53,7 +53,8 @@ def ground_contact(robot: Robot) -> Array:
     if not len(corners):
         return corners
     size_m = np.ptp(corners, axis=0).max()
-    return corners[corners[:, 2] < corners[:, 2].min() + LEVEL * size_m]
+    lowest: Array = corners[corners[:, 2] < corners[:, 2].min() + LEVEL * size_m]
+    return lowest
 
 
 def _rigid(robot: Robot, link: str) -> str:

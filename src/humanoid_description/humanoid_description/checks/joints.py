@@ -38,10 +38,10 @@ def look_at_limits(robot: Robot) -> tuple[str, Iterable[str]]:
 def _wrong_limits(joint: Joint) -> Iterator[str]:
     """Yield sentences on the limits of one joint."""
     limits = joint.limits
-    if limits is None or limits.lower is None or limits.upper is None:
+    if limits is None:
         yield (
-            f"Joint '{joint.name}' is {joint.kind}, but <limit> does not say how far it moves. "
-            'Give lower and upper.'
+            f"Joint '{joint.name}' is {joint.kind}, but no <limit> says how far it moves. "
+            'Give lower, upper, effort and velocity.'
         )
         return
     if not limits.lower < limits.upper:

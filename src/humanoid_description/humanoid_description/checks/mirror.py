@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from humanoid_description.robot import Array, Body, Joint, Link, Robot
+from humanoid_description.robot import Array, Body, Joint, Limits, Link, Robot
 import numpy as np
 
 MIRROR = np.diag([1.0, -1.0, 1.0, 1.0])
@@ -81,12 +81,10 @@ def _move_alike(left: Joint, right: Joint) -> bool:
     return bool(np.allclose(right.axis, -turned)) and _opposite(left) == right.limits
 
 
-def _opposite(joint: Joint) -> object:
+def _opposite(joint: Joint) -> Limits | None:
     """Return the limits of the same joint if its axis pointed the other way."""
     limits = joint.limits
-    if limits is None or limits.lower is None or limits.upper is None:
-        return limits
-    return type(limits)(-limits.upper, -limits.lower, limits.effort, limits.velocity)
+    return limits and Limits(-limits.upper, -limits.lower, limits.effort, limits.velocity)
 
 
 def _unlike_links(left: Link, right: Link) -> Iterator[str]:

@@ -74,7 +74,7 @@ def _postures(joints: list[Joint]) -> dict[str, Array]:
 def _samples(joint: Joint, count: int) -> Array:
     """Return positions from one end of a range to the other, and zero."""
     limits = joint.limits
-    if limits is None or limits.lower is None or limits.upper is None:
+    if limits is None or joint.kind == 'continuous':
         return np.linspace(-np.pi, np.pi, count)
     ends = limits.lower, limits.upper
     return np.append(np.linspace(*ends, count), np.clip(0.0, *ends))
