@@ -21,7 +21,7 @@ JAZZY = set(
     'launch_testing_ros nav_msgs rcl_interfaces rclpy sensor_msgs std_msgs std_srvs '
     'tf2_msgs xacro'.split()
 )
-LIBRARIES = {'numpy', 'pytest', 'setuptools', 'yaml'}
+LIBRARIES = {'lxml', 'numpy', 'pytest', 'setuptools', 'yaml', 'yourdfpy'}
 ROOT = Path(__file__).resolve().parents[2]
 
 

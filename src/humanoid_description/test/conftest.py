@@ -3,16 +3,19 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from xml.etree import ElementTree
 
+from humanoid_description.expansion import humanoid_urdf
 import pytest
-import xacro
 
-MODEL = Path(__file__).parents[1] / 'urdf' / 'humanoid.urdf.xacro'
+
+@pytest.fixture(name='urdf', scope='session')
+def _urdf() -> str:
+    """Return the URDF of the humanoid."""
+    return humanoid_urdf()
 
 
 @pytest.fixture(name='robot', scope='session')
-def _robot() -> ElementTree.Element:
-    """Return the URDF of the humanoid."""
-    return ElementTree.fromstring(xacro.process_file(str(MODEL)).toxml())
+def _robot(urdf: str) -> ElementTree.Element:
+    """Return the URDF of the humanoid as a tree of elements."""
+    return ElementTree.fromstring(urdf)

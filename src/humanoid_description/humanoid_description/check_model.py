@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check the model of the humanoid, or a URDF: `ros2 run humanoid_description check_model`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+import sys
+
+from humanoid_description.errors import DescriptionError
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Print a table and the defects; return 1 if there are any."""
+    arguments = _parser().parse_args(argv)
+    try:
+        text, source = _urdf(arguments)
+        return _check(text, source)
+    except DescriptionError as error:
+        print(error, file=sys.stderr)
+        return 1
+
+
+def _parser() -> argparse.ArgumentParser:
+    """Describe the command line."""
+    parser = argparse.ArgumentParser(
+        prog='check_model',
+        description='Check a model of a robot: its tree, bodies, joints, and, if it is the '
+        'humanoid, its names, symmetry, size, weight, stand and reach.',
+    )
+    parser.add_argument(
+        'file', nargs='?', type=Path, help='a URDF or xacro file (default: the humanoid)'
+    )
+    humanoid = parser.add_argument_group('which humanoid, if no file is given')
+    humanoid.add_argument('--scale', type=float, help='its size, 0.5 to 1.3 (default: 1.0)')
+    humanoid.add_argument('--prefix', help='what the names begin with')
+    humanoid.add_argument('--upper-body-only', action='store_true', help='leave out the legs')
+    return parser
+
+
+def _urdf(arguments: argparse.Namespace) -> tuple[str, str]:
+    """Return the URDF to check, and what to call it."""
+    path: Path | None = arguments.file
+    if path is None:
+        return _humanoid(arguments)
+    if arguments.scale is not None or arguments.prefix is not None or arguments.upper_body_only:
+        raise DescriptionError(
+            f'{path} is checked as it is. Leave out --scale, --prefix and --upper-body-only, '
+            'which say which humanoid to make, or leave out the file.'
+        )
+    try:
+        return _file(path), str(path)
+    except OSError as error:
+        raise DescriptionError(f'{path} cannot be read: {error.strerror}.') from error
+    except UnicodeDecodeError as error:
+        raise DescriptionError(f'{path} is no text file.') from error
+
+
+def _file(path: Path) -> str:
+    """Return the URDF in a file, or what a xacro file expands to."""
+    text = path.read_text()
+    if path.suffix != '.xacro':
+        return text
+    from humanoid_description.expansion import expand
+
+    return expand(path, {})
+
+
+def _humanoid(arguments: argparse.Namespace) -> tuple[str, str]:
+    """Return the URDF of the humanoid that the arguments describe."""
+    from humanoid_description.expansion import humanoid_urdf
+    from humanoid_description.scaling import load_scaling
+
+    scale = 1.0 if arguments.scale is None else arguments.scale
+    load_scaling().check(scale)
+    urdf = humanoid_urdf(scale, arguments.prefix or '', arguments.upper_body_only)
+    return urdf, f'The humanoid at scale {scale:g}'
+
+
+def _check(text: str, source: str) -> int:
+    """Check a URDF, and print what was found."""
+    from humanoid_description.checks import check_robot
+    from humanoid_description.loading import load_robot
+    from humanoid_description.report import report
+
+    outcomes = check_robot(load_robot(text, source))
+    print(report(source, outcomes))
+    return int(any(outcome.defects for outcome in outcomes))
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The checks of a robot's model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from humanoid_description.checks.bodies import BODIES
+from humanoid_description.checks.build import NAME
+from humanoid_description.checks.humanoid import NAMES, SHAPE
+from humanoid_description.checks.joints import JOINTS
+from humanoid_description.checks.outcome import Check, Outcome
+from humanoid_description.checks.structure import STRUCTURE
+from humanoid_description.robot import Robot
+
+__all__ = ['Outcome', 'check_robot']
+
+
+def check_robot(robot: Robot) -> list[Outcome]:
+    """Check what makes sense for a robot; later checks build on what earlier ones have shown."""
+    outcomes = [check(robot) for check in STRUCTURE]
+    for group in (BODIES + JOINTS, NAMES, SHAPE):
+        outcomes += _checked(robot, group, _obstacle(robot, group, outcomes))
+    return outcomes
+
+
+def _obstacle(robot: Robot, group: Iterable[Check], before: list[Outcome]) -> str:
+    """Return why checks are to be skipped, if they are."""
+    if group in (NAMES, SHAPE) and robot.name != NAME:
+        return f"the robot '{robot.name}' is not the humanoid"
+    if any(outcome.defects for outcome in before):
+        return 'the defects come first'
+    return ''
+
+
+def _checked(robot: Robot, group: Iterable[Check], obstacle: str) -> list[Outcome]:
+    """Run checks, or skip them."""
+    return [check.skip(obstacle) if obstacle else check(robot) for check in group]

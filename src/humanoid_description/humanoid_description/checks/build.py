@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the humanoid should be, with legs and without."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from humanoid_description.geometry import outline
+from humanoid_description.kinematics import chain, poses
+from humanoid_description.robot import Array, Robot
+import numpy as np
+
+NAME = 'humanoid'
+SOLES = ('l_sole', 'r_sole')
+LEG_FRAMES = ('l_ankle', 'r_ankle', *SOLES)
+# What must be called so by REP 120.
+BODY_FRAMES = ('base_link', 'torso', 'gaze', 'l_wrist', 'r_wrist', 'l_gripper', 'r_gripper')
+# How even a sole is, as a part of the feet's extent.
+LEVEL = 1e-3
+LEG_JOINTS = ('hip', 'knee', 'ankle')
+
+
+@dataclass(frozen=True)
+class Build:
+    """The humanoid at scale 1: its height over what it stands on, and its mass."""
+
+    height_m: float
+    mass_kg: float
+    frames: tuple[str, ...]
+    stands_on: tuple[str, ...]
+
+
+WHOLE = Build(1.35, 42.8, BODY_FRAMES + LEG_FRAMES, SOLES)
+UPPER_BODY = Build(0.68, 26.2, BODY_FRAMES, ('base_link',))
+
+
+def has_legs(robot: Robot) -> bool:
+    """Tell whether there is any part of a leg."""
+    names = [joint.name for joint in robot.joints]
+    return any(part in name for name in names for part in LEG_JOINTS)
+
+
+def build_of(robot: Robot) -> Build:
+    """Return what a robot should be."""
+    return WHOLE if has_legs(robot) else UPPER_BODY
+
+
+def ground_contact(robot: Robot) -> Array:
+    """Return the corners at which the robot stands on the ground, all joints at zero."""
+    at = poses(robot)
+    names = {_rigid(robot, robot.prefix + name) for name in build_of(robot).stands_on}
+    corners = np.vstack([outline(robot.link[name].collisions, at[name]) for name in names])
+    if not len(corners):
+        return corners
+    size_m = np.ptp(corners, axis=0).max()
+    lowest: Array = corners[corners[:, 2] < corners[:, 2].min() + LEVEL * size_m]
+    return lowest
+
+
+def _rigid(robot: Robot, link: str) -> str:
+    """Return the moving link that a frame is fixed to."""
+    above = [joint for joint in chain(robot, link) if joint.kind != 'fixed']
+    return above[-1].child if above else robot.roots[0]
+
+
+def height_m(robot: Robot) -> float:
+    """Return the height from the ground to the crown, all joints at zero."""
+    at, ground = poses(robot), ground_contact(robot)
+    corners = np.vstack([outline(link.visuals, at[link.name]) for link in robot.links])
+    return float(corners[:, 2].max() - ground[:, 2].min())

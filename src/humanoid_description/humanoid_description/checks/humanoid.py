@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether the humanoid is what others rely on: its names, size, weight and stand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from humanoid_common.naming import did_you_mean
+from humanoid_description.checks.build import build_of, ground_contact, has_legs, height_m
+from humanoid_description.checks.mirror import look_at_mirror
+from humanoid_description.checks.outcome import Check
+from humanoid_description.checks.reach import look_at_reach
+from humanoid_description.drives import load_drives
+from humanoid_description.geometry import centre_of_mass, margin_inside
+from humanoid_description.kinematics import poses
+from humanoid_description.robot import Robot
+from humanoid_description.scaling import load_scaling
+
+# Of height and mass: the model is exact, but a file may be written with few digits.
+TOLERANCE = 0.01
+
+
+def look_at_frames(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Find the frames that REP 120 names."""
+    wanted = [robot.prefix + name for name in build_of(robot).frames]
+    missing = [name for name in wanted if name not in robot.link]
+    return f'{len(wanted) - len(missing)} of {len(wanted)}', [
+        f"The frame '{name}' is missing, which REP 120 names. "
+        + did_you_mean(name, set(robot.link) - set(wanted))
+        for name in missing
+    ]
+
+
+def look_at_driven_joints(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Find the joints that joints.yaml drives."""
+    wanted = load_drives(prefix=robot.prefix, upper_body_only=not has_legs(robot))
+    driven = {joint.name for joint in robot.joints if joint.is_driven}
+    missing = [name for name in wanted if name not in driven]
+    return f'{len(wanted) - len(missing)} of {len(wanted)}', [
+        f"The driven joint '{name}' of config/joints.yaml is missing. "
+        + did_you_mean(name, driven - set(wanted))
+        for name in missing
+    ]
+
+
+def look_at_ground_contact(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Find an area to stand on."""
+    corners = len(ground_contact(robot))
+    defect = (
+        'There is nothing flat to stand on: add a <collision> that is no mesh to the links of '
+        f'{", ".join(build_of(robot).stands_on)}.'
+    )
+    return f'{corners} corners', () if corners > 2 else (defect,)
+
+
+def look_at_height(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Measure the height, and refuse what no scale gives."""
+    height, rules = height_m(robot), load_scaling()
+    low, high = (build_of(robot).height_m * scale for scale in (rules.smallest, rules.largest))
+    defect = (
+        f'The robot is {height:.2f} m tall, but its build is made for {low:.2f} to {high:.2f} m.'
+    )
+    is_right = low * (1 - TOLERANCE) <= height <= high * (1 + TOLERANCE)
+    return f'{height:.3f} m', () if is_right else (defect,)
+
+
+def look_at_mass(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Compare the mass with what a robot of this height weighs."""
+    build, height = build_of(robot), height_m(robot)
+    power = load_scaling().exponents['mass']
+    wanted = build.mass_kg * (height / build.height_m) ** power
+    defect = (
+        f'The robot weighs {robot.mass_kg:.2f} kg; at its height of {height:.2f} m it should '
+        f'weigh {wanted:.2f} kg.'
+    )
+    is_right = abs(robot.mass_kg - wanted) <= TOLERANCE * wanted
+    return f'{robot.mass_kg:.3f} kg', () if is_right else (defect,)
+
+
+def look_at_stand(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Find out whether the robot stands, all joints at zero."""
+    ground = ground_contact(robot)
+    centre = centre_of_mass(robot, poses(robot))
+    margin_mm = 1000 * margin_inside(centre[:2], ground[:, :2])
+    if margin_mm > 0:
+        return f'centre of mass {margin_mm:.0f} mm inside', ()
+    return f'centre of mass {-margin_mm:.0f} mm outside', (
+        f'The centre of mass, at x {centre[0]:.3f} y {centre[1]:.3f}, is {-margin_mm:.0f} mm '
+        'outside of the area that the robot stands on: with all joints at zero it tips over.',
+    )
+
+
+NAMES = (
+    Check('frames of REP 120', look_at_frames),
+    Check('driven joints', look_at_driven_joints),
+    Check('ground contact', look_at_ground_contact),
+)
+SHAPE = (
+    Check('mirror symmetry', look_at_mirror),
+    Check('height', look_at_height),
+    Check('total mass', look_at_mass),
+    Check('stand', look_at_stand),
+    Check('reach', look_at_reach),
+)

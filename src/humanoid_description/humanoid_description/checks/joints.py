@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether the joints can move, and know how far."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from humanoid_common.naming import did_you_mean
+from humanoid_description.checks.outcome import Check
+from humanoid_description.robot import DRIVEN_KINDS, Joint, Robot
+import numpy as np
+
+KINDS = (*DRIVEN_KINDS, 'fixed', 'floating', 'planar')
+LIMITED = ('revolute', 'prismatic')
+
+
+def look_at_kinds(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Find joints of a type that does not exist, or with an axis that points nowhere."""
+    driven = sum(joint.is_driven for joint in robot.joints)
+    return f'{driven} driven', [d for joint in robot.joints for d in _wrong_kind(joint)]
+
+
+def _wrong_kind(joint: Joint) -> Iterator[str]:
+    """Yield a sentence if type or axis are wrong."""
+    if joint.kind not in KINDS:
+        hint = did_you_mean(joint.kind, KINDS) or f'The types are {", ".join(KINDS)}.'
+        yield f"Joint '{joint.name}' is of the unknown type '{joint.kind}'. {hint}"
+    if joint.is_driven and not np.linalg.norm(joint.axis) > 0:
+        yield f"The axis of joint '{joint.name}' is 0 0 0, which points nowhere."
+
+
+def look_at_limits(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Find limits that are missing, exchanged, or let nothing move."""
+    limited = [joint for joint in robot.joints if joint.kind in LIMITED]
+    return f'{len(limited)} ranges', [d for joint in limited for d in _wrong_limits(joint)]
+
+
+def _wrong_limits(joint: Joint) -> Iterator[str]:
+    """Yield sentences on the limits of one joint."""
+    limits = joint.limits
+    if limits is None:
+        yield (
+            f"Joint '{joint.name}' is {joint.kind}, but no <limit> says how far it moves. "
+            'Give lower, upper, effort and velocity.'
+        )
+        return
+    if not limits.lower < limits.upper:
+        yield (
+            f"Joint '{joint.name}' has the lower limit {limits.lower:g}, which is not below the "
+            f'upper limit {limits.upper:g}.'
+        )
+    for name, value in (('effort', limits.effort), ('velocity', limits.velocity)):
+        if not (value or 0) > 0:
+            yield (
+                f"Joint '{joint.name}' has {_shown(value)} {name} limit, with which nothing "
+                'moves it. Give a positive one.'
+            )
+
+
+def _shown(value: float | None) -> str:
+    """Return a value with its article."""
+    return 'no' if value is None else f'{value:g} as'
+
+
+JOINTS = (Check('types and axes', look_at_kinds), Check('limits', look_at_limits))

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether the right side mirrors the left one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from humanoid_description.robot import Array, Body, Joint, Limits, Link, Robot
+import numpy as np
+
+MIRROR = np.diag([1.0, -1.0, 1.0, 1.0])
+SIDES = (('left_', 'right_'), ('l_', 'r_'))
+TOLERANCE = 1e-6
+
+
+def look_at_mirror(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Compare every joint and link of the left side with its counterpart."""
+    links, joints = set(robot.link), set(robot.joint)
+    defects = [*_alone(robot, links, 'link'), *_alone(robot, joints, 'joint')]
+    link_pairs, joint_pairs = list(_pairs(robot, links)), list(_pairs(robot, joints))
+    for left, right in joint_pairs:
+        defects += _unlike_joints(robot.joint[left], robot.joint[right])
+    for left, right in link_pairs:
+        defects += _unlike_links(robot.link[left], robot.link[right])
+    return f'{len(link_pairs)} links, {len(joint_pairs)} joints', defects
+
+
+def counterpart(name: str, prefix: str) -> str | None:
+    """Return the name of the same part on the other side; None for a part of the middle."""
+    own = name.removeprefix(prefix)
+    for left, right in SIDES:
+        if own.startswith(left):
+            return prefix + right + own.removeprefix(left)
+        if own.startswith(right):
+            return prefix + left + own.removeprefix(right)
+    return None
+
+
+def _alone(robot: Robot, names: set[str], kind: str) -> Iterator[str]:
+    """Yield a sentence for every part that the other side lacks."""
+    for name in sorted(names):
+        other = counterpart(name, robot.prefix)
+        if other and other not in names:
+            yield f"There is the {kind} '{name}', but no '{other}' on the other side."
+
+
+def _pairs(robot: Robot, names: set[str]) -> Iterator[tuple[str, str]]:
+    """Yield the names on the left side, each with its counterpart."""
+    for name in sorted(names):
+        other = counterpart(name, robot.prefix)
+        if other in names and name.removeprefix(robot.prefix).startswith('l'):
+            yield name, str(other)
+
+
+def _is_mirrored(left: Array, right: Array) -> bool:
+    """Tell whether a matrix of the right side, 4 x 4 or 3 x 3, mirrors that of the left."""
+    size = len(left)
+    mirror = MIRROR[:size, :size]
+    tolerance = TOLERANCE * max(1e-3, float(np.abs(left).max()))
+    return bool(np.allclose(mirror @ left @ mirror, right, rtol=0, atol=tolerance))
+
+
+def _unlike_joints(left: Joint, right: Joint) -> Iterator[str]:
+    """Yield sentences on what differs between two joints."""
+    both = f"Joints '{left.name}' and '{right.name}'"
+    if left.kind != right.kind:
+        yield f'{both} are of different types, {left.kind} and {right.kind}.'
+    if not _is_mirrored(left.pose, right.pose):
+        yield (f'{both} are not at mirrored places: {_point(left.pose)} and {_point(right.pose)}.')
+    if left.is_driven and right.is_driven and not _move_alike(left, right):
+        yield f'{both} have no mirrored ranges and strengths: {_range(left)} and {_range(right)}.'
+
+
+def _move_alike(left: Joint, right: Joint) -> bool:
+    """Tell whether axis and limits of two joints allow mirrored motions."""
+    mirrored = MIRROR[:3, :3] @ left.axis
+    # A mirrored turn goes the other way round; a mirrored shift does not.
+    turned = mirrored if left.kind == 'prismatic' else -mirrored
+    if np.allclose(right.axis, turned):
+        return left.limits == right.limits
+    return bool(np.allclose(right.axis, -turned)) and _opposite(left) == right.limits
+
+
+def _opposite(joint: Joint) -> Limits | None:
+    """Return the limits of the same joint if its axis pointed the other way."""
+    limits = joint.limits
+    return limits and Limits(-limits.upper, -limits.lower, limits.effort, limits.velocity)
+
+
+def _unlike_links(left: Link, right: Link) -> Iterator[str]:
+    """Yield sentences on what differs between two links."""
+    both = f"Links '{left.name}' and '{right.name}'"
+    ours, theirs = left.body, right.body
+    if ours is None or theirs is None:
+        if ours is not theirs:
+            yield f'{both}: only one of them has a mass.'
+        return
+    if abs(ours.mass_kg - theirs.mass_kg) > TOLERANCE * ours.mass_kg:
+        yield f'{both} have different masses, {ours.mass_kg:g} and {theirs.mass_kg:g} kg.'
+    if not _is_mirrored(_centre(ours), _centre(theirs)):
+        yield (
+            f'{both} have no mirrored centres of mass: {_point(ours.pose)} and '
+            f'{_point(theirs.pose)}.'
+        )
+    if not _is_mirrored(_inertia(ours), _inertia(theirs)):
+        yield f'{both} have no mirrored inertia.'
+
+
+def _centre(body: Body) -> Array:
+    """Return the pose of the centre of mass, without its turn."""
+    pose = np.eye(4)
+    pose[:3, 3] = body.pose[:3, 3]
+    return pose
+
+
+def _inertia(body: Body) -> Array:
+    """Return the inertia in the axes of the link."""
+    turn = body.pose[:3, :3]
+    inertia: Array = turn @ body.inertia_kgm2 @ turn.T
+    return inertia
+
+
+def _point(pose: Array) -> str:
+    """Return a place as a text."""
+    return '({:g}, {:g}, {:g})'.format(*np.round(pose[:3, 3], 6))
+
+
+def _range(joint: Joint) -> str:
+    """Return the limits of a joint as a text."""
+    limits = joint.limits
+    if limits is None:
+        return 'none'
+    return (
+        f'{limits.lower} to {limits.upper} about {_axis(joint)} with {limits.effort} at '
+        f'{limits.velocity}'
+    )
+
+
+def _axis(joint: Joint) -> str:
+    """Return an axis as a text."""
+    return '({:g}, {:g}, {:g})'.format(*joint.axis)

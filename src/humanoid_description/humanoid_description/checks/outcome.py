@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a check has found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from humanoid_description.robot import Robot
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The value that a check looked at, and sentences on the defects or on why it was skipped."""
+
+    title: str
+    found: str = ''
+    defects: tuple[str, ...] = ()
+    skipped: str = ''
+
+    @property
+    def result(self) -> str:
+        """Return the outcome in a word or two."""
+        if self.skipped:
+            return f'skipped: {self.skipped}'
+        count = len(self.defects)
+        return 'ok' if not count else '1 defect' if count == 1 else f'{count} defects'
+
+
+@dataclass(frozen=True)
+class Check:
+    """A question about a robot: returns the value to show, and a sentence for every defect."""
+
+    title: str
+    look: Callable[[Robot], tuple[str, Iterable[str]]]
+
+    def __call__(self, robot: Robot) -> Outcome:
+        """Answer the question."""
+        found, defects = self.look(robot)
+        return Outcome(self.title, found, tuple(defects))
+
+    def skip(self, why: str) -> Outcome:
+        """Leave the question open."""
+        return Outcome(self.title, skipped=why)

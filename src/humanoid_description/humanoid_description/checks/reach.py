@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How far the hands reach."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from humanoid_description.kinematics import chain, pose_along
+from humanoid_description.robot import Array, Joint, Robot
+import numpy as np
+
+ARMS = (('left', 'l_gripper', 1.0), ('right', 'r_gripper', -1.0))
+# How much of the arm's length a hand must reach forward, as a part.
+FORWARD = 0.8
+SAMPLES = 6000
+
+
+@dataclass(frozen=True)
+class Reach:
+    """What a hand reaches: forward of the shoulder, and sideways to the middle plane in front."""
+
+    arm_m: float
+    forward_m: float
+    to_middle_m: float
+
+
+def look_at_reach(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Try many postures of each arm, within the limits."""
+    reaches = {side: _reach(robot, frame, sign) for side, frame, sign in ARMS}
+    found = min(reach.forward_m for reach in reaches.values())
+    defects = [d for side, reach in reaches.items() for d in _too_short(side, reach)]
+    return f'{found:.2f} m forward', defects
+
+
+def _too_short(side: str, reach: Reach) -> Iterator[str]:
+    """Yield sentences on what a hand should reach."""
+    if reach.forward_m < FORWARD * reach.arm_m:
+        yield (
+            f'The {side} hand reaches only {reach.forward_m:.2f} m forward of the shoulder, with '
+            f'an arm of {reach.arm_m:.2f} m. Look at the limits of the shoulder and the elbow.'
+        )
+    if reach.to_middle_m > 0:
+        yield (
+            f'The {side} hand stays {reach.to_middle_m:.2f} m beside the middle of the body: '
+            'the hands cannot meet in front of it.'
+        )
+
+
+def _reach(robot: Robot, frame: str, sign: float) -> Reach:
+    """Return what the hand of a side reaches; the sign is that of the side's y."""
+    joints = chain(robot, robot.prefix + frame, robot.prefix + 'torso')
+    shoulder, arm_m = joints[0].pose[:3, 3], _length(joints[1:])
+    hands = pose_along(joints, _postures(joints))[..., :3, 3].reshape(-1, 3)
+    forward = hands[:, 0] - shoulder[0]
+    in_front = hands[forward > arm_m / 4]
+    nearest = (sign * in_front[:, 1]).min() if len(in_front) else sign * shoulder[1]
+    return Reach(arm_m, float(forward.max()), float(nearest))
+
+
+def _length(joints: list[Joint]) -> float:
+    """Return the length of a chain."""
+    return float(sum(np.linalg.norm(joint.pose[:3, 3]) for joint in joints))
+
+
+def _postures(joints: list[Joint]) -> dict[str, Array]:
+    """Return positions that cover the ranges of all joints."""
+    driven = [joint for joint in joints if joint.is_driven]
+    count = max(3, round(SAMPLES ** (1 / max(1, len(driven)))))
+    grid = np.meshgrid(*(_samples(joint, count) for joint in driven))
+    return {joint.name: values.ravel() for joint, values in zip(driven, grid)}
+
+
+def _samples(joint: Joint, count: int) -> Array:
+    """Return positions from one end of a range to the other, and zero."""
+    limits = joint.limits
+    if limits is None or joint.kind == 'continuous':
+        return np.linspace(-np.pi, np.pi, count)
+    ends = limits.lower, limits.upper
+    return np.append(np.linspace(*ends, count), np.clip(0.0, *ends))

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether links and joints make a tree."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from humanoid_common.naming import did_you_mean
+from humanoid_description.checks.outcome import Check
+from humanoid_description.robot import repeated, Robot
+
+
+def look_at_names(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Count the parts, and find names that are not unique or name nothing."""
+    found = f'{_count(len(robot.links), "link")}, {_count(len(robot.joints), "joint")}'
+    return found, [*_repeated_names(robot), *_unknown_links(robot)]
+
+
+def _count(number: int, noun: str) -> str:
+    """Return a number with its noun."""
+    return f'{number} {noun}' + ('' if number == 1 else 's')
+
+
+def _repeated_names(robot: Robot) -> Iterator[str]:
+    """Yield a sentence for every name that occurs twice."""
+    for kind, parts in (('link', robot.links), ('joint', robot.joints)):
+        for name in repeated(part.name for part in parts):
+            yield f"Several {kind}s are named '{name}'. Give each a name of its own."
+
+
+def _unknown_links(robot: Robot) -> Iterator[str]:
+    """Yield a sentence for every joint that names a link that is not there."""
+    for joint in robot.joints:
+        for role, link in (('parent', joint.parent), ('child', joint.child)):
+            if link not in robot.link:
+                hint = did_you_mean(link, robot.link) or 'Add the link or correct the name.'
+                yield f"The {role} of joint '{joint.name}' is '{link}', which is no link. {hint}"
+
+
+def look_at_root(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Find the one link that hangs from no joint."""
+    roots = robot.roots
+    if len(roots) == 1:
+        return roots[0], ()
+    if not roots:
+        return 'none', (
+            'There is no root: every link hangs from a joint. Break the loop.'
+            if robot.links
+            else 'There are no links: the robot is empty.',
+        )
+    names = ', '.join(f"'{root}'" for root in roots)
+    return f'{len(roots)} roots', (
+        f'There are {len(roots)} roots: {names}. Connect them by joints: only one link may '
+        'hang from none.',
+    )
+
+
+def look_at_tree(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Find links with several parents, and loops."""
+    depths = [depth for link in robot.links if (depth := _depth(robot, link.name)) is not None]
+    return f'{max(depths, default=0)} joints deep', [*_several_parents(robot), *_loops(robot)]
+
+
+def _several_parents(robot: Robot) -> Iterator[str]:
+    """Yield a sentence for every link that several joints hold."""
+    for link in repeated(joint.child for joint in robot.joints):
+        joints = ', '.join(f"'{joint.name}'" for joint in robot.joints if joint.child == link)
+        yield f"Link '{link}' hangs from several joints: {joints}. Leave one of them."
+
+
+def _loops(robot: Robot) -> Iterator[str]:
+    """Yield a sentence that names the links which lead to no root."""
+    names = [link.name for link in robot.links if _depth(robot, link.name) is None]
+    if names:
+        links = ', '.join(f"'{name}'" for name in names)
+        yield f'The joints above these links lead in a loop, and to no root: {links}.'
+
+
+def _depth(robot: Robot, link: str) -> int | None:
+    """Return how many joints lead to a link from its root, or None if they do from no root."""
+    for depth in range(len(robot.joints) + 1):
+        if link not in robot.joint_above:
+            return depth
+        link = robot.joint_above[link].parent
+    return None
+
+
+STRUCTURE = (
+    Check('names', look_at_names),
+    Check('one root', look_at_root),
+    Check('tree', look_at_tree),
+)

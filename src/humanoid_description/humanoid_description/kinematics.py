@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the links of a robot are. Positions may be arrays: then so are the poses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from humanoid_description.robot import Array, Joint, Robot
+import numpy as np
+
+AT_ZERO: Mapping[str, float] = {}
+
+
+def chain(robot: Robot, link: str, base: str | None = None) -> list[Joint]:
+    """Return the joints that lead from the base, or the root, to a link."""
+    joints: list[Joint] = []
+    while link != base and link in robot.joint_above:
+        joints.append(robot.joint_above[link])
+        link = joints[-1].parent
+    return joints[::-1]
+
+
+def pose_along(joints: list[Joint], positions: Mapping[str, Array | float]) -> Array:
+    """Return the pose at the end of a chain; joints that have no position are at zero."""
+    pose: Array = np.eye(4)
+    for joint in joints:
+        pose = pose @ joint.pose
+        if joint.is_driven:
+            pose = pose @ joint_motion(joint, positions.get(joint.name, 0.0))
+    return pose
+
+
+def poses(robot: Robot, positions: Mapping[str, Array | float] = AT_ZERO) -> dict[str, Array]:
+    """Return the pose of every link of a tree in its root."""
+    return {link.name: pose_along(chain(robot, link.name), positions) for link in robot.links}
+
+
+def joint_motion(joint: Joint, position: Array | float) -> Array:
+    """Return how a joint moves its child: a turn about the axis, or a shift along it."""
+    position = np.asarray(position, dtype=np.float64)
+    axis = joint.axis / np.linalg.norm(joint.axis)
+    motion = np.zeros((*position.shape, 4, 4)) + np.eye(4)
+    if joint.kind == 'prismatic':
+        motion[..., :3, 3] = position[..., None] * axis
+    else:
+        motion[..., :3, :3] += _turn_less_identity(axis, position[..., None, None])
+    return motion
+
+
+def _turn_less_identity(axis: Array, angle: Array) -> Array:
+    """Return the rotation about a unit axis, without the identity in it (Rodrigues)."""
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    turn: Array = np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
+    return turn

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How a robot of another size differs, as config/scaling.yaml says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from humanoid_description.errors import DescriptionError
+from humanoid_description.files import load_config
+
+
+@dataclass(frozen=True)
+class Scaling:
+    """The sizes that there are, and the power of the scale that each quantity grows with."""
+
+    smallest: float
+    largest: float
+    exponents: Mapping[str, float]
+
+    def factor(self, quantity: str, scale: float) -> float:
+        """Return what a quantity is multiplied by in a robot of this scale."""
+        self.check(scale)
+        return float(scale ** self.exponents[quantity])
+
+    def check(self, scale: float) -> None:
+        """Refuse a scale that is out of range."""
+        if not self.smallest <= scale <= self.largest:
+            raise DescriptionError(
+                f'The scale {scale:g} is out of range. '
+                f'Give one from {self.smallest} to {self.largest}.'
+            )
+
+
+def load_scaling() -> Scaling:
+    """Return the installed rules."""
+    return Scaling(**load_config('scaling.yaml'))

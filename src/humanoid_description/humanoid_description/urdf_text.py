@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find what no reader of URDF could make sense of, with its line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import math
+from typing import Any
+
+from humanoid_description.errors import DescriptionError
+
+# How many numbers an attribute must have.
+NUMBERS = {
+    'origin': {'xyz': 3, 'rpy': 3},
+    'axis': {'xyz': 3},
+    'limit': {'lower': 1, 'upper': 1, 'effort': 1, 'velocity': 1},
+    'mass': {'value': 1},
+    'inertia': dict.fromkeys(('ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz'), 1),
+    'box': {'size': 3},
+    'cylinder': {'radius': 1, 'length': 1},
+    'sphere': {'radius': 1},
+}
+# What an element must have: attributes, and elements in it.
+ATTRIBUTES = {
+    'robot': ('name',),
+    'link': ('name',),
+    'joint': ('name', 'type'),
+    'parent': ('link',),
+    'child': ('link',),
+    'mass': ('value',),
+    'inertia': tuple(NUMBERS['inertia']),
+    'box': ('size',),
+    'cylinder': ('radius', 'length'),
+    'sphere': ('radius',),
+    'mesh': ('filename',),
+}
+ELEMENTS = {
+    'joint': ('parent', 'child'),
+    'inertial': ('mass', 'inertia'),
+    'visual': ('geometry',),
+    'collision': ('geometry',),
+}
+# Elements of these mean something else than those of a robot: nothing in them is read.
+FOREIGN = ('gazebo', 'transmission', 'ros2_control', 'mujoco')
+SHAPES = ('box', 'cylinder', 'sphere', 'mesh')
+
+
+def refuse_what_is_unreadable(text: str, source: str) -> None:
+    """Raise an error that names file and line if the text is no URDF."""
+    from lxml import etree
+
+    try:
+        robot = etree.fromstring(text.encode())
+    except etree.XMLSyntaxError as error:
+        raise DescriptionError(f'{source} is no valid XML: {error.msg}.') from error
+    if robot.tag != 'robot':
+        raise DescriptionError(
+            f'{source} is no URDF: its outermost element is <{robot.tag}> instead of <robot>.'
+        )
+    for element in _elements(robot):
+        for problem in _problems(element):
+            where = f'{source}, line {element.sourceline}'
+            raise DescriptionError(f'{where}: {_owner(element)}{problem}')
+
+
+def _elements(element: Any) -> Iterator[Any]:
+    """Yield the elements that describe the robot."""
+    if not isinstance(element.tag, str) or element.tag in FOREIGN:
+        return
+    yield element
+    for child in element:
+        yield from _elements(child)
+
+
+def _problems(element: Any) -> Iterator[str]:
+    """Yield sentences on what is missing or no number."""
+    for attribute in ATTRIBUTES.get(element.tag, ()):
+        if not element.get(attribute):
+            yield f"<{element.tag}> lacks the attribute '{attribute}'."
+    for tag in ELEMENTS.get(element.tag, ()):
+        if element.find(tag) is None:
+            yield f'<{element.tag}> lacks the element <{tag}>.'
+    if element.tag == 'geometry' and [child.tag in SHAPES for child in element] != [True]:
+        yield f'<geometry> must hold exactly one of {", ".join(SHAPES)}.'
+    for attribute, count in NUMBERS.get(element.tag, {}).items():
+        if attribute in element.attrib and not _are_numbers(element.get(attribute), count):
+            yield (
+                f"<{element.tag}> has {attribute}='{element.get(attribute)}', "
+                f'which is not {_count(count)}.'
+            )
+
+
+def _are_numbers(text: str, count: int) -> bool:
+    """Tell whether a text consists of so many finite numbers."""
+    try:
+        numbers = [float(part) for part in text.split()]
+    except ValueError:
+        return False
+    return len(numbers) == count and all(map(math.isfinite, numbers))
+
+
+def _count(count: int) -> str:
+    """Say how many numbers there should be."""
+    return 'a number' if count == 1 else f'{count} numbers'
+
+
+def _owner(element: Any) -> str:
+    """Say which link or joint an element belongs to."""
+    for ancestor in (element, *element.iterancestors()):
+        if ancestor.tag in ('link', 'joint') and ancestor.get('name'):
+            return f"{ancestor.tag} '{ancestor.get('name')}': "
+    return ''

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Show the humanoid: with sliders and RViz, or only as transforms."""
+
+from __future__ import annotations
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.conditions import IfCondition, UnlessCondition
+from launch.substitutions import Command, LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+from launch_ros.substitutions import FindPackageShare
+
+# Joints follow these topics; without a message they stay where the sliders are, or at zero.
+SOURCES = {'source_list': ['joint_commands']}
+
+
+def generate_launch_description() -> LaunchDescription:
+    """Describe the nodes."""
+    share = FindPackageShare('humanoid_description')
+    model = PathJoinSubstitution([share, 'urdf', 'humanoid.urdf.xacro'])
+    view = PathJoinSubstitution([share, 'config', 'robot_view.rviz'])
+    gui, prefix = LaunchConfiguration('gui'), LaunchConfiguration('prefix')
+    urdf = ['xacro ', model]
+    for argument in ('scale', 'prefix', 'upper_body_only'):
+        urdf += [f' {argument}:=', LaunchConfiguration(argument)]
+    description = {'robot_description': ParameterValue(Command(urdf), value_type=str)}
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument(
+                'gui',
+                default_value='true',
+                choices=['true', 'false'],
+                description='Show RViz, and sliders for the joints.',
+            ),
+            DeclareLaunchArgument(
+                'scale', default_value='1.0', description='Size of the humanoid, 0.5 to 1.3.'
+            ),
+            DeclareLaunchArgument(
+                'prefix',
+                default_value='',
+                description='What the names of all links and joints begin with.',
+            ),
+            DeclareLaunchArgument(
+                'upper_body_only',
+                default_value='false',
+                choices=['true', 'false'],
+                description='Leave out the legs.',
+            ),
+            Node(
+                package='robot_state_publisher',
+                executable='robot_state_publisher',
+                parameters=[description],
+            ),
+            Node(
+                package='joint_state_publisher',
+                executable='joint_state_publisher',
+                parameters=[SOURCES],
+                condition=UnlessCondition(gui),
+            ),
+            Node(
+                package='joint_state_publisher_gui',
+                executable='joint_state_publisher_gui',
+                parameters=[SOURCES],
+                condition=IfCondition(gui),
+            ),
+            Node(
+                package='rviz2',
+                executable='rviz2',
+                arguments=['-d', view, '-f', [prefix, 'base_link']],
+                condition=IfCondition(gui),
+            ),
+        ]
+    )

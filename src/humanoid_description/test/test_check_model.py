@@ -1,0 +1,331 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check that check_model passes sound models, and says what is wrong with broken ones."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from xml.etree import ElementTree
+
+from ament_index_python.packages import get_package_share_directory
+from humanoid_description.check_model import main
+from humanoid_description.checks import check_robot
+from humanoid_description.loading import load_robot
+import pytest
+
+Element = ElementTree.Element
+Break = Callable[[Element], None]
+
+
+def part(robot: Element, path: str) -> Element:
+    """Return an element that must exist."""
+    found = robot.find(path)
+    assert found is not None, path
+    return found
+
+
+def joint(robot: Element, name: str) -> Element:
+    """Return the joint of a name."""
+    return part(robot, f"joint[@name='{name}']")
+
+
+def link(robot: Element, name: str) -> Element:
+    """Return the link of a name."""
+    return part(robot, f"link[@name='{name}']")
+
+
+def two_roots(robot: Element) -> None:
+    """Take away the joint of the camera."""
+    robot.remove(joint(robot, 'camera_link_fixed'))
+
+
+def loop(robot: Element) -> None:
+    """Hang the torso from the hand that it carries."""
+    part(joint(robot, 'waist_yaw'), 'parent').set('link', 'l_gripper')
+
+
+def only_a_loop(robot: Element) -> None:
+    """Hang the root from a hand."""
+    ElementTree.SubElement(robot, 'joint', name='back', type='fixed').extend(
+        [Element('parent', link='l_gripper'), Element('child', link='base_link')]
+    )
+
+
+def two_parents(robot: Element) -> None:
+    """Hang the left hand from the right one as well."""
+    ElementTree.SubElement(robot, 'joint', name='clasp', type='fixed').extend(
+        [Element('parent', link='r_gripper'), Element('child', link='l_gripper')]
+    )
+
+
+def unknown_link(robot: Element) -> None:
+    """Misspell a parent."""
+    part(joint(robot, 'left_elbow'), 'parent').set('link', 'left_uper_arm')
+
+
+def same_name(robot: Element) -> None:
+    """Name two joints alike."""
+    joint(robot, 'right_knee').set('name', 'left_knee')
+
+
+def negative_mass(robot: Element) -> None:
+    """Let a shank fly."""
+    part(link(robot, 'left_shank'), 'inertial/mass').set('value', '-2.2')
+
+
+def impossible_inertia(robot: Element) -> None:
+    """Give a thigh a moment that is too large for the others."""
+    part(link(robot, 'left_thigh'), 'inertial/inertia').set('izz', '1.0')
+
+
+def negative_inertia(robot: Element) -> None:
+    """Give a thigh products of inertia that outweigh the moments."""
+    part(link(robot, 'left_thigh'), 'inertial/inertia').set('ixz', '0.5')
+
+
+def no_body(robot: Element) -> None:
+    """Take the mass out of a link that moves."""
+    neck = link(robot, 'neck')
+    neck.remove(part(neck, 'inertial'))
+
+
+def exchanged_limits(robot: Element) -> None:
+    """Let a knee go from its end to its start."""
+    limit = part(joint(robot, 'left_knee'), 'limit')
+    limit.set('lower', '2.3')
+    limit.set('upper', '0')
+
+
+def no_limits(robot: Element) -> None:
+    """Take the limits from a joint."""
+    head = joint(robot, 'head_yaw')
+    head.remove(part(head, 'limit'))
+
+
+def no_effort(robot: Element) -> None:
+    """Take the strength from a joint."""
+    part(joint(robot, 'head_pitch'), 'limit').set('effort', '0')
+
+
+def no_axis(robot: Element) -> None:
+    """Let a joint turn about nothing."""
+    part(joint(robot, 'waist_yaw'), 'axis').set('xyz', '0 0 0')
+
+
+def unknown_type(robot: Element) -> None:
+    """Misspell a type."""
+    joint(robot, 'waist_yaw').set('type', 'revolut')
+
+
+def other_frame(robot: Element) -> None:
+    """Name a frame as REP 120 does not."""
+    link(robot, 'l_wrist').set('name', 'left_wrist')
+    for role in ('parent', 'child'):
+        for element in robot.findall(f"joint/{role}[@link='l_wrist']"):
+            element.set('link', 'left_wrist')
+
+
+def other_joint(robot: Element) -> None:
+    """Name a joint as no controller does."""
+    joint(robot, 'left_elbow').set('name', 'left_elbow_pitch')
+
+
+def longer_leg(robot: Element) -> None:
+    """Make one leg longer."""
+    part(joint(robot, 'right_ankle_pitch'), 'origin').set('xyz', '0 0 -0.32')
+
+
+def other_range(robot: Element) -> None:
+    """Let the arms roll to the same side."""
+    limit, left = (
+        part(joint(robot, f'{side}_shoulder_roll'), 'limit') for side in ('right', 'left')
+    )
+    limit.attrib.update(left.attrib)
+
+
+def heavy_foot(robot: Element) -> None:
+    """Make one foot heavier."""
+    part(link(robot, 'left_foot'), 'inertial/mass').set('value', '1.5')
+
+
+def heavy_torso(robot: Element) -> None:
+    """Make the torso heavier."""
+    part(link(robot, 'torso'), 'inertial/mass').set('value', '20')
+
+
+def giant(robot: Element) -> None:
+    """Put the head on a long neck."""
+    part(joint(robot, 'head_pitch'), 'origin').set('xyz', '0 0 0.88')
+
+
+def leaning(robot: Element) -> None:
+    """Put the weight of the torso far in front of the feet."""
+    part(link(robot, 'torso'), 'inertial/origin').set('xyz', '0.6 0 0.19')
+
+
+def no_soles(robot: Element) -> None:
+    """Let nothing touch the ground."""
+    for side in ('left', 'right'):
+        foot = link(robot, f'{side}_foot')
+        foot.remove(part(foot, 'collision'))
+
+
+def stiff_arms(robot: Element) -> None:
+    """Let the arms only hang."""
+    for side in ('left', 'right'):
+        limit = part(joint(robot, f'{side}_shoulder'), 'limit')
+        limit.attrib.update(lower='-0.3', upper='0.3')
+
+
+BROKEN: dict[str, tuple[Break, str]] = {
+    'two roots': (two_roots, "There are 2 roots: 'base_link', 'camera_link'. Connect them"),
+    'loop': (loop, "lead in a loop, and to no root: 'torso', 'neck', 'head'"),
+    'no root': (only_a_loop, 'There is no root: every link hangs from a joint.'),
+    'two parents': (
+        two_parents,
+        "Link 'l_gripper' hangs from several joints: 'l_gripper_fixed', 'clasp'.",
+    ),
+    'unknown link': (
+        unknown_link,
+        "The parent of joint 'left_elbow' is 'left_uper_arm', which is no link. "
+        "Did you mean 'left_upper_arm'?",
+    ),
+    'same name': (same_name, "Several joints are named 'left_knee'."),
+    'negative mass': (negative_mass, "Link 'left_shank' has a mass of -2.2 kg."),
+    'impossible inertia': (
+        impossible_inertia,
+        "Link 'left_thigh' has the inertia of no real body: the largest principal moment, "
+        '1 kg m2, is more than the sum',
+    ),
+    'negative inertia': (
+        negative_inertia,
+        "Link 'left_thigh' has a principal moment of inertia of -0.4",
+    ),
+    'no body': (no_body, "Link 'neck' is moved by joint 'head_yaw', but has no mass"),
+    'exchanged limits': (
+        exchanged_limits,
+        "Joint 'left_knee' has the lower limit 2.3, which is not below the upper limit 0.",
+    ),
+    'no limits': (no_limits, "Joint 'head_yaw' is revolute, but no <limit> says how far"),
+    'no effort': (no_effort, "Joint 'head_pitch' has 0 as effort limit"),
+    'no axis': (no_axis, "The axis of joint 'waist_yaw' is 0 0 0"),
+    'unknown type': (
+        unknown_type,
+        "Joint 'waist_yaw' is of the unknown type 'revolut'. Did you mean 'revolute'?",
+    ),
+    'other frame': (
+        other_frame,
+        "The frame 'l_wrist' is missing, which REP 120 names. Did you mean 'left_wrist'?",
+    ),
+    'other joint': (
+        other_joint,
+        "The driven joint 'left_elbow' of config/joints.yaml is missing. "
+        "Did you mean 'left_elbow_pitch'?",
+    ),
+    'longer leg': (
+        longer_leg,
+        "Joints 'left_ankle_pitch' and 'right_ankle_pitch' are not at mirrored places: "
+        '(0, 0, -0.3) and (0, 0, -0.32).',
+    ),
+    'other range': (
+        other_range,
+        "Joints 'left_shoulder_roll' and 'right_shoulder_roll' have no mirrored ranges",
+    ),
+    'heavy foot': (
+        heavy_foot,
+        "Links 'left_foot' and 'right_foot' have different masses, 1.5 and 1 kg.",
+    ),
+    'heavy torso': (
+        heavy_torso,
+        'The robot weighs 50.80 kg; at its height of 1.35 m it should weigh 42.80 kg.',
+    ),
+    'giant': (giant, 'The robot is 2.20 m tall, but its build is made for 0.68 to 1.76 m.'),
+    'leaning': (leaning, 'outside of the area that the robot stands on'),
+    'no soles': (no_soles, 'There is nothing flat to stand on'),
+    'stiff arms': (stiff_arms, 'The left hand reaches only'),
+}
+
+
+@pytest.mark.parametrize('scale', ['0.5', '0.65', '1.0', '1.3'])
+@pytest.mark.parametrize('more', [[], ['--upper-body-only', '--prefix', 'r1_']])
+def test_humanoid_is_sound(
+    scale: str, more: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The humanoid passes every check in every size, whole or without legs."""
+    assert main(['--scale', scale, *more]) == 0
+    assert capsys.readouterr().out.endswith('is sound: 16 checks passed.\n')
+
+
+@pytest.mark.parametrize('name', BROKEN)
+def test_broken_model(name: str, urdf: str) -> None:
+    """Each defect gets its sentence."""
+    break_it, sentence = BROKEN[name]
+    robot = ElementTree.fromstring(urdf)
+    break_it(robot)
+    text = ElementTree.tostring(robot, encoding='unicode')
+    outcomes = check_robot(load_robot(text, 'broken.urdf'))
+    defects = [defect for outcome in outcomes for defect in outcome.defects]
+    assert any(sentence in defect for defect in defects), defects
+
+
+def test_broken_file(urdf: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A defect ends the program with 1, and is printed below the table with the verdict."""
+    path = tmp_path / 'broken.urdf'
+    path.write_text(urdf.replace('<mass value="6.0"/>', '<mass value="0"/>'))
+    assert main([str(path)]) == 1
+    out = capsys.readouterr().out
+    assert "- Link 'base_link' has a mass of 0 kg." in out
+    assert out.endswith(f'{path} has 1 defect: 7 checks passed, 8 skipped.\n')
+
+
+def test_other_robot(capsys: pytest.CaptureFixture[str]) -> None:
+    """What makes sense for the humanoid only is skipped for other robots, with the reason."""
+    share = get_package_share_directory('robot_description')
+    assert main([f'{share}/urdf/simple_arm.urdf']) == 0
+    out = capsys.readouterr().out
+    assert "skipped: the robot 'simple_arm' is not the humanoid" in out
+    assert out.endswith('is sound: 8 checks passed, 8 skipped.\n')
+
+
+def test_xacro_file(capsys: pytest.CaptureFixture[str]) -> None:
+    """A xacro file is expanded before it is checked."""
+    share = get_package_share_directory('humanoid_description')
+    assert main([f'{share}/urdf/humanoid.urdf.xacro']) == 0
+    assert 'is sound' in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'sentence'),
+    [
+        (['--scale', '3'], 'The scale 3 is out of range. Give one from 0.5 to 1.3.'),
+        (['nowhere.urdf'], 'nowhere.urdf cannot be read: No such file or directory.'),
+        (['nowhere.xacro'], 'nowhere.xacro cannot be read: No such file or directory.'),
+        (['robot.urdf', '--scale', '1'], 'robot.urdf is checked as it is. Leave out --scale'),
+    ],
+)
+def test_nothing_to_check(
+    arguments: list[str], sentence: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Without a model there is one sentence and status 1."""
+    assert main(arguments) == 1
+    assert capsys.readouterr().err.startswith(sentence)
+
+
+@pytest.mark.parametrize(
+    ('content', 'reason'),
+    [
+        ('<robot name="a" xmlns:xacro="x">\n<link></robot>', 'mismatched tag: line 2, column 8.'),
+        (
+            '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">${b}</robot>',
+            "name 'b' is not defined when evaluating expression 'b'.",
+        ),
+    ],
+)
+def test_broken_xacro(
+    content: str, reason: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What xacro cannot expand is told with the file."""
+    path = tmp_path / 'broken.xacro'
+    path.write_text(content)
+    assert main([str(path)]) == 1
+    assert capsys.readouterr().err == f'xacro cannot expand {path}: {reason}\n'
