@@ -13,11 +13,12 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
+from robot_state_publisher.description_file import file_argument, parameters_from_file
 from robot_state_publisher.joint_positions import UnusableStateError, usable_positions
 from robot_state_publisher.published_robot import PublishedRobot
 from robot_state_publisher.run_node import run_node
 from robot_state_publisher.settings import DESCRIPTIONS, Settings
-from robot_state_publisher.urdf import read_urdf_file, RobotModel
+from robot_state_publisher.urdf import RobotModel
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
@@ -34,7 +35,7 @@ class RobotStatePublisher(Node):
 
     def __init__(self, file: str | None = None) -> None:
         """Declare the parameters and publish the robot; its URDF may be in a file."""
-        super().__init__('robot_state_publisher', parameter_overrides=_from_file(file))
+        super().__init__('robot_state_publisher', parameter_overrides=parameters_from_file(file))
         self._settings = _declare(self)
         self._robot = PublishedRobot(self._first_model(file), self._settings)
         self._description = self.create_publisher(String, 'robot_description', LATCHED)
@@ -138,13 +139,6 @@ class RobotStatePublisher(Node):
             self._publish_robot()
 
 
-def _from_file(file: str | None) -> list[Parameter]:
-    """Return the parameter that a file holds."""
-    if file is None:
-        return []
-    return [Parameter('robot_description', Parameter.Type.STRING, read_urdf_file(file))]
-
-
 def _declare(node: Node) -> Settings:
     """Declare the parameters and return their first values."""
     settings = Settings()
@@ -163,17 +157,12 @@ def _values(changes: list[Parameter]) -> dict[str, Any]:
 
 def _make_node(words: list[str]) -> Node:
     """Make the node from its arguments: none, or the file of a URDF, as was once usual."""
-    if len(words) > 1:
-        raise ValueError(
-            f'robot_state_publisher takes one URDF file at most, and not {" ".join(words)}. '
-            'Parameters are given after --ros-args -p.'
+    file = file_argument('robot_state_publisher', words)
+    node = RobotStatePublisher(file)
+    if file is not None:
+        node.get_logger().warning(
+            'A URDF as argument is deprecated: pass its text as the parameter robot_description.'
         )
-    if not words:
-        return RobotStatePublisher()
-    node = RobotStatePublisher(words[0])
-    node.get_logger().warning(
-        'A URDF as argument is deprecated: pass its text as the parameter robot_description.'
-    )
     return node
 
 
