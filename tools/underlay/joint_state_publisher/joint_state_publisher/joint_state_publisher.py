@@ -3,18 +3,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 import sys
 from typing import Any
 
 from joint_state_publisher.merged_joints import MergedJoints, States
-from joint_state_publisher.settings import DESCRIPTIONS, Settings, settings_of, unknown_names
-from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
+from joint_state_publisher.parameters import CHANGEABLE, declare_settings
+from joint_state_publisher.settings import Settings, settings_of
+from joint_state_publisher.sources import Sources
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from robot_state_publisher.description_file import file_argument, parameters_from_file
 from robot_state_publisher.run_node import run_node
 from robot_state_publisher.state_watch import StateWatch
@@ -25,12 +27,8 @@ from std_msgs.msg import String
 __all__ = ['JointStatePublisher', 'main']
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-# Hears reliable sources and others.
-SOURCE = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
-CHANGEABLE = ('robot_description', 'delta')
 PATIENCE_S = 2.0
 REPEAT_S = 10.0
-OF_ROS = ('use_sim_time', 'start_type_description_service', 'qos_overrides.')
 
 
 class JointStatePublisher(Node):
@@ -43,11 +41,13 @@ class JointStatePublisher(Node):
             automatically_declare_parameters_from_overrides=True,
             parameter_overrides=parameters_from_file(file),
         )
-        self._settings = self._declare()
+        self._settings = declare_settings(self)
         self._joints: MergedJoints | None = None
         self._watch: StateWatch | None = None
         self._publisher = self.create_publisher(JointState, 'joint_states', QoSProfile(depth=10))
-        self._silent = self._listen()
+        self._sources = Sources(
+            self, self._settings.source_list, self._publisher.topic_name, self._take
+        )
         self._find_robot(file)
         self.create_timer(1.0 / self._settings.rate, self._publish)
         self._patience = self.create_timer(
@@ -56,62 +56,20 @@ class JointStatePublisher(Node):
         self.add_on_set_parameters_callback(self._check)
         self.add_post_set_parameters_callback(self._swap)
 
-    def _declare(self) -> Settings:
-        """Declare what was not given, describe all, and return the first values."""
-        given = self.get_parameters_by_prefix('')
-        for sentence in unknown_names([name for name in given if not name.startswith(OF_ROS)]):
-            self.get_logger().warning(sentence)
-        settings = settings_of({name: each.value for name, each in given.items()})
-        for name, text in DESCRIPTIONS.items():
-            if name not in given:
-                default = getattr(settings, name)
-                dynamic = ParameterDescriptor(dynamic_typing=True)
-                self.declare_parameter(
-                    name, list(default) if isinstance(default, tuple) else default, dynamic
-                )
-            self.set_descriptor(
-                name,
-                ParameterDescriptor(
-                    description=text, read_only=name not in CHANGEABLE, dynamic_typing=True
-                ),
+    def _take(self, topic: str, message: JointState) -> None:
+        """Take over what a source tells."""
+        if self._joints is None or self._watch is None:
+            return
+        for sentence in self._watch.misspelt(message.name):
+            self.get_logger().warning(f'{topic}: {sentence}')
+        states = States(message.name, message.position, message.velocity, message.effort)
+        try:
+            self._joints.take(states)
+        except ValueError as error:
+            self.get_logger().warning(
+                f'{topic}: a message has {error}, and is left out.',
+                throttle_duration_sec=REPEAT_S,
             )
-        return settings
-
-    def _listen(self) -> dict[str, Any]:
-        """Subscribe to the sources; return those of which nothing was heard yet: all."""
-        own = self._publisher.topic_name
-        silent = {}
-        for source in self._settings.source_list:
-            topic = self.resolve_topic_name(source)
-            if topic == own:
-                raise ValueError(
-                    f"The parameter 'source_list' names {own}, which is what this node publishes. "
-                    'Name another topic, or remap joint_states.'
-                )
-            silent[topic] = self.create_subscription(
-                JointState, source, self._receiver(topic), SOURCE
-            )
-        return silent
-
-    def _receiver(self, topic: str) -> Callable[[JointState], None]:
-        """Return the callback for the messages of a source."""
-
-        def receive(message: JointState) -> None:
-            self._silent.pop(topic, None)
-            if self._joints is None or self._watch is None:
-                return
-            for sentence in self._watch.misspelt(message.name):
-                self.get_logger().warning(f'{topic}: {sentence}')
-            states = States(message.name, message.position, message.velocity, message.effort)
-            try:
-                self._joints.take(states)
-            except ValueError as error:
-                self.get_logger().warning(
-                    f'{topic}: a message has {error}, and is left out.',
-                    throttle_duration_sec=REPEAT_S,
-                )
-
-        return receive
 
     def _find_robot(self, file: str | None) -> None:
         """Load the robot from the file or the parameter, or wait for it on the topic."""
@@ -157,7 +115,7 @@ class JointStatePublisher(Node):
     def _on_patience_end(self) -> None:
         """Name what is still awaited, once."""
         self._patience.cancel()
-        awaited = list(self._silent)
+        awaited = sorted(self._sources.silent)
         if self._joints is None:
             awaited.append(self.resolve_topic_name('robot_description'))
         for topic in awaited:

@@ -12,6 +12,7 @@ from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
 
 __all__ = ['run_node']
 
@@ -31,14 +32,25 @@ def run_node(
     signals = _Signals()
     words = list(sys.argv if arguments is None else arguments)
     try:
-        rclpy.init(args=words, signal_handler_options=SignalHandlerOptions.NO)
-        node = make_node(rclpy.utilities.remove_ros_args(words)[1:])
-    except (ValueError, ParameterException, RuntimeError) as error:
+        _initialize(words)
+        node = make_node(remove_ros_args(words)[1:])
+    except (ValueError, ParameterException) as error:
         rclpy.try_shutdown()
         sys.stderr.write(f'{error}\n')
         return 1
     _spin(node, signals)
     return 0
+
+
+def _initialize(words: list[str]) -> None:
+    """Start ROS without its own handling of signals; ValueError if it refuses the arguments."""
+    try:
+        rclpy.init(args=words, signal_handler_options=SignalHandlerOptions.NO)
+    except RuntimeError as error:
+        raise ValueError(
+            f'The ROS arguments cannot be used: {error}. '
+            'Correct what follows --ros-args, or the parameter file that it names.'
+        ) from error
 
 
 class _Signals:

@@ -256,7 +256,8 @@ def test_bad_file_ends_with_its_place(programs: Programs, tmp_path: Path) -> Non
         ([], {}, "Node 'robot_state_publisher' needs the parameter robot_description"),
         (['/no/arm.urdf'], {}, "The URDF '/no/arm.urdf' cannot be read: No such file"),
         (['a.urdf', 'b.urdf'], {}, 'takes one URDF file at most, and not a.urdf b.urdf.'),
-        ([], {'robot_description': '7'}, 'robot_description'),
+        ([], {'robot_description': '7'}, "Trying to set parameter 'robot_description'"),
+        (['--ros-args', '--params-file', '/no/file'], {}, 'The ROS arguments cannot be used: '),
     ],
 )
 def test_cannot_start(programs: Programs, words, parameters, sentence) -> None:
