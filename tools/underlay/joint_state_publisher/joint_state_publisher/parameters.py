@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-from joint_state_publisher.settings import DESCRIPTIONS, Settings, settings_of, unknown_names
+from joint_state_publisher.settings import DESCRIPTIONS, MAPS, Settings, settings_of
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
+from robot_state_publisher.unknown_parameters import unknown_parameters
 
 __all__ = ['CHANGEABLE', 'declare_settings']
 
 CHANGEABLE = ('robot_description', 'delta')
-OF_ROS = ('use_sim_time', 'start_type_description_service', 'qos_overrides.')
 
 
 def declare_settings(node: Node) -> Settings:
@@ -20,7 +20,7 @@ def declare_settings(node: Node) -> Settings:
     The node has declared what was given, as it cannot know the joints that `zeros` names.
     """
     given = {name: each.value for name, each in node.get_parameters_by_prefix('').items()}
-    for sentence in unknown_names([name for name in given if not name.startswith(OF_ROS)]):
+    for sentence in unknown_parameters(given, DESCRIPTIONS, MAPS):
         node.get_logger().warning(sentence)
     settings = settings_of(given)
     for name, text in DESCRIPTIONS.items():

@@ -10,7 +10,7 @@ from typing import Any
 from robot_state_publisher.did_you_mean import did_you_mean
 from robot_state_publisher.urdf import check_for_loops, Mimic
 
-__all__ = ['DESCRIPTIONS', 'Settings', 'settings_of', 'unknown_names']
+__all__ = ['DESCRIPTIONS', 'MAPS', 'Settings', 'settings_of']
 
 DESCRIPTIONS = {
     'rate': 'How often joint states are published, in 1/s.',
@@ -23,6 +23,8 @@ DESCRIPTIONS = {
     'delta': 'How far each joint moves by itself between two messages, in radians or metres.',
     'robot_description': 'The text of the URDF; it is taken from the topic if this is empty.',
 }
+MAPS = ('zeros.', 'dependent_joints.')
+"""What begins the names of parameters that belong to joints."""
 DEPENDENT_KEYS = ('parent', 'factor', 'offset')
 
 
@@ -55,15 +57,6 @@ def settings_of(values: Mapping[str, Any]) -> Settings:
     if settings.rate <= 0:
         raise ValueError(f"The parameter 'rate' must be above 0, and not {settings.rate:g}.")
     return settings
-
-
-def unknown_names(names: list[str]) -> list[str]:
-    """Return a sentence for each parameter that nothing takes."""
-    return [
-        f"There is no parameter '{name}'.{did_you_mean(name, DESCRIPTIONS)}"
-        for name in names
-        if name not in DESCRIPTIONS and not name.startswith(('zeros.', 'dependent_joints.'))
-    ]
 
 
 def _zeros(values: Mapping[str, Any]) -> dict[str, float]:

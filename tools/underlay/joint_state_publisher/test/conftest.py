@@ -24,7 +24,7 @@ def domain() -> Iterator[int]:
 @pytest.fixture
 def probe(domain: int) -> Iterator[Any]:
     """Return a node in the domain of the test."""
-    from probe import Probe
+    from publisher_probe import Probe
 
     with Probe(domain) as probe:
         yield probe
@@ -33,7 +33,7 @@ def probe(domain: int) -> Iterator[Any]:
 @pytest.fixture
 def programs(domain: int, tmp_path: Path) -> Iterator[Any]:
     """Return what starts programs in the domain of the test, and ends them after it."""
-    from probe import Programs
+    from publisher_probe import Programs
 
     environment = {
         **os.environ,

@@ -6,7 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 import signal
 
-from probe import LATCHED, Probe, Program, Programs
+from publisher_probe import LATCHED, Probe, Program, Programs
 import pytest
 from rclpy.qos import qos_profile_sensor_data
 from rosgraph_msgs.msg import Clock

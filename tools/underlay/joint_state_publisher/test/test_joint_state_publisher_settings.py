@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from joint_state_publisher.settings import Settings, settings_of, unknown_names
+from joint_state_publisher.settings import Settings, settings_of
 import pytest
 from robot_state_publisher.urdf import Mimic
 
@@ -57,11 +57,3 @@ def test_wrong_values_are_refused(values, sentence) -> None:
     with pytest.raises(ValueError) as caught:
         settings_of(values)
     assert sentence in str(caught.value)
-
-
-def test_names_that_nothing_takes_are_reported() -> None:
-    """A misspelt parameter has a suggestion."""
-    assert unknown_names(['rate', 'zeros.knee', 'source_lists', 'other']) == [
-        "There is no parameter 'source_lists'. Did you mean 'source_list'?",
-        "There is no parameter 'other'.",
-    ]

@@ -11,9 +11,9 @@ __all__ = ['file_argument', 'parameters_from_file']
 
 def file_argument(program: str, words: list[str]) -> str | None:
     """Return the file that the arguments name, or None if there are no arguments."""
-    if len(words) > 1:
+    if len(words) > 1 or any(word.startswith('-') for word in words):
         raise ValueError(
-            f'{program} takes one URDF file at most, and not {" ".join(words)}. '
+            f'{program} takes one URDF file at most and no options, but not {" ".join(words)}. '
             'Parameters are given after --ros-args -p.'
         )
     return words[0] if words else None

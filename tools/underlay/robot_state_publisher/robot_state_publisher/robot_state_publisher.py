@@ -18,6 +18,7 @@ from robot_state_publisher.joint_positions import UnusableStateError, usable_pos
 from robot_state_publisher.published_robot import PublishedRobot
 from robot_state_publisher.run_node import run_node
 from robot_state_publisher.settings import DESCRIPTIONS, Settings
+from robot_state_publisher.unknown_parameters import unknown_parameters
 from robot_state_publisher.urdf import RobotModel
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
@@ -37,6 +38,7 @@ class RobotStatePublisher(Node):
         """Declare the parameters and publish the robot; its URDF may be in a file."""
         super().__init__('robot_state_publisher', parameter_overrides=parameters_from_file(file))
         self._settings = _declare(self)
+        _warn_of_unknown(self)
         self._robot = PublishedRobot(self._first_model(file), self._settings)
         self._description = self.create_publisher(String, 'robot_description', LATCHED)
         self._tf_static = self.create_publisher(TFMessage, '/tf_static', LATCHED)
@@ -149,6 +151,13 @@ def _declare(node: Node) -> Settings:
         )
         node.declare_parameter(name, getattr(settings, name), descriptor)
     return settings.changed({name: node.get_parameter(name).value for name in DESCRIPTIONS})
+
+
+def _warn_of_unknown(node: Node) -> None:
+    """Log which given parameters nothing takes; rclpy has no public way to ask for them."""
+    given = getattr(node, '_parameter_overrides', {})
+    for sentence in unknown_parameters(given, DESCRIPTIONS):
+        node.get_logger().warning(sentence)
 
 
 def _values(changes: list[Parameter]) -> dict[str, Any]:

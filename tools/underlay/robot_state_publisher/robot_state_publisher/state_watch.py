@@ -28,12 +28,15 @@ class StateWatch:
         return [name for name in self._needed if name not in self._seen]
 
     def misspelt(self, names: Iterable[str]) -> Iterator[str]:
-        """Note names that came; return a sentence for each new one that is close to a joint's."""
-        for name in names:
-            if name in self._seen:
-                continue
-            self._seen.add(name)
-            meant = None if name in self._names else closest(name, self._names)
+        """
+        Note names that came; return a sentence for each new one that is like a missing joint's.
+
+        Other names belong to other robots, and joints that have a state are not meant.
+        """
+        new = [name for name in names if name not in self._seen]
+        self._seen.update(new)
+        for name in new:
+            meant = None if name in self._names else closest(name, self._names - self._seen)
             if meant is not None:
                 yield (
                     f"The joint states name '{name}', but the robot has no such joint. "

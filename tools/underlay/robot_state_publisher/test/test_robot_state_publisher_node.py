@@ -7,7 +7,7 @@ from pathlib import Path
 import signal
 
 from geometry_msgs.msg import TransformStamped
-from probe import LATCHED, Probe, Program, Programs
+from publisher_probe import LATCHED, Probe, Program, Programs
 import pytest
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
@@ -131,10 +131,13 @@ def test_new_description_takes_over_whole_or_not_at_all(
     probe: Probe, programs: Programs, arm: str
 ) -> None:
     """A broken description is refused with its reason; a good one is published at once."""
-    started(probe, programs.start(MODULE, arm))
+    program = started(probe, programs.start(MODULE, arm, frame_prefx='a/'))
+    complaint = 'joints have had no state so far'
+    assert "There is no parameter 'frame_prefx'. Did you mean 'frame_prefix'?" in program.output
     descriptions = probe.listen(String, '/robot_description', LATCHED)
     fixed = probe.listen(TFMessage, '/tf_static', LATCHED)
     probe.until(lambda: descriptions and fixed, 'nothing published')
+    probe.until(lambda: complaint in program.output, 'no complaint')
     (refusal,) = probe.set_parameters('/robot_state_publisher', robot_description=BROKEN)
     assert not refusal.successful
     assert refusal.reason == (
@@ -148,6 +151,7 @@ def test_new_description_takes_over_whole_or_not_at_all(
     probe.until(lambda: len(descriptions) == 2 and len(fixed) == 2, 'nothing new')
     assert descriptions[1].data == LEG
     assert set(frames(fixed[1:])) == {'foot'}
+    probe.until(lambda: program.output.count(complaint) == 2, 'no complaint about the new robot')
 
 
 def test_joints_without_a_state_are_named(probe: Probe, programs: Programs, arm: str) -> None:
@@ -255,7 +259,8 @@ def test_bad_file_ends_with_its_place(programs: Programs, tmp_path: Path) -> Non
     [
         ([], {}, "Node 'robot_state_publisher' needs the parameter robot_description"),
         (['/no/arm.urdf'], {}, "The URDF '/no/arm.urdf' cannot be read: No such file"),
-        (['a.urdf', 'b.urdf'], {}, 'takes one URDF file at most, and not a.urdf b.urdf.'),
+        (['a.urdf', 'b.urdf'], {}, 'takes one URDF file at most and no options, but not'),
+        (['-x'], {}, 'takes one URDF file at most and no options, but not -x.'),
         ([], {'robot_description': '7'}, "Trying to set parameter 'robot_description'"),
         (['--ros-args', '--params-file', '/no/file'], {}, 'The ROS arguments cannot be used: '),
     ],

@@ -7,6 +7,7 @@ import pytest
 from robot_state_publisher.joint_positions import UnusableStateError, usable_positions
 from robot_state_publisher.publish_times import PublishTimes
 from robot_state_publisher.state_watch import StateWatch
+from robot_state_publisher.unknown_parameters import unknown_parameters
 from robot_state_publisher.urdf import parse_urdf
 
 MS = 1_000_000
@@ -98,6 +99,12 @@ def test_similar_names_are_reported_once() -> None:
     assert list(watch.misspelt(['lef_thumb', 'wheel'])) == []
 
 
+def test_joints_that_have_a_state_are_not_meant() -> None:
+    """A joint of another robot may have a similar name, if all of this one are there."""
+    watch = StateWatch(HAND)
+    assert list(watch.misspelt(['lef_thumb', 'left_thumb'])) == []
+
+
 def test_values_that_are_no_number_are_left_out() -> None:
     """Only what a source knows counts."""
     names, positions = usable_positions(['a', 'b', 'c'], [1.0, float('nan'), 3.0])
@@ -112,3 +119,12 @@ def test_states_that_contradict_themselves_are_refused(positions, sentence) -> N
     """Names and positions must be as many."""
     with pytest.raises(UnusableStateError, match=sentence):
         usable_positions(['a', 'b'], positions)
+
+
+def test_parameters_that_nothing_takes_are_reported() -> None:
+    """A misspelt parameter has a suggestion; those of ROS and of joints are known."""
+    given = ['rate', 'zeros.knee', 'rates', 'other', 'use_sim_time', 'qos_overrides./tf.depth']
+    assert unknown_parameters(given, ['rate'], ('zeros.',)) == [
+        "There is no parameter 'rates'. Did you mean 'rate'?",
+        "There is no parameter 'other'.",
+    ]
