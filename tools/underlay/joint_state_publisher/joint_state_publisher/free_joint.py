@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A joint that follows no other one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+from robot_state_publisher.urdf import Joint
+
+__all__ = ['FreeJoint']
+
+
+@dataclass
+class FreeJoint:
+    """What is known of a joint; what is not is None."""
+
+    lower: float
+    upper: float
+    is_continuous: bool
+    position: float | None = None
+    velocity: float | None = None
+    effort: float | None = None
+    _direction: int = 1
+
+    @classmethod
+    def of(cls, joint: Joint, use_soft_limits: bool) -> FreeJoint:
+        """Return a joint with the limits of its description, and with nothing known."""
+        if joint.limits is None:
+            return cls(-pi, pi, joint.kind == 'continuous')
+        lower, upper = joint.limits.lower, joint.limits.upper
+        if use_soft_limits and joint.soft_limits is not None:
+            lower = max(lower, joint.soft_limits.lower)
+            upper = min(upper, joint.soft_limits.upper)
+        return cls(lower, upper, False)
+
+    @property
+    def is_known(self) -> bool:
+        """Tell if anything is known of it."""
+        return (self.position, self.velocity, self.effort) != (None, None, None)
+
+    @property
+    def zero(self) -> float:
+        """Return the position that is shown by default: 0, or the middle if it cannot go there."""
+        return 0.0 if self.lower <= 0.0 <= self.upper else (self.lower + self.upper) / 2.0
+
+    def move(self, delta: float) -> None:
+        """Go on to and fro between the limits; a continuous joint turns on and on."""
+        if self.position is None:
+            return
+        position = self.position + self._direction * delta
+        if not self.lower <= position <= self.upper:
+            if self.is_continuous:
+                position = self.lower if position > self.upper else self.upper
+            else:
+                self._direction = -1 if (position > self.upper) == (delta > 0) else 1
+                position = min(max(position, self.lower), self.upper)
+        self.position = position

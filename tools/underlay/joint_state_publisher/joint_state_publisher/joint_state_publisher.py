@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The node that publishes the positions of the joints of a robot."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+import sys
+from typing import Any
+
+from joint_state_publisher.merged_joints import MergedJoints, States
+from joint_state_publisher.parameters import CHANGEABLE, declare_settings
+from joint_state_publisher.settings import Settings, settings_of
+from joint_state_publisher.sources import Sources
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from robot_state_publisher.description_file import file_argument, parameters_from_file
+from robot_state_publisher.run_node import run_node
+from robot_state_publisher.state_watch import StateWatch
+from robot_state_publisher.urdf import parse_urdf
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+
+__all__ = ['JointStatePublisher', 'main']
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+PATIENCE_S = 2.0
+REPEAT_S = 10.0
+
+
+class JointStatePublisher(Node):
+    """Publishes the joint states of a robot: defaults, merged with what other topics tell."""
+
+    def __init__(self, file: str | None = None) -> None:
+        """Declare the parameters; the URDF may be in a file."""
+        super().__init__(
+            'joint_state_publisher',
+            automatically_declare_parameters_from_overrides=True,
+            parameter_overrides=parameters_from_file(file),
+        )
+        self._settings = declare_settings(self)
+        self._joints: MergedJoints | None = None
+        self._watch: StateWatch | None = None
+        self._publisher = self.create_publisher(JointState, 'joint_states', QoSProfile(depth=10))
+        self._sources = Sources(
+            self, self._settings.source_list, self._publisher.topic_name, self._take
+        )
+        self._find_robot(file)
+        self.create_timer(1.0 / self._settings.rate, self._publish)
+        self._patience = self.create_timer(
+            PATIENCE_S, self._on_patience_end, clock=Clock(clock_type=ClockType.STEADY_TIME)
+        )
+        self.add_on_set_parameters_callback(self._check)
+        self.add_post_set_parameters_callback(self._swap)
+
+    def _take(self, topic: str, message: JointState) -> None:
+        """Take over what a source tells."""
+        if self._joints is None or self._watch is None:
+            return
+        for sentence in self._watch.misspelt(message.name):
+            self.get_logger().warning(f'{topic}: {sentence}')
+        states = States(message.name, message.position, message.velocity, message.effort)
+        try:
+            self._joints.take(states)
+        except ValueError as error:
+            self.get_logger().warning(
+                f'{topic}: a message has {error}, and is left out.',
+                throttle_duration_sec=REPEAT_S,
+            )
+
+    def _find_robot(self, file: str | None) -> None:
+        """Load the robot from the file or the parameter, or wait for it on the topic."""
+        if self._settings.robot_description:
+            self._load(self._settings, file or 'robot_description')
+            return
+        self.create_subscription(String, 'robot_description', self._on_description, LATCHED)
+        topic = self.resolve_topic_name('robot_description')
+        self.get_logger().info(
+            f'Waiting for robot_description to be published on the {topic} topic...'
+        )
+
+    def _load(self, settings: Settings, source: str) -> None:
+        """Begin anew with a robot, or raise ValueError and go on with the one that there was."""
+        model = parse_urdf(settings.robot_description, source)
+        joints = MergedJoints(model, settings)
+        self._settings, self._joints, self._watch = settings, joints, StateWatch(model)
+        logger = self.get_logger()
+        logger.info(model.describe())
+        for sentence in joints.surplus_zeros(settings):
+            logger.warning(sentence)
+
+    def _on_description(self, message: String) -> None:
+        """Take over a robot that is published, unless it is unusable."""
+        try:
+            self._load(self._changed({'robot_description': message.data}), 'robot_description')
+        except ValueError as error:
+            self.get_logger().error(f'A robot description is left out. {error}')
+
+    def _publish(self) -> None:
+        """Publish the states of all joints, if any are known."""
+        if self._joints is None:
+            return
+        if self._settings.delta:
+            self._joints.move(self._settings.delta)
+        states = self._joints.states()
+        if not states.name:
+            return
+        message = JointState(**vars(states))
+        message.header.stamp = self.get_clock().now().to_msg()
+        self._publisher.publish(message)
+
+    def _on_patience_end(self) -> None:
+        """Name what is still awaited, once."""
+        self._patience.cancel()
+        awaited = sorted(self._sources.silent)
+        if self._joints is None:
+            awaited.append(self.resolve_topic_name('robot_description'))
+        for topic in awaited:
+            count = self.count_publishers(topic)
+            who = f'{count} publishers were found' if count else 'nobody publishes it'
+            self.get_logger().warning(f'Nothing was heard on {topic} so far: {who}.')
+
+    def _check(self, changes: list[Parameter]) -> SetParametersResult:
+        """Accept changes only if all can be done that they ask for."""
+        try:
+            settings = self._changed(_values(changes))
+            if settings.robot_description != self._settings.robot_description:
+                MergedJoints(parse_urdf(settings.robot_description), settings)
+        except ValueError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def _swap(self, changes: list[Parameter]) -> None:
+        """Do what accepted changes ask for."""
+        settings = self._changed(_values(changes))
+        if settings.robot_description != self._settings.robot_description:
+            self._load(settings, 'robot_description')
+        self._settings = settings
+
+    def _changed(self, values: dict[str, Any]) -> Settings:
+        """Return the settings with new values of what may change while the node runs."""
+        new = settings_of(values)
+        names = [name for name in CHANGEABLE if name in values]
+        return replace(self._settings, **{name: getattr(new, name) for name in names})
+
+
+def _values(changes: list[Parameter]) -> dict[str, Any]:
+    return {change.name: change.value for change in changes}
+
+
+def _make_node(words: list[str]) -> Node:
+    """Make the node from its arguments: none, or the file of a URDF."""
+    return JointStatePublisher(file_argument('joint_state_publisher', words))
+
+
+def main(args: Sequence[str] | None = None) -> None:
+    """Run the node."""
+    sys.exit(run_node(_make_node, args))
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The joints of a robot with what several sources tell of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from math import isfinite
+
+from joint_state_publisher.free_joint import FreeJoint
+from joint_state_publisher.settings import Settings
+from robot_state_publisher.did_you_mean import did_you_mean
+from robot_state_publisher.urdf import check_for_loops, followed, Mimic, RobotModel
+
+__all__ = ['MergedJoints', 'States']
+
+QUANTITIES = ('position', 'velocity', 'effort')
+
+
+@dataclass
+class States:
+    """Names with as many values of each quantity, or none of it."""
+
+    name: list[str] = field(default_factory=list)
+    position: list[float] = field(default_factory=list)
+    velocity: list[float] = field(default_factory=list)
+    effort: list[float] = field(default_factory=list)
+
+
+class MergedJoints:
+    """Takes over what sources tell, and returns the states of all joints."""
+
+    def __init__(self, model: RobotModel, settings: Settings) -> None:
+        """Begin with the default values; ValueError if a joint depends on none of the robot."""
+        mimics = _mimics(model, settings)
+        moving = model.moving_joints
+        self.free = {
+            joint.name: FreeJoint.of(joint, settings.use_smallest_joint_limits)
+            for joint in moving
+            if joint.name not in mimics
+        }
+        self._leaders = {
+            joint.name: leader
+            for joint in moving
+            if (leader := followed(joint.name, mimics, self.free)) is not None
+        }
+        self._set_defaults(settings)
+
+    def _set_defaults(self, settings: Settings) -> None:
+        for name, joint in self.free.items():
+            if settings.publish_default_positions:
+                joint.position = settings.zeros.get(name, joint.zero)
+            if settings.publish_default_velocities:
+                joint.velocity = 0.0
+            if settings.publish_default_efforts:
+                joint.effort = 0.0
+
+    def take(self, states: States) -> None:
+        """
+        Take over what a source tells of joints that follow no other.
+
+        What it leaves out, or is no number, stays as it was. ValueError if the source contradicts
+        itself.
+        """
+        for quantity in QUANTITIES:
+            values = getattr(states, quantity)
+            if len(values) not in (0, len(states.name)):
+                raise ValueError(f'{len(states.name)} names but {len(values)} {quantity} values')
+        for quantity in QUANTITIES:
+            for name, value in zip(states.name, getattr(states, quantity)):
+                if name in self.free and isfinite(value):
+                    setattr(self.free[name], quantity, value)
+
+    def move(self, delta: float) -> None:
+        """Move every joint that follows no other by a distance."""
+        for joint in self.free.values():
+            joint.move(delta)
+
+    def states(self) -> States:
+        """
+        Return the states of all joints of which anything is known, in the order of the URDF.
+
+        A quantity that is known of some of them only is 0 for the others.
+        """
+        known = {
+            name: leader
+            for name, leader in self._leaders.items()
+            if any(
+                getattr(self.free[leader.joint], quantity) is not None for quantity in QUANTITIES
+            )
+        }
+        return States(
+            list(known),
+            *(self._values(list(known.values()), quantity) for quantity in QUANTITIES),
+        )
+
+    def _values(self, leaders: Sequence[Mimic], quantity: str) -> list[float]:
+        """Return the values of a quantity; none if it is not known of any joint."""
+        values = [getattr(self.free[leader.joint], quantity) for leader in leaders]
+        if all(value is None for value in values):
+            return []
+        # Velocities follow without the offset; so do, as there is no better rule, efforts.
+        with_offset = quantity == 'position'
+        return [
+            leader.multiplier * (value or 0.0) + (leader.offset if with_offset else 0.0)
+            for leader, value in zip(leaders, values)
+        ]
+
+    def surplus_zeros(self, settings: Settings) -> Iterator[str]:
+        """Return a sentence for each of `zeros` that is used for no joint."""
+        for name in settings.zeros:
+            if name not in self.free:
+                why = 'follows another joint' if name in self._leaders else 'is no moving joint'
+                yield (
+                    f"The parameter 'zeros.{name}' is not used: '{name}' {why} of this robot."
+                    f'{did_you_mean(name, self.free)}'
+                )
+
+
+def _mimics(model: RobotModel, settings: Settings) -> dict[str, Mimic]:
+    """Return which joints follow others; what parameters say is above what the URDF says."""
+    moving = {joint.name for joint in model.moving_joints}
+    dependents = {
+        name: mimic for name, mimic in settings.dependent_joints.items() if name in moving
+    }
+    for name, mimic in dependents.items():
+        if mimic.joint not in moving:
+            raise ValueError(
+                f"'dependent_joints' lets '{name}' follow '{mimic.joint}', which is no moving "
+                f'joint of this robot.{did_you_mean(mimic.joint, moving)}'
+            )
+    mimics = {**(model.mimics if settings.use_mimic_tags else {}), **dependents}
+    try:
+        check_for_loops(mimics)
+    except ValueError as loop:
+        raise ValueError(
+            f"Joints follow each other in a loop: {loop}. Correct 'dependent_joints'."
+        ) from loop
+    return mimics

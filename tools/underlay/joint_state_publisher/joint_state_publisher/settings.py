@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The parameters of joint_state_publisher, checked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+from robot_state_publisher.did_you_mean import did_you_mean
+from robot_state_publisher.urdf import check_for_loops, Mimic
+
+__all__ = ['DESCRIPTIONS', 'MAPS', 'Settings', 'settings_of']
+
+DESCRIPTIONS = {
+    'rate': 'How often joint states are published, in 1/s.',
+    'source_list': 'Topics of joint states whose values are taken over.',
+    'use_mimic_tags': 'Let joints follow others as <mimic> says.',
+    'use_smallest_joint_limits': 'Keep to the limits of <safety_controller> too.',
+    'publish_default_positions': 'Publish a position for joints of which no source tells any.',
+    'publish_default_velocities': 'Publish the velocity 0 for joints of which none is known.',
+    'publish_default_efforts': 'Publish the effort 0 for joints of which none is known.',
+    'delta': 'How far each joint moves by itself between two messages, in radians or metres.',
+    'robot_description': 'The text of the URDF; it is taken from the topic if this is empty.',
+}
+MAPS = ('zeros.', 'dependent_joints.')
+"""What begins the names of parameters that belong to joints."""
+DEPENDENT_KEYS = ('parent', 'factor', 'offset')
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the node is to do; `zeros` and `dependent_joints` are by joint."""
+
+    rate: float = 10
+    source_list: tuple[str, ...] = ()
+    use_mimic_tags: bool = True
+    use_smallest_joint_limits: bool = True
+    publish_default_positions: bool = True
+    publish_default_velocities: bool = False
+    publish_default_efforts: bool = False
+    delta: float = 0.0
+    robot_description: str = ''
+    zeros: Mapping[str, float] = field(default_factory=dict)
+    dependent_joints: Mapping[str, Mimic] = field(default_factory=dict)
+
+
+def settings_of(values: Mapping[str, Any]) -> Settings:
+    """Return the settings that parameters mean, or raise ValueError; other names do not count."""
+    known = {each.name: each.default for each in fields(Settings)}
+    plain = {
+        name: _checked(name, value, known[name])
+        for name, value in values.items()
+        if name in DESCRIPTIONS
+    }
+    settings = Settings(**plain, zeros=_zeros(values), dependent_joints=_dependents(values))
+    if settings.rate <= 0:
+        raise ValueError(f"The parameter 'rate' must be above 0, and not {settings.rate:g}.")
+    return settings
+
+
+def _zeros(values: Mapping[str, Any]) -> dict[str, float]:
+    """Return the positions in `zeros.JOINT`."""
+    return {
+        name.removeprefix('zeros.'): _checked(name, value, 0.0)
+        for name, value in values.items()
+        if name.startswith('zeros.')
+    }
+
+
+def _dependents(values: Mapping[str, Any]) -> dict[str, Mimic]:
+    """Return what `dependent_joints.JOINT.parent`, `.factor` and `.offset` say."""
+    parts: dict[str, dict[str, Any]] = {}
+    for name, value in values.items():
+        if name.startswith('dependent_joints.'):
+            joint, _, key = name.removeprefix('dependent_joints.').rpartition('.')
+            if not joint or key not in DEPENDENT_KEYS:
+                raise ValueError(
+                    f"The parameter '{name}' ends with none of {', '.join(DEPENDENT_KEYS)}."
+                    f'{did_you_mean(key, DEPENDENT_KEYS)}'
+                )
+            default = '' if key == 'parent' else 0.0
+            parts.setdefault(joint, {})[key] = _checked(name, value, default)
+    dependents = {joint: _dependent(joint, part) for joint, part in parts.items()}
+    try:
+        check_for_loops(dependents)
+    except ValueError as loop:
+        raise ValueError(f'dependent_joints follow each other in a loop: {loop}.') from loop
+    return dependents
+
+
+def _dependent(joint: str, part: Mapping[str, Any]) -> Mimic:
+    if not part.get('parent'):
+        raise ValueError(
+            f"The joint '{joint}' depends on nothing: set dependent_joints.{joint}.parent."
+        )
+    return Mimic(part['parent'], part.get('factor', 1.0), part.get('offset', 0.0))
+
+
+def _checked(name: str, value: Any, default: Any) -> Any:
+    """Return a value as the type of the default, or raise ValueError."""
+    if isinstance(default, tuple):
+        texts = list(value or [])
+        if isinstance(value, str) or not all(isinstance(text, str) for text in texts):
+            raise _wrong(name, value, 'a list of names')
+        return tuple(texts)
+    if isinstance(default, (bool, str)):
+        if not isinstance(value, type(default)):
+            raise _wrong(name, value, 'true or false' if default in (True, False) else 'a text')
+        return value
+    if not isinstance(value, (int, float)) or isinstance(value, bool):
+        raise _wrong(name, value, 'a number')
+    return float(value)
+
+
+def _wrong(name: str, value: Any, wanted: str) -> ValueError:
+    return ValueError(f"The parameter '{name}' must be {wanted}, and not {value!r}.")

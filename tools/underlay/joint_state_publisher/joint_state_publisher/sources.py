@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The topics whose joint states are taken over."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import JointState
+
+__all__ = ['Sources']
+
+# Hears reliable sources and others.
+ANY = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+Take = Callable[[str, JointState], None]
+
+
+class Sources:
+    """Subscriptions that hand over each message with its topic."""
+
+    def __init__(self, node: Node, names: Iterable[str], own_topic: str, take: Take) -> None:
+        """Subscribe; ValueError if a source is what the node itself publishes."""
+        self._take = take
+        self.silent: set[str] = set()
+        """The topics on which nothing was heard so far."""
+        for name in names:
+            topic = node.resolve_topic_name(name)
+            if topic == own_topic:
+                raise ValueError(
+                    f"The parameter 'source_list' names {topic}, which is what this node "
+                    'publishes. Name another topic, or remap joint_states.'
+                )
+            self.silent.add(topic)
+            node.create_subscription(JointState, name, self._receiver(topic), ANY)
+
+    def _receiver(self, topic: str) -> Callable[[JointState], None]:
+        """Return the callback for the messages of a topic."""
+
+        def receive(message: JointState) -> None:
+            self.silent.discard(topic)
+            self._take(topic, message)
+
+        return receive

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What parameters mean, and with which sentence wrong ones are refused."""
+
+from __future__ import annotations
+
+from joint_state_publisher.settings import Settings, settings_of
+import pytest
+from robot_state_publisher.urdf import Mimic
+
+
+def test_nothing_given_is_the_default() -> None:
+    """Without parameters, positions are published ten times a second."""
+    assert settings_of({}) == Settings(rate=10)
+
+
+def test_nested_parameters_are_by_joint() -> None:
+    """Zeros and dependent joints belong to joints, whose names may have points."""
+    settings = settings_of(
+        {
+            'rate': 25,
+            'source_list': ['a', 'b'],
+            'zeros.left.knee': 1,
+            'dependent_joints.right.knee.parent': 'left.knee',
+            'dependent_joints.right.knee.factor': -2,
+            'dependent_joints.hand.parent': 'left.knee',
+            'dependent_joints.hand.offset': 0.5,
+            'use_sim_time': True,
+        }
+    )
+    assert (settings.rate, settings.source_list) == (25.0, ('a', 'b'))
+    assert settings.zeros == {'left.knee': 1.0}
+    assert settings.dependent_joints == {
+        'right.knee': Mimic('left.knee', -2.0, 0.0),
+        'hand': Mimic('left.knee', 1.0, 0.5),
+    }
+
+
+@pytest.mark.parametrize(
+    ('values', 'sentence'),
+    [
+        ({'rate': 0}, "'rate' must be above 0, and not 0."),
+        ({'rate': 'often'}, "'rate' must be a number, and not 'often'."),
+        ({'rate': True}, "'rate' must be a number, and not True."),
+        ({'source_list': 'commands'}, "'source_list' must be a list of names, and not 'commands'"),
+        ({'source_list': [1]}, "'source_list' must be a list of names"),
+        ({'use_mimic_tags': 'no'}, "'use_mimic_tags' must be true or false, and not 'no'."),
+        ({'robot_description': 7}, "'robot_description' must be a text, and not 7."),
+        ({'zeros.knee': 'bent'}, "'zeros.knee' must be a number, and not 'bent'."),
+        ({'dependent_joints.a.parnt': 'b'}, 'ends with none of parent, factor, offset. Did you'),
+        ({'dependent_joints.a': 'b'}, "'dependent_joints.a' ends with none of parent, factor"),
+        ({'dependent_joints.a.factor': 2.0}, "'a' depends on nothing: set dependent_joints.a.par"),
+        ({'dependent_joints.a.parent': 'a'}, 'follow each other in a loop: a -> a.'),
+    ],
+)
+def test_wrong_values_are_refused(values, sentence) -> None:
+    """Each mistake has its sentence."""
+    with pytest.raises(ValueError) as caught:
+        settings_of(values)
+    assert sentence in str(caught.value)

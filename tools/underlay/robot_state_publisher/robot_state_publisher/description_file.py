@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A robot description that is given as a file on the command line."""
+
+from __future__ import annotations
+
+from rclpy.parameter import Parameter
+from robot_state_publisher.urdf import read_urdf_file
+
+__all__ = ['file_argument', 'parameters_from_file']
+
+
+def file_argument(program: str, words: list[str]) -> str | None:
+    """Return the file that the arguments name, or None if there are no arguments."""
+    if len(words) > 1 or any(word.startswith('-') for word in words):
+        raise ValueError(
+            f'{program} takes one URDF file at most and no options, but not {" ".join(words)}. '
+            'Parameters are given after --ros-args -p.'
+        )
+    return words[0] if words else None
+
+
+def parameters_from_file(file: str | None) -> list[Parameter]:
+    """Return the parameter that a file holds, or raise ValueError."""
+    if file is None:
+        return []
+    return [Parameter('robot_description', Parameter.Type.STRING, read_urdf_file(file))]

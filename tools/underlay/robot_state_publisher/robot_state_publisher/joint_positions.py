@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The names and positions of a joint state, if it can be used."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+
+__all__ = ['UnusableStateError', 'usable_positions']
+
+
+class UnusableStateError(ValueError):
+    """Says why a joint state is left out."""
+
+
+def usable_positions(
+    names: Sequence[str], positions: Sequence[float]
+) -> tuple[tuple[str, ...], Sequence[float]]:
+    """
+    Return the names and positions without those that are no number.
+
+    A source writes 'not a number' for what it does not know.
+    """
+    if len(positions) != len(names):
+        raise UnusableStateError(_mismatch(names, positions))
+    if isfinite(sum(positions)):
+        return tuple(names), positions
+    pairs = [(name, value) for name, value in zip(names, positions) if isfinite(value)]
+    return tuple(name for name, _ in pairs), [value for _, value in pairs]
+
+
+def _mismatch(names: Sequence[str], positions: Sequence[float]) -> str:
+    about = ', '.join(f"'{name}'" for name in names)
+    if not positions:
+        return f'A joint state about {about} has no positions, and is left out.'
+    return (
+        f'A joint state has {len(names)} names but {len(positions)} positions, and is left out; '
+        f'it is about {about or "no joint"}.'
+    )

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Where the child link of a joint is in the frame of its parent link.
+
+Each joint on its own: what composes transforms along the tree is tf. Most of the work is done once
+for a joint, as rotations about its axis are linear in the sine and cosine of half the angle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import cos, sin
+
+from robot_state_publisher.urdf.joint import Joint, Vector
+
+__all__ = ['Pose', 'joint_motion', 'rotate', 'rotation_of']
+
+Quaternion = tuple[float, float, float, float]
+"""x, y, z, w."""
+Pose = tuple[float, float, float, float, float, float, float]
+"""Translation x, y, z in metres and rotation x, y, z, w."""
+
+
+def joint_motion(joint: Joint) -> Callable[[float], Pose]:
+    """Return the function that gives the pose for a position of the joint."""
+    rotation = rotation_of(joint.origin.rpy)
+    if joint.kind in ('revolute', 'continuous'):
+        return _turning(joint.origin.xyz, rotation, joint.axis)
+    if joint.kind == 'prismatic':
+        return _sliding(joint.origin.xyz, rotation, joint.axis)
+    pose = (*joint.origin.xyz, *rotation)
+    return lambda position: pose
+
+
+def _turning(at: Vector, rotation: Quaternion, axis: Vector) -> Callable[[float], Pose]:
+    """Return the motion of a joint that turns about an axis."""
+    px, py, pz = at
+    ax, ay, az, aw = rotation
+    bx, by, bz, bw = product(rotation, (*axis, 0.0))
+
+    def pose(position: float) -> Pose:
+        s, c = sin(position / 2.0), cos(position / 2.0)
+        return px, py, pz, c * ax + s * bx, c * ay + s * by, c * az + s * bz, c * aw + s * bw
+
+    return pose
+
+
+def _sliding(at: Vector, rotation: Quaternion, axis: Vector) -> Callable[[float], Pose]:
+    """Return the motion of a joint that moves along an axis."""
+    px, py, pz = at
+    dx, dy, dz = rotate(rotation, axis)
+
+    def pose(position: float) -> Pose:
+        return px + position * dx, py + position * dy, pz + position * dz, *rotation
+
+    return pose
+
+
+def rotation_of(rpy: Vector) -> Quaternion:
+    """Return the rotation about the fixed axes x, then y, then z."""
+    turns: list[Quaternion] = [
+        (sin(rpy[0] / 2.0), 0.0, 0.0, cos(rpy[0] / 2.0)),
+        (0.0, sin(rpy[1] / 2.0), 0.0, cos(rpy[1] / 2.0)),
+        (0.0, 0.0, sin(rpy[2] / 2.0), cos(rpy[2] / 2.0)),
+    ]
+    return product(turns[2], product(turns[1], turns[0]))
+
+
+def rotate(rotation: Quaternion, vector: Vector) -> Vector:
+    """Return a vector, rotated."""
+    x, y, z, w = rotation
+    turned = product(product(rotation, (*vector, 0.0)), (-x, -y, -z, w))
+    return turned[0], turned[1], turned[2]
+
+
+def product(left: Quaternion, right: Quaternion) -> Quaternion:
+    """Return the rotation that is `right` first and then `left`, both about fixed axes."""
+    ax, ay, az, aw = left
+    bx, by, bz, bw = right
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The links that a list of joint positions moves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from robot_state_publisher.kinematics import joint_motion, Pose
+from robot_state_publisher.urdf import followed, Joint, RobotModel
+
+__all__ = ['MovingLinks']
+
+
+@dataclass(frozen=True)
+class _Drive:
+    """Where in the list the position of a joint is, and what to make of it."""
+
+    joint: Joint
+    index: int
+    multiplier: float
+    offset: float
+
+
+class MovingLinks:
+    """
+    Poses of the links below those joints which some names give, in the order of the URDF.
+
+    A joint that mimics another follows it, through any number of joints, unless itself is named.
+    """
+
+    def __init__(self, model: RobotModel, names: Sequence[str]) -> None:
+        """Find out once which positions move which joints."""
+        index_of = {name: index for index, name in enumerate(names)}
+        drives = list(_drives(model, index_of))
+        self.joints = tuple(drive.joint for drive in drives)
+        self._motions = [
+            (joint_motion(drive.joint), drive.index, drive.multiplier, drive.offset)
+            for drive in drives
+        ]
+
+    def poses(self, positions: Sequence[float]) -> list[Pose]:
+        """Return a pose for each of `joints`."""
+        return [
+            pose(multiplier * positions[index] + offset)
+            for pose, index, multiplier, offset in self._motions
+        ]
+
+
+def _drives(model: RobotModel, index_of: dict[str, int]) -> list[_Drive]:
+    """Return what drives each joint that is named or follows one that is."""
+    mimics = model.mimics
+    drives = []
+    for joint in model.moving_joints:
+        leader = followed(joint.name, mimics, index_of)
+        if leader is not None:
+            index = index_of[leader.joint]
+            drives.append(_Drive(joint, index, leader.multiplier, leader.offset))
+    return drives

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is published about one robot description."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from builtin_interfaces.msg import Time
+from robot_state_publisher.kinematics import joint_motion
+from robot_state_publisher.moving_links import MovingLinks
+from robot_state_publisher.publish_times import PublishTimes, S
+from robot_state_publisher.settings import Settings
+from robot_state_publisher.state_watch import StateWatch
+from robot_state_publisher.transform_messages import TransformMessages
+from robot_state_publisher.urdf import RobotModel
+from tf2_msgs.msg import TFMessage
+
+__all__ = ['PublishedRobot']
+
+MAX_LISTS = 64
+"""So many lists of names are remembered: each source of joint states has one, as a rule."""
+
+
+class PublishedRobot:
+    """Turns joint states into transforms."""
+
+    def __init__(self, model: RobotModel, settings: Settings) -> None:
+        """Have published nothing yet."""
+        self.model = model
+        self.times = PublishTimes(settings.publish_frequency)
+        self.watch = StateWatch(model)
+        self._settings = settings
+        self._lists: dict[tuple[str, ...], tuple[MovingLinks, TransformMessages]] = {}
+
+    def fixed_transforms(self, stamp: Time) -> TFMessage:
+        """Return the transforms that joint states do not change; not those of floating joints."""
+        joints = [joint for joint in self.model.joints if joint.kind in ('fixed', 'planar')]
+        messages = TransformMessages(joints, self._settings.frame_prefix)
+        return messages.fill(stamp, [joint_motion(joint)(0.0) for joint in joints])
+
+    def transforms(
+        self, names: tuple[str, ...], positions: Sequence[float], stamp: Time
+    ) -> TFMessage | None:
+        """Return the transforms of a joint state if they are due, and if there are any."""
+        stamp_ns = stamp.sec * S + stamp.nanosec
+        if not self._settings.ignore_timestamp and not self.times.is_due(names, stamp_ns):
+            return None
+        self.times.note(names, stamp_ns)
+        links, messages = self._lists.get(names) or self._remember(names)
+        return messages.fill(stamp, links.poses(positions)) if links.joints else None
+
+    def notice_time(self, names: Sequence[str], stamp: Time) -> str | None:
+        """Begin anew if stamps have jumped back; return what the log should say of a stamp."""
+        if self._settings.ignore_timestamp:
+            return None
+        if not stamp.sec and not stamp.nanosec:
+            return (
+                'A joint state without a stamp is left out. Stamp it, or set the parameter '
+                'ignore_timestamp.'
+            )
+        if not self.times.went_back(names, stamp.sec * S + stamp.nanosec):
+            return None
+        self.times.forget()
+        return 'The stamps of joint states have jumped back: all joints are published anew.'
+
+    def knows(self, names: tuple[str, ...]) -> bool:
+        """Tell if a joint state with these very names has come before."""
+        return names in self._lists
+
+    def _remember(self, names: tuple[str, ...]) -> tuple[MovingLinks, TransformMessages]:
+        """Prepare for a list of names that has not come before."""
+        if len(self._lists) >= MAX_LISTS:
+            self._lists.clear()
+        links = MovingLinks(self.model, names)
+        self._lists[names] = links, TransformMessages(links.joints, self._settings.frame_prefix)
+        return self._lists[names]

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The node that publishes where the links of a robot are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import sys
+from typing import Any
+
+from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
+from rclpy.clock import Clock, ClockType, JumpThreshold, TimeJump
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
+from robot_state_publisher.description_file import file_argument, parameters_from_file
+from robot_state_publisher.joint_positions import UnusableStateError, usable_positions
+from robot_state_publisher.published_robot import PublishedRobot
+from robot_state_publisher.run_node import run_node
+from robot_state_publisher.settings import DESCRIPTIONS, Settings
+from robot_state_publisher.unknown_parameters import unknown_parameters
+from robot_state_publisher.urdf import RobotModel
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
+
+__all__ = ['RobotStatePublisher', 'main']
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+PATIENCE_S = 2.0
+REPEAT_S = 10.0
+
+
+class RobotStatePublisher(Node):
+    """Publishes the robot description, its fixed transforms, and the others as joints move."""
+
+    def __init__(self, file: str | None = None) -> None:
+        """Declare the parameters and publish the robot; its URDF may be in a file."""
+        super().__init__('robot_state_publisher', parameter_overrides=parameters_from_file(file))
+        self._settings = _declare(self)
+        _warn_of_unknown(self)
+        self._robot = PublishedRobot(self._first_model(file), self._settings)
+        self._description = self.create_publisher(String, 'robot_description', LATCHED)
+        self._tf_static = self.create_publisher(TFMessage, '/tf_static', LATCHED)
+        self._tf = self.create_publisher(TFMessage, '/tf', QoSProfile(depth=100))
+        self._states = self.create_subscription(
+            JointState, 'joint_states', self._on_joint_state, qos_profile_sensor_data
+        )
+        self._patience = self.create_timer(
+            PATIENCE_S, self._on_patience_end, clock=Clock(clock_type=ClockType.STEADY_TIME)
+        )
+        self._jumps = self.get_clock().create_jump_callback(
+            JumpThreshold(
+                min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=False
+            ),
+            post_callback=self._on_time_jump,
+        )
+        self.add_on_set_parameters_callback(self._check)
+        self.add_post_set_parameters_callback(self._swap)
+        self._publish_robot()
+
+    def _first_model(self, file: str | None) -> RobotModel:
+        """Return the robot that the node starts with, or raise ValueError."""
+        if not self._settings.robot_description.strip() and file is None:
+            raise ValueError(
+                "Node 'robot_state_publisher' needs the parameter robot_description, the text of "
+                'a URDF. In a launch file: parameters=[{"robot_description": '
+                'ParameterValue(Command(["xacro ", path]), value_type=str)}].'
+            )
+        return self._settings.model(file or 'robot_description')
+
+    def _publish_robot(self) -> None:
+        """Publish what does not depend on joint states, and wait for these."""
+        robot, logger = self._robot, self.get_logger()
+        logger.info(robot.model.describe())
+        for joint in robot.model.joints:
+            if joint.kind == 'floating':
+                logger.info(f"Joint '{joint.name}' is floating: its transform is left to others.")
+            elif joint.kind == 'planar':
+                logger.warning(f"Joint '{joint.name}' is planar, and published as if fixed.")
+        self._description.publish(String(data=self._settings.robot_description))
+        self._tf_static.publish(robot.fixed_transforms(self.get_clock().now().to_msg()))
+        self._patience.reset()
+
+    def _on_joint_state(self, message: JointState) -> None:
+        """Publish the transforms of what has moved."""
+        try:
+            names, positions = usable_positions(message.name, message.position)
+        except UnusableStateError as reason:
+            self.get_logger().warning(str(reason), throttle_duration_sec=REPEAT_S)
+            return
+        if not self._robot.knows(names):
+            self._tell_about(names)
+        self._notice_time(message, names)
+        transforms = self._robot.transforms(names, positions, message.header.stamp)
+        if transforms is not None:
+            self._tf.publish(transforms)
+
+    def _tell_about(self, names: Sequence[str]) -> None:
+        """Log what is remarkable about names that have not come together before."""
+        watch = self._robot.watch
+        for sentence in watch.misspelt(names):
+            self.get_logger().warning(sentence)
+        relief = watch.relief()
+        if relief:
+            self.get_logger().info(relief)
+
+    def _notice_time(self, message: JointState, names: Sequence[str]) -> None:
+        """Begin anew if stamps have jumped back; warn of states without a stamp."""
+        notice = self._robot.notice_time(names, message.header.stamp)
+        if notice:
+            self.get_logger().warning(notice, throttle_duration_sec=REPEAT_S)
+
+    def _on_patience_end(self) -> None:
+        """Name the joints without a state, once for each robot description."""
+        self._patience.cancel()
+        topic = self._states.topic_name
+        complaint = self._robot.watch.complaint(self.count_publishers(topic), topic)
+        if complaint:
+            self.get_logger().warning(complaint)
+
+    def _on_time_jump(self, jump: TimeJump) -> None:
+        """Begin anew when the time of the simulator has jumped back."""
+        self._robot.times.forget()
+        self.get_logger().warning('The time has jumped back: all joints are published anew.')
+
+    def _check(self, changes: list[Parameter]) -> SetParametersResult:
+        """Accept changes only if the whole robot can be published as they say."""
+        try:
+            self._settings.changed(_values(changes)).model()
+        except ValueError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def _swap(self, changes: list[Parameter]) -> None:
+        """Publish as accepted changes say."""
+        settings = self._settings.changed(_values(changes))
+        if settings != self._settings:
+            self._settings = settings
+            self._robot = PublishedRobot(settings.model(), settings)
+            self._publish_robot()
+
+
+def _declare(node: Node) -> Settings:
+    """Declare the parameters and return their first values."""
+    settings = Settings()
+    for name, text in DESCRIPTIONS.items():
+        # A frequency may be written without a point.
+        descriptor = ParameterDescriptor(
+            description=text, dynamic_typing=name == 'publish_frequency'
+        )
+        node.declare_parameter(name, getattr(settings, name), descriptor)
+    return settings.changed({name: node.get_parameter(name).value for name in DESCRIPTIONS})
+
+
+def _warn_of_unknown(node: Node) -> None:
+    """Log which given parameters nothing takes; rclpy has no public way to ask for them."""
+    given = getattr(node, '_parameter_overrides', {})
+    for sentence in unknown_parameters(given, DESCRIPTIONS):
+        node.get_logger().warning(sentence)
+
+
+def _values(changes: list[Parameter]) -> dict[str, Any]:
+    return {change.name: change.value for change in changes}
+
+
+def _make_node(words: list[str]) -> Node:
+    """Make the node from its arguments: none, or the file of a URDF, as was once usual."""
+    file = file_argument('robot_state_publisher', words)
+    node = RobotStatePublisher(file)
+    if file is not None:
+        node.get_logger().warning(
+            'A URDF as argument is deprecated: pass its text as the parameter robot_description.'
+        )
+    return node
+
+
+def main(args: Sequence[str] | None = None) -> None:
+    """Run the node."""
+    sys.exit(run_node(_make_node, args))
+
+
+if __name__ == '__main__':
+    main()

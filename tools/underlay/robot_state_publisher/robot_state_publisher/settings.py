@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The parameters of robot_state_publisher, checked as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+from robot_state_publisher.urdf import parse_urdf, RobotModel
+
+__all__ = ['DESCRIPTIONS', 'Settings']
+
+DESCRIPTIONS = {
+    'robot_description': 'The text of the URDF.',
+    'publish_frequency': 'How often a joint is published at most, in 1/s: above 0, up to 1000.',
+    'ignore_timestamp': 'Publish every joint state, whatever its stamp and the frequency.',
+    'frame_prefix': "What the names of all frames begin with, such as 'robot1/'.",
+}
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the node is to do."""
+
+    robot_description: str = ''
+    publish_frequency: float = 20.0
+    ignore_timestamp: bool = False
+    frame_prefix: str = ''
+
+    def changed(self, values: Mapping[str, Any]) -> Settings:
+        """Return the settings with other values; those of other parameters do not count."""
+        known = {field.name for field in fields(self)}
+        return replace(self, **{name: values[name] for name in known & values.keys()})
+
+    def model(self, source: str = 'robot_description') -> RobotModel:
+        """Return the robot, or raise ValueError if any value is unusable."""
+        frequency: Any = self.publish_frequency
+        is_number = isinstance(frequency, (int, float)) and not isinstance(frequency, bool)
+        if not is_number or not 0.0 < frequency <= 1000.0:
+            raise ValueError(
+                'publish_frequency must be a number, more than 0 and at most 1000, '
+                f'and not {frequency!r}.'
+            )
+        return parse_urdf(self.robot_description, source)

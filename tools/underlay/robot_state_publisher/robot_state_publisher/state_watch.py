@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which joints have had a state, and which names belong to no joint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from robot_state_publisher.did_you_mean import closest
+from robot_state_publisher.urdf import RobotModel
+
+__all__ = ['StateWatch']
+
+
+class StateWatch:
+    """What the log says about the joints of joint states, each thing once."""
+
+    def __init__(self, model: RobotModel) -> None:
+        """Have seen nothing yet."""
+        mimics = model.mimics
+        self._names = {joint.name for joint in model.moving_joints}
+        self._needed = [joint.name for joint in model.moving_joints if joint.name not in mimics]
+        self._seen: set[str] = set()
+        self._complained = False
+
+    @property
+    def missing(self) -> list[str]:
+        """Return the joints without a state; those that mimic others need none."""
+        return [name for name in self._needed if name not in self._seen]
+
+    def misspelt(self, names: Iterable[str]) -> Iterator[str]:
+        """
+        Note names that came; return a sentence for each new one that is like a missing joint's.
+
+        Other names belong to other robots, and joints that have a state are not meant.
+        """
+        new = [name for name in names if name not in self._seen]
+        self._seen.update(new)
+        for name in new:
+            meant = None if name in self._names else closest(name, self._names - self._seen)
+            if meant is not None:
+                yield (
+                    f"The joint states name '{name}', but the robot has no such joint. "
+                    f"Did you mean '{meant}'?"
+                )
+
+    def complaint(self, publishers: int, topic: str) -> str | None:
+        """Return a sentence that names the joints without a state, if there are any."""
+        missing = self.missing
+        if not missing:
+            return None
+        self._complained = True
+        names = ', '.join(f"'{name}'" for name in missing)
+        return (
+            f'{len(missing)} of {len(self._needed)} joints have had no state so far, so that tf '
+            f'does not know where the links below them are: {names}. {_sources(publishers, topic)}'
+        )
+
+    def relief(self) -> str | None:
+        """Return a sentence if all joints have a state now, but had none when it was said."""
+        if not self._complained or self.missing:
+            return None
+        self._complained = False
+        return f'All {len(self._needed)} joints have a state now.'
+
+
+def _sources(publishers: int, topic: str) -> str:
+    """Say who should have sent them."""
+    if publishers == 0:
+        return f'Nobody publishes {topic}.'
+    nodes = 'one publisher' if publishers == 1 else f'{publishers} publishers'
+    return f'{topic} has {nodes}.'

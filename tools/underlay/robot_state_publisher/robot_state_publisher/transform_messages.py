@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Messages for tf that are made once and filled again and again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import TransformStamped
+from robot_state_publisher.kinematics import Pose
+from robot_state_publisher.urdf import Joint
+from tf2_msgs.msg import TFMessage
+
+__all__ = ['TransformMessages']
+
+
+class TransformMessages:
+    """One message with the transforms of some joints."""
+
+    def __init__(self, joints: Sequence[Joint], frame_prefix: str) -> None:
+        """Make the message; what changes later is the stamp and the poses."""
+        self._stamp = Time()
+        self.message = TFMessage(
+            transforms=[_transform(joint, frame_prefix, self._stamp) for joint in joints]
+        )
+        self._places = [
+            (each.transform.translation, each.transform.rotation)
+            for each in self.message.transforms
+        ]
+
+    def fill(self, stamp: Time, poses: Iterable[Pose]) -> TFMessage:
+        """Return the message with this stamp and these poses."""
+        self._stamp.sec, self._stamp.nanosec = stamp.sec, stamp.nanosec
+        for (at, turn), pose in zip(self._places, poses):
+            at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w = pose
+        return self.message
+
+
+def _transform(joint: Joint, frame_prefix: str, stamp: Time) -> TransformStamped:
+    """Return the message of one joint; all share the stamp."""
+    transform = TransformStamped(child_frame_id=frame_prefix + joint.child)
+    transform.header.frame_id = frame_prefix + joint.parent
+    transform.header.stamp = stamp
+    return transform

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Parameters that were given to a node but mean nothing to it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+
+from robot_state_publisher.did_you_mean import did_you_mean
+
+__all__ = ['unknown_parameters']
+
+OF_ROS = ('use_sim_time', 'start_type_description_service', 'qos_overrides.')
+
+
+def unknown_parameters(
+    given: Iterable[str], known: Collection[str], prefixes: tuple[str, ...] = ()
+) -> list[str]:
+    """Return a sentence for each name that is not known, and has no known prefix."""
+    return [
+        f"There is no parameter '{name}'.{did_you_mean(name, known)}"
+        for name in given
+        if name not in known and not name.startswith((*OF_ROS, *prefixes))
+    ]

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Joints that follow others, which may follow others again."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Mapping
+
+from robot_state_publisher.urdf.joint import Mimic
+
+__all__ = ['check_for_loops', 'followed']
+
+
+def followed(name: str, mimics: Mapping[str, Mimic], known: Container[str]) -> Mimic | None:
+    """
+    Return how a joint follows the first joint of its chain whose position is known.
+
+    A known joint follows itself. None if no joint of the chain is known.
+    """
+    multiplier, offset = 1.0, 0.0
+    while name not in known:
+        mimic = mimics.get(name)
+        if mimic is None:
+            return None
+        offset += multiplier * mimic.offset
+        multiplier *= mimic.multiplier
+        name = mimic.joint
+    return Mimic(name, multiplier, offset)
+
+
+def check_for_loops(mimics: Mapping[str, Mimic]) -> None:
+    """Raise ValueError if joints follow each other in a circle."""
+    for name in mimics:
+        chain = [name]
+        while chain[-1] in mimics:
+            chain.append(mimics[chain[-1]].joint)
+            if chain[-1] == name:
+                raise ValueError(' -> '.join(chain))
+            if chain[-1] in chain[:-1]:
+                break

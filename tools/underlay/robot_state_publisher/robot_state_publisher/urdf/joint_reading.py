@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Read one joint of a URDF."""
+
+from __future__ import annotations
+
+import math
+
+from robot_state_publisher.did_you_mean import did_you_mean
+from robot_state_publisher.urdf.attributes import child, number, text, vector
+from robot_state_publisher.urdf.joint import (
+    Joint,
+    KINDS,
+    LIMITED,
+    Limits,
+    Mimic,
+    MOVING,
+    Origin,
+    Vector,
+)
+from robot_state_publisher.urdf.urdf_error import UrdfError
+from robot_state_publisher.urdf.xml_element import XmlElement
+
+__all__ = ['read_joint']
+
+NO_MOVE = (0.0, 0.0, 0.0)
+
+
+def read_joint(element: XmlElement) -> Joint:
+    """Return the joint that an element describes, or raise UrdfError."""
+    name = text(element, 'name', 'this <joint>')
+    where = f"joint '{name}'"
+    kind = _kind(element, where)
+    return Joint(
+        name,
+        kind,
+        parent=text(child(element, 'parent', where), 'link', f'<parent> of {where}'),
+        child=text(child(element, 'child', where), 'link', f'<child> of {where}'),
+        origin=_origin(element, where),
+        axis=_axis(element, where) if kind in MOVING else Joint.axis,
+        limits=_limits(element, where) if kind in LIMITED else None,
+        soft_limits=_soft_limits(element, where) if kind in LIMITED else None,
+        mimic=_mimic(element, where),
+        line=element.line,
+    )
+
+
+def _kind(element: XmlElement, where: str) -> str:
+    kind = text(element, 'type', where)
+    if kind not in KINDS:
+        raise UrdfError(
+            f"The type of {where} is '{kind}', but must be one of {', '.join(KINDS)}."
+            f'{did_you_mean(kind, KINDS)}',
+            element.line,
+        )
+    return kind
+
+
+def _origin(element: XmlElement, where: str) -> Origin:
+    origin = element.find('origin')
+    return Origin(
+        vector(origin, 'xyz', where, NO_MOVE),
+        vector(origin, 'rpy', where, NO_MOVE),
+    )
+
+
+def _axis(element: XmlElement, where: str) -> Vector:
+    """Return the axis with length 1; it is x if none is given."""
+    axis = element.find('axis')
+    x, y, z = vector(axis, 'xyz', where, Joint.axis)
+    length = math.hypot(x, y, z)
+    if axis is not None and length == 0.0:
+        raise UrdfError(f'The axis of {where} is zero, so that it has no direction.', axis.line)
+    return x / length, y / length, z / length
+
+
+def _limits(element: XmlElement, where: str) -> Limits:
+    """Return the limits; one that is not given is zero."""
+    limit = child(element, 'limit', where)
+    return Limits(number(limit, 'lower', where, 0.0), number(limit, 'upper', where, 0.0))
+
+
+def _soft_limits(element: XmlElement, where: str) -> Limits | None:
+    """Return the limits of the safety controller; one that is not given does not limit."""
+    safety = element.find('safety_controller')
+    if safety is None:
+        return None
+    return Limits(
+        number(safety, 'soft_lower_limit', where, -math.inf),
+        number(safety, 'soft_upper_limit', where, math.inf),
+    )
+
+
+def _mimic(element: XmlElement, where: str) -> Mimic | None:
+    mimic = element.find('mimic')
+    if mimic is None:
+        return None
+    return Mimic(
+        text(mimic, 'joint', f'<mimic> of {where}'),
+        number(mimic, 'multiplier', where, 1.0),
+        number(mimic, 'offset', where, 0.0),
+    )

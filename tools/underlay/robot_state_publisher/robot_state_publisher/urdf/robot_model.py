@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a URDF says about a robot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from robot_state_publisher.urdf.joint import Joint, Mimic
+
+__all__ = ['Link', 'RobotModel']
+
+
+@dataclass(frozen=True)
+class Link:
+    """A link, and the line that defines it."""
+
+    name: str
+    line: int | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True)
+class RobotModel:
+    """A robot: its links and joints in the order of the URDF, which form one tree."""
+
+    name: str
+    links: tuple[Link, ...]
+    joints: tuple[Joint, ...]
+
+    @property
+    def root(self) -> str:
+        """Return the link that is nobody's child."""
+        children = {joint.child for joint in self.joints}
+        return next(link.name for link in self.links if link.name not in children)
+
+    @property
+    def moving_joints(self) -> tuple[Joint, ...]:
+        """Return the joints whose position is one number."""
+        return tuple(joint for joint in self.joints if joint.moves)
+
+    @property
+    def mimics(self) -> dict[str, Mimic]:
+        """Return which joints follow others, by name."""
+        return {joint.name: joint.mimic for joint in self.moving_joints if joint.mimic}
+
+    def describe(self) -> str:
+        """Return the robot in words."""
+        moving = len(self.moving_joints)
+        counts = [
+            f'{len(self.links)} links below {self.root!r}',
+            f'{len(self.joints)} joints, {moving} of them moving',
+        ]
+        if self.mimics:
+            counts.append(f'{len(self.mimics)} of these follow others')
+        return f'Robot {self.name!r}: {", ".join(counts)}.'
