@@ -22,27 +22,21 @@ class Background:
         """Start the thread."""
         executor = SingleThreadedExecutor(context=node.context)
         executor.add_node(node)
-        stopping = threading.Event()
         thread = threading.Thread(
-            target=_spin, args=(executor, stopping), name='transform listener', daemon=True
+            target=_spin, args=(executor,), name='transform listener', daemon=True
         )
         thread.start()
-        self.stop = weakref.finalize(self, _stop, executor, stopping, thread)
+        self.stop = weakref.finalize(self, _stop, executor, thread)
 
 
-def _spin(executor: SingleThreadedExecutor, stopping: threading.Event) -> None:
+def _spin(executor: SingleThreadedExecutor) -> None:
     try:
-        while executor.context.ok() and not stopping.is_set():
-            executor.spin_once()
+        executor.spin()
     except ExternalShutdownException:
         pass
 
 
-def _stop(
-    executor: SingleThreadedExecutor, stopping: threading.Event, thread: threading.Thread
-) -> None:
-    stopping.set()
-    executor.wake()
+def _stop(executor: SingleThreadedExecutor, thread: threading.Thread) -> None:
+    executor.shutdown(_TIMEOUT_S)
     if thread is not threading.current_thread():
         thread.join(_TIMEOUT_S)
-    executor.shutdown()

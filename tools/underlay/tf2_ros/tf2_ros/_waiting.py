@@ -62,8 +62,12 @@ class Waiting:
 
     def _settle(self) -> None:
         with self._changed:
-            entries = [entry for entry in self._futures if not entry[1].done()]
+            entries = [entry for entry in self._futures if not _is_over(entry[1])]
             ready = [entry for entry in entries if entry[0]()[0]]
             self._futures = [entry for entry in entries if entry not in ready]
         for _, future in ready:
             future.set_result(True)
+
+
+def _is_over(future: Any) -> bool:
+    return bool(future.done() or future.cancelled())

@@ -8,7 +8,7 @@ import string
 import sys
 from typing import TYPE_CHECKING
 
-from tf2_ros._program import own_arguments, run
+from tf2_ros._program import run
 from tf2_ros._static_arguments import OLD_STYLE_WARNING, parsed, StaticTransform
 
 if TYPE_CHECKING:
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 
 def main() -> int:
     """Run the program."""
-    transform = parsed(own_arguments(sys.argv))
-    return run(sys.argv, lambda: _publishing_node(transform))
+    return run(parsed, _publish)
 
 
-def _publishing_node(transform: StaticTransform) -> Node:
-    """Return a node that has published the transform."""
+def _publish(transform: StaticTransform) -> None:
+    """Publish the transform as long as the program runs."""
+    import rclpy
     from rclpy.node import Node
     from tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
 
@@ -33,7 +33,7 @@ def _publishing_node(transform: StaticTransform) -> Node:
         node.get_logger().warning(OLD_STYLE_WARNING)
     StaticTransformBroadcaster(node).sendTransform(_message(transform, node))
     node.get_logger().info(_report(transform))
-    return node
+    rclpy.spin(node)
 
 
 def _message(transform: StaticTransform, node: Node) -> TransformStamped:

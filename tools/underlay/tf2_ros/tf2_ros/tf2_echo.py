@@ -5,12 +5,8 @@ from __future__ import annotations
 
 import argparse
 import sys
-from typing import TYPE_CHECKING
 
-from tf2_ros._program import own_arguments, run
-
-if TYPE_CHECKING:
-    from rclpy.node import Node
+from tf2_ros._program import run
 
 _LOOK_S = 0.1
 _LOOKS_UNTIL_WORD = 10
@@ -18,8 +14,13 @@ _LOOKS_UNTIL_WORD = 10
 
 def main() -> int:
     """Run the program."""
-    args = _parser().parse_args(own_arguments(sys.argv))
-    return run(sys.argv, lambda: Echo(args).node)
+    return run(_parser().parse_args, _echo)
+
+
+def _echo(args: argparse.Namespace) -> None:
+    import rclpy
+
+    rclpy.spin(Echo(args).node)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -64,7 +65,7 @@ class Echo:
 
         self._args = args
         self._looks = 0
-        self.node: Node = Node('tf2_echo')
+        self.node = Node('tf2_echo')
         self._buffer = Buffer()
         self._listener = TransformListener(self._buffer, self.node)
         self._clock = Clock(clock_type=ClockType.STEADY_TIME)

@@ -6,24 +6,31 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from typing import Any, TYPE_CHECKING
+from typing import Any
 
 from tf2_ros._delays import AUTHORITY, report, Traffic
-from tf2_ros._program import own_arguments, run
-
-if TYPE_CHECKING:
-    from rclpy.node import Node
+from tf2_ros._program import run
 
 _PERIOD_S = 10.0
 
 
 def main() -> int:
     """Run the program."""
+    return run(_arguments, _monitor)
+
+
+def _arguments(words: list[str]) -> argparse.Namespace:
     parser = _parser()
-    args = parser.parse_args(own_arguments(sys.argv))
+    args = parser.parse_args(words)
     if args.source_frame and not args.target_frame:
         parser.error('give two frames to look at what is between them, or none for all')
-    return run(sys.argv, lambda: Monitor(args).node)
+    return args
+
+
+def _monitor(args: argparse.Namespace) -> None:
+    import rclpy
+
+    rclpy.spin(Monitor(args).node)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -54,7 +61,7 @@ class Monitor:
         self._traffic = Traffic()
         self._static: set[str] = set()
         self._begin_s = time.monotonic()
-        self.node: Node = Node('tf2_monitor')
+        self.node = Node('tf2_monitor')
         self._buffer = Buffer()
         self._buffer.follow_clock_of(self.node)
         self.node.create_subscription(TFMessage, '/tf', self._take, DYNAMIC)

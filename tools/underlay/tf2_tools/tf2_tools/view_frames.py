@@ -9,6 +9,7 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
+from tf2_ros._program import run
 from tf2_tools.drawing import draw, write_graph
 
 if TYPE_CHECKING:
@@ -20,21 +21,7 @@ _WAIT_S = 5.0
 
 def main() -> int:
     """Run the program."""
-    import rclpy
-    from rclpy.executors import ExternalShutdownException
-    from rclpy.utilities import remove_ros_args
-
-    args = _parser().parse_args(remove_ros_args(sys.argv)[1:])
-    try:
-        rclpy.init(args=sys.argv)
-        return _view(rclpy.create_node('view_frames'), args)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        return 0
-    except RuntimeError as error:
-        sys.stderr.write(f'The ROS arguments cannot be used: {error}\n')
-        return 1
-    finally:
-        rclpy.try_shutdown()
+    return run(_parser().parse_args, _view)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -51,8 +38,11 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _view(node: Node, args: argparse.Namespace) -> int:
+def _view(args: argparse.Namespace) -> int:
     """Listen, write the files, and return the exit status."""
+    import rclpy
+
+    node = rclpy.create_node('view_frames')
     logger = node.get_logger()
     logger.info(f'Listening to tf data for {args.wait_time} seconds...')
     buffer = _listen(node, args.wait_time)
