@@ -95,6 +95,45 @@ def test_listener_thread(make_node: NodeMaker) -> None:
     assert not topics & {'/tf', '/tf_static'}
 
 
+def test_lookups_while_transforms_arrive(make_node: NodeMaker) -> None:
+    """Look-ups beside the listener's thread see the transforms of a message as they belong."""
+    robot, user = make_node('robot'), make_node('user')
+    broadcaster, buffer = TransformBroadcaster(robot), Buffer()
+    listener = TransformListener(buffer, user, spin_thread=True)
+    count = 0
+    for number in range(1, 2000):
+        time_s = number / 100
+        there = stamped('map', 'odom', time_s, (time_s, 0, 0))
+        back = stamped('odom', 'base', time_s, (-time_s, 0, 0))
+        broadcaster.sendTransform([there, back])
+        if buffer.can_transform('map', 'base', at(0)):
+            assert abs(numbers(buffer.lookup_transform('map', 'base', at(0)))[0]) < 1e-9
+            count += 1
+    listener.unregister()
+    assert count > 10
+
+
+def test_await_in_a_callback(make_node: NodeMaker, spin_until: Spin) -> None:
+    """A callback may await a transform that the same executor receives."""
+    robot, user = make_node('robot'), make_node('user')
+    static, buffer = StaticTransformBroadcaster(robot), Buffer()
+    TransformListener(buffer, user)
+    results: list[Any] = []
+
+    async def look() -> None:
+        timer.cancel()
+        results.append(await buffer.lookup_transform_async('awaited', 'camera', at(0)))
+
+    def awaited() -> bool:
+        if timer.is_canceled():
+            static.sendTransform(stamped('awaited', 'camera', 0.0, (0, 0, 4)))
+        return bool(results)
+
+    timer = user.create_timer(0.01, look)
+    spin_until(awaited, user)
+    assert numbers(results[0])[2] == 4
+
+
 def test_static_only(make_node: NodeMaker) -> None:
     """A listener may leave out what moves."""
     node = make_node('user')

@@ -4,42 +4,77 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import os
+import signal
 import sys
-from typing import TypeVar
+import threading
+from typing import TYPE_CHECKING, TypeVar
+
+if TYPE_CHECKING:
+    from rclpy.executors import Executor
+    from rclpy.node import Node
 
 ArgumentsT = TypeVar('ArgumentsT')
+_STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
 def run(parse: Callable[[list[str]], ArgumentsT], work: Callable[[ArgumentsT], int | None]) -> int:
     """
-    Do the work until it is done, or until SIGINT or SIGTERM; return the exit status.
+    Do the work of a program; return the exit status.
+
+    SIGINT and SIGTERM are blocked from here to the end, so that they interrupt nothing; `spin`
+    waits for them.
 
     :param parse: makes the work's arguments of the words that are not for ROS
     :param work: runs while ROS does; may return an exit status
     """
+    signal.pthread_sigmask(signal.SIG_BLOCK, _STOP_SIGNALS)
     import rclpy
-    from rclpy.executors import ExternalShutdownException
-
-    try:
-        arguments = _start(parse)
-        return 1 if arguments is None else work(arguments) or 0
-    except (KeyboardInterrupt, ExternalShutdownException):
-        return 0
-    finally:
-        rclpy.try_shutdown()
-
-
-def _start(parse: Callable[[list[str]], ArgumentsT]) -> ArgumentsT | None:
-    """Start ROS and return the arguments, or None after a sentence about those for ROS."""
-    import rclpy
+    from rclpy.signals import SignalHandlerOptions
     from rclpy.utilities import remove_ros_args
 
     try:
         arguments = parse(list(remove_ros_args(sys.argv))[1:])
-        rclpy.init(args=sys.argv)
+        rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:
         sys.stderr.write(
             f'The ROS arguments cannot be used: {error}. Correct what follows --ros-args.\n'
         )
-        return None
-    return arguments
+        return 1
+    try:
+        return work(arguments) or 0
+    finally:
+        rclpy.try_shutdown()
+
+
+def spin(node: Node, timeout_s: float | None = None) -> bool:
+    """Let a node work until a signal to stop, or so long; return whether a signal came."""
+    from rclpy.executors import SingleThreadedExecutor
+
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    failures: list[Exception] = []
+    thread = threading.Thread(target=_work, args=(executor, failures), name='node')
+    thread.start()
+    is_stopped = _wait_for_signal(timeout_s)
+    executor.shutdown()
+    thread.join()
+    if failures:
+        raise failures[0]
+    return is_stopped
+
+
+def _wait_for_signal(timeout_s: float | None) -> bool:
+    if timeout_s is None:
+        signal.sigwait(_STOP_SIGNALS)
+        return True
+    return signal.sigtimedwait(_STOP_SIGNALS, timeout_s) is not None
+
+
+def _work(executor: Executor, failures: list[Exception]) -> None:
+    """Let nodes work; a failure is for the main thread to raise."""
+    try:
+        executor.spin()
+    except Exception as error:
+        failures.append(error)
+        os.kill(os.getpid(), signal.SIGTERM)

@@ -25,9 +25,6 @@ class Waiting:
 
     def until(self, check: Check, timeout_s: float) -> tuple[bool, str]:
         """Return what the check says when it succeeds, or at the end of the time."""
-        result = check()
-        if result[0] or timeout_s <= 0.0:
-            return result
         end_s = time.monotonic() + timeout_s
         with self._changed:
             self._threads += 1

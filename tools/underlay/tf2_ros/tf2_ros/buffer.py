@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from typing import Any, Optional, TYPE_CHECKING, Union
 
@@ -11,6 +12,7 @@ from rclpy.duration import Duration
 from rclpy.logging import get_logger
 from rclpy.task import Future
 from tf2_py import BufferCore, TransformException
+from tf2_py._messages import nanoseconds
 from tf2_ros._waiting import Check, Waiting
 from tf2_ros.buffer_interface import BufferInterface
 
@@ -94,11 +96,8 @@ class Buffer(BufferCore, BufferInterface):
         :param timeout: how long to wait for it
         """
         arguments = (target_frame, source_frame, time)
-        self._wait(partial(self.can_transform_core, *arguments), timeout)
-        try:
-            return self.lookup_transform_core(*arguments)
-        except TransformException as error:
-            raise self._explained(error, timeout) from None
+        check = partial(self.can_transform_core, *arguments)
+        return self._look_up(partial(self.lookup_transform_core, *arguments), check, timeout)
 
     def lookup_transform_full(
         self,
@@ -120,11 +119,9 @@ class Buffer(BufferCore, BufferInterface):
         :param timeout: how long to wait for it
         """
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        self._wait(partial(self.can_transform_full_core, *arguments), timeout)
-        try:
-            return self.lookup_transform_full_core(*arguments)
-        except TransformException as error:
-            raise self._explained(error, timeout) from None
+        check = partial(self.can_transform_full_core, *arguments)
+        look_up = partial(self.lookup_transform_full_core, *arguments)
+        return self._look_up(look_up, check, timeout)
 
     def can_transform(
         self,
@@ -208,19 +205,29 @@ class Buffer(BufferCore, BufferInterface):
         await self.wait_for_transform_full_async(*arguments)
         return self.lookup_transform_full_core(*arguments)
 
+    def _look_up(
+        self, look_up: Callable[[], TransformStamped], check: Check, timeout: Duration
+    ) -> TransformStamped:
+        """Return the transform at once, or when the check succeeds in time."""
+        timeout_s = nanoseconds(timeout) / 1e9
+        if timeout_s <= 0.0:
+            return look_up()
+        self._waiting.until(check, timeout_s)
+        try:
+            return look_up()
+        except TransformException as error:
+            if not self._waiting.blocks_itself():
+                raise
+            raise type(error)(f'{error}. {_BLOCKED}') from None
+
     def _wait(self, check: Check, timeout: Duration) -> tuple[bool, str]:
-        return self._waiting.until(check, _seconds(timeout))
+        timeout_s = nanoseconds(timeout) / 1e9
+        return check() if timeout_s <= 0.0 else self._waiting.until(check, timeout_s)
 
     def _future(self, check: Check) -> Future:
         future = Future()
         self._waiting.add(check, future)
         return future
-
-    def _explained(self, error: TransformException, timeout: Duration) -> TransformException:
-        """Return the error, and what kept the transform from coming."""
-        if _seconds(timeout) <= 0.0 or not self._waiting.blocks_itself():
-            return error
-        return type(error)(f'{error}. {_BLOCKED}')
 
     def _is_alive(self) -> bool:
         return self._node is None or bool(self._node.context.ok())
@@ -231,9 +238,3 @@ class Buffer(BufferCore, BufferInterface):
     def _answer(self, request: Any, response: Any) -> Any:
         response.frame_yaml = self.all_frames_as_yaml()
         return response
-
-
-def _seconds(timeout: Duration) -> float:
-    from tf2_py._messages import nanoseconds
-
-    return nanoseconds(timeout) / 1e9

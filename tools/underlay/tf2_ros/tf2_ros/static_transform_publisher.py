@@ -8,7 +8,7 @@ import string
 import sys
 from typing import TYPE_CHECKING
 
-from tf2_ros._program import run
+from tf2_ros._program import run, spin
 from tf2_ros._static_arguments import OLD_STYLE_WARNING, parsed, StaticTransform
 
 if TYPE_CHECKING:
@@ -23,7 +23,6 @@ def main() -> int:
 
 def _publish(transform: StaticTransform) -> None:
     """Publish the transform as long as the program runs."""
-    import rclpy
     from rclpy.node import Node
     from tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
 
@@ -33,7 +32,7 @@ def _publish(transform: StaticTransform) -> None:
         node.get_logger().warning(OLD_STYLE_WARNING)
     StaticTransformBroadcaster(node).sendTransform(_message(transform, node))
     node.get_logger().info(_report(transform))
-    rclpy.spin(node)
+    spin(node)
 
 
 def _message(transform: StaticTransform, node: Node) -> TransformStamped:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from tf2_ros._program import run
+from tf2_ros._program import run, spin
 
 _LOOK_S = 0.1
 _LOOKS_UNTIL_WORD = 10
@@ -18,9 +18,7 @@ def main() -> int:
 
 
 def _echo(args: argparse.Namespace) -> None:
-    import rclpy
-
-    rclpy.spin(Echo(args).node)
+    spin(Echo(args).node)
 
 
 def _parser() -> argparse.ArgumentParser:

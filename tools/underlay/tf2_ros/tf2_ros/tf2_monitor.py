@@ -9,7 +9,7 @@ import time
 from typing import Any
 
 from tf2_ros._delays import AUTHORITY, report, Traffic
-from tf2_ros._program import run
+from tf2_ros._program import run, spin
 
 _PERIOD_S = 10.0
 
@@ -28,9 +28,7 @@ def _arguments(words: list[str]) -> argparse.Namespace:
 
 
 def _monitor(args: argparse.Namespace) -> None:
-    import rclpy
-
-    rclpy.spin(Monitor(args).node)
+    spin(Monitor(args).node)
 
 
 def _parser() -> argparse.ArgumentParser:

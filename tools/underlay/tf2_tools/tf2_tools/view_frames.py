@@ -6,10 +6,9 @@ from __future__ import annotations
 import argparse
 from datetime import datetime
 import sys
-import time
 from typing import TYPE_CHECKING
 
-from tf2_ros._program import run
+from tf2_ros._program import run, spin
 from tf2_tools.drawing import draw, write_graph
 
 if TYPE_CHECKING:
@@ -41,11 +40,16 @@ def _parser() -> argparse.ArgumentParser:
 def _view(args: argparse.Namespace) -> int:
     """Listen, write the files, and return the exit status."""
     import rclpy
+    from tf2_ros.buffer import Buffer
+    from tf2_ros.transform_listener import TransformListener
 
     node = rclpy.create_node('view_frames')
     logger = node.get_logger()
     logger.info(f'Listening to tf data for {args.wait_time} seconds...')
-    buffer = _listen(node, args.wait_time)
+    buffer = Buffer()
+    TransformListener(buffer, node)
+    if spin(node, args.wait_time):
+        return 0
     path = args.output or datetime.now().strftime('frames_%Y-%m-%d_%H.%M.%S')
     logger.info(f'Generating graph in {path}.pdf file...')
     try:
@@ -59,21 +63,6 @@ def _view(args: argparse.Namespace) -> int:
     _say_what_is_missing(node, buffer)
     sys.stdout.write(f'{buffer.all_frames_as_yaml().rstrip()}\n')
     return 0
-
-
-def _listen(node: Node, wait_s: float) -> Buffer:
-    """Return a buffer with what has come in this time."""
-    import rclpy
-    from tf2_ros.buffer import Buffer
-    from tf2_ros.transform_listener import TransformListener
-
-    buffer = Buffer()
-    listener = TransformListener(buffer, node)
-    end_s = time.monotonic() + wait_s
-    while rclpy.ok() and (left_s := end_s - time.monotonic()) > 0.0:
-        rclpy.spin_once(node, timeout_sec=left_s)
-    listener.unregister()
-    return buffer
 
 
 def _say_what_is_missing(node: Node, buffer: Buffer) -> None:
