@@ -48,11 +48,12 @@ fix: setup ## Format the code and mend what ruff can
 
 bench: build ## Measure what commands, launches, the graph, bags and transforms cost
 	@$(RUN) python3 tools/benchmarks/command_times.py $(ARGS)
-	@$(RUN) python3 tools/benchmarks/launch.py $(ARGS)
+	@$(RUN) python3 tools/benchmarks/launch_times.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/prefork_times.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/graph_times.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/bag.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/robot_state_publisher.py $(ARGS)
+	@$(RUN) python3 tools/benchmarks/tf2_lookups.py $(ARGS)
 
 docs: build ## Write docs/reference anew from the commands and launch files
 	@tools/in_environment python3 tools/reference/generate.py

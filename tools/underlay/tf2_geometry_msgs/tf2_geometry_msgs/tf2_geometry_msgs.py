@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How messages of geometry_msgs are transformed; the registration with tf2_ros."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, TYPE_CHECKING, TypeVar
+
+from geometry_msgs.msg import (
+    Point,
+    Point32,
+    PointStamped,
+    PolygonStamped,
+    Pose,
+    PoseStamped,
+    PoseWithCovarianceStamped,
+    Quaternion,
+    TransformStamped,
+    Vector3,
+    Vector3Stamped,
+    WrenchStamped,
+)
+from tf2_py._messages import pose_of
+from tf2_py._pose import chain
+from tf2_py._pose import Pose as PoseNumbers
+from tf2_ros.buffer_interface import ConvertRegistration, TransformRegistration
+
+if TYPE_CHECKING:
+    import numpy
+
+MessageT = TypeVar('MessageT')
+
+
+def to_msg_msg(msg: MessageT) -> MessageT:
+    """Return the message, which is one already."""
+    return msg
+
+
+def from_msg_msg(msg: MessageT) -> MessageT:
+    """Return the message, which is what is asked for."""
+    return msg
+
+
+def do_transform_point(point: PointStamped, transform: TransformStamped) -> PointStamped:
+    """Return a point in another frame."""
+    return PointStamped(
+        header=transform.header, point=_moved(Point, point.point, pose_of(transform.transform))
+    )
+
+
+def do_transform_vector3(vector3: Vector3Stamped, transform: TransformStamped) -> Vector3Stamped:
+    """Return a vector in another frame: turned, not moved."""
+    return Vector3Stamped(
+        header=transform.header, vector=_turned(vector3.vector, pose_of(transform.transform))
+    )
+
+
+def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
+    """Return a pose in another frame."""
+    place, turn = pose.position, pose.orientation
+    numbers = (place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w)
+    x, y, z, qx, qy, qz, qw = chain(pose_of(transform.transform), numbers)
+    return Pose(position=Point(x=x, y=y, z=z), orientation=Quaternion(x=qx, y=qy, z=qz, w=qw))
+
+
+def do_transform_pose_stamped(pose: PoseStamped, transform: TransformStamped) -> PoseStamped:
+    """Return a pose in another frame."""
+    return PoseStamped(header=transform.header, pose=do_transform_pose(pose.pose, transform))
+
+
+def do_transform_pose_with_covariance_stamped(
+    pose: PoseWithCovarianceStamped, transform: TransformStamped
+) -> PoseWithCovarianceStamped:
+    """Return a pose in another frame, and its covariance."""
+    result = PoseWithCovarianceStamped(header=transform.header)
+    result.pose.pose = do_transform_pose(pose.pose.pose, transform)
+    result.pose.covariance = transform_covariance(pose.pose.covariance, transform)
+    return result
+
+
+def do_transform_polygon_stamped(
+    polygon: PolygonStamped, transform: TransformStamped
+) -> PolygonStamped:
+    """Return a polygon in another frame."""
+    numbers = pose_of(transform.transform)
+    result = PolygonStamped(header=transform.header)
+    result.polygon.points = [_moved(Point32, point, numbers) for point in polygon.polygon.points]
+    return result
+
+
+def do_transform_wrench(wrench: WrenchStamped, transform: TransformStamped) -> WrenchStamped:
+    """
+    Return a wrench in another frame.
+
+    Force and torque are turned as vectors, as elsewhere in tf2: the torque stays that about the
+    point where it was measured.
+    """
+    numbers = pose_of(transform.transform)
+    result = WrenchStamped(header=transform.header)
+    result.wrench.force = _turned(wrench.wrench.force, numbers)
+    result.wrench.torque = _turned(wrench.wrench.torque, numbers)
+    return result
+
+
+def transform_covariance(
+    cov_in: Iterable[float], transform: TransformStamped
+) -> numpy.ndarray[Any, Any]:
+    """Return the 36 numbers of a pose's covariance in another frame."""
+    import numpy
+    from scipy.spatial.transform import Rotation
+
+    turn = transform.transform.rotation
+    rotation = Rotation.from_quat([turn.x, turn.y, turn.z, turn.w]).as_matrix()
+    both = numpy.kron(numpy.eye(2), rotation)
+    covariance = numpy.asarray(cov_in, dtype=float).reshape(6, 6)
+    result: numpy.ndarray[Any, Any] = (both @ covariance @ both.T).ravel()
+    return result
+
+
+def _moved(kind: type, point: Any, transform: PoseNumbers) -> Any:
+    x, y, z = chain(transform, (point.x, point.y, point.z, 0.0, 0.0, 0.0, 1.0))[:3]
+    return kind(x=x, y=y, z=z)
+
+
+def _turned(vector: Any, transform: PoseNumbers) -> Vector3:
+    rotation = (0.0, 0.0, 0.0, *transform[3:])
+    x, y, z = chain(rotation, (vector.x, vector.y, vector.z, 0.0, 0.0, 0.0, 1.0))[:3]
+    return Vector3(x=x, y=y, z=z)
+
+
+_TRANSFORMS = {
+    PointStamped: do_transform_point,
+    PolygonStamped: do_transform_polygon_stamped,
+    PoseStamped: do_transform_pose_stamped,
+    PoseWithCovarianceStamped: do_transform_pose_with_covariance_stamped,
+    Vector3Stamped: do_transform_vector3,
+    WrenchStamped: do_transform_wrench,
+}
+
+for _kind, _transform in _TRANSFORMS.items():
+    TransformRegistration().add(_kind, _transform)
+    ConvertRegistration().add_to_msg(_kind, to_msg_msg)
+    ConvertRegistration().add_from_msg(_kind, from_msg_msg)

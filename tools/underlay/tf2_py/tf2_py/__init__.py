@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Transforms between frames over time, without nodes: the buffer and its exceptions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from tf2_py.buffer_core import BufferCore
+    from tf2_py.exceptions import (
+        ConnectivityException,
+        ExtrapolationException,
+        InvalidArgumentException,
+        LookupException,
+        TimeoutException,
+        TransformException,
+    )
+
+__all__ = [
+    'BufferCore',
+    'ConnectivityException',
+    'ExtrapolationException',
+    'InvalidArgumentException',
+    'LookupException',
+    'TimeoutException',
+    'TransformException',
+]
+
+__getattr__, __dir__ = lazy_exports(
+    __name__,
+    ['BufferCore'],
+    {name: 'exceptions' for name in __all__ if name.endswith('Exception')},
+)

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All frames as text."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from tf2_py._frame_store import Cache, FrameStore
+
+_SHORTEST_S = 1e-4
+
+
+class Branch(NamedTuple):
+    """What a listing says of a frame."""
+
+    frame: str
+    parent: str
+    broadcaster: str
+    rate_hz: float
+    latest_s: float
+    oldest_s: float
+
+    @property
+    def length_s(self) -> float:
+        """Return how much of the past is kept."""
+        return self.latest_s - self.oldest_s
+
+
+def branches(store: FrameStore) -> list[Branch]:
+    """Return all frames with a parent."""
+    return [_branch(frame, cache) for frame, cache in store.known() if cache.samples]
+
+
+def _branch(frame: str, cache: Cache) -> Branch:
+    first, last = cache.samples[0], cache.samples[-1]
+    latest_s, oldest_s = last.stamp_ns / 1e9, first.stamp_ns / 1e9
+    rate_hz = len(cache.samples) / max(latest_s - oldest_s, _SHORTEST_S)
+    return Branch(frame, last.parent, last.authority, rate_hz, latest_s, oldest_s)
+
+
+def as_yaml(store: FrameStore) -> str:
+    """Return a YAML mapping of the frames."""
+    return ''.join(map(_yaml, branches(store))) or '{}'
+
+
+def _yaml(branch: Branch) -> str:
+    return (
+        f'{branch.frame}: \n'
+        f"  parent: '{branch.parent}'\n"
+        f"  broadcaster: '{branch.broadcaster}'\n"
+        f'  rate: {branch.rate_hz:.3f}\n'
+        f'  most_recent_transform: {branch.latest_s:.6f}\n'
+        f'  oldest_transform: {branch.oldest_s:.6f}\n'
+        f'  buffer_length: {branch.length_s:.3f}\n'
+    )
+
+
+def as_string(store: FrameStore) -> str:
+    """Return a sentence a frame."""
+    return ''.join(
+        f'Frame {branch.frame} exists with parent {branch.parent}.\n' for branch in branches(store)
+    )
+
+
+def as_dot(store: FrameStore) -> str:
+    """Return a graph for graphviz."""
+    return 'digraph G {\n' + (''.join(map(_arrow, branches(store))) or '"no tf data"\n') + '}\n'
+
+
+def _arrow(branch: Branch) -> str:
+    label = (
+        f'Broadcaster: {branch.broadcaster}\\n'
+        f'Average rate: {branch.rate_hz:.3f} Hz\\n'
+        f'Most recent transform: {branch.latest_s:.6f}\\n'
+        f'Buffer length: {branch.length_s:.3f} s\\n'
+    )
+    return f'"{branch.parent}" -> "{branch.frame}" [label="{label}"];\n'

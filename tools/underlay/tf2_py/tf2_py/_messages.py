@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Times and transforms of messages, as numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from geometry_msgs.msg import TransformStamped
+from tf2_py._pose import Pose
+
+_NS_PER_S = 10**9
+
+
+def nanoseconds(time: Any) -> int:
+    """Return a time or duration of rclpy or of a message in nanoseconds."""
+    try:
+        return time.nanoseconds  # type: ignore[no-any-return]
+    except AttributeError:
+        pass
+    try:
+        return int(time.sec * _NS_PER_S + time.nanosec)
+    except AttributeError:
+        raise TypeError(
+            f'{time!r} is neither a time nor a duration: use rclpy.time.Time, '
+            'rclpy.duration.Duration(seconds=...) or the stamp of a message'
+        ) from None
+
+
+def pose_of(transform: Any) -> Pose:
+    """Return the numbers of a Transform."""
+    translation = transform.translation
+    rotation = transform.rotation
+    return (
+        translation.x,
+        translation.y,
+        translation.z,
+        rotation.x,
+        rotation.y,
+        rotation.z,
+        rotation.w,
+    )
+
+
+def transform_message(parent: str, child: str, time_ns: int, pose: Pose) -> TransformStamped:
+    """Return the message that says where the child is in the parent."""
+    message = TransformStamped()
+    header = message.header
+    header.frame_id = parent
+    header.stamp.sec, header.stamp.nanosec = divmod(time_ns, _NS_PER_S)
+    message.child_frame_id = child
+    translation = message.transform.translation
+    rotation = message.transform.rotation
+    translation.x, translation.y, translation.z = pose[:3]
+    rotation.x, rotation.y, rotation.z, rotation.w = pose[3:]
+    return message

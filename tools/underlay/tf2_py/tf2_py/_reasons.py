@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The sentences of lookups that fail."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from tf2_py._link import Gap
+
+_SHOWN = 20
+
+
+def unknown_frame(call: str, argument: str, frame: str, known: Collection[str]) -> str:
+    """Say that there is no such frame, and which there are."""
+    if call == 'canTransform':
+        text = f'Invalid frame ID "{frame}" passed to canTransform argument {argument}'
+        return f'{text} - frame does not exist. {_which(frame, known)}'
+    return f'"{frame}" passed to {call} argument {argument} does not exist. {_which(frame, known)}'
+
+
+def empty_frame(call: str, argument: str) -> str:
+    """Say that a name is missing."""
+    return (
+        f'Invalid argument passed to {call} argument {argument} in tf2 frame_ids cannot be empty'
+    )
+
+
+def slashed_frame(call: str, argument: str, frame: str) -> str:
+    """Say that names of frames have no slash in front, and which name is meant."""
+    return (
+        f'Invalid argument "{frame}" passed to {call} argument {argument} in tf2 frame_ids '
+        f"cannot start with a '/'. Write '{frame.lstrip('/')}'"
+    )
+
+
+def unconnected(target: str, source: str, roots: tuple[str, str]) -> str:
+    """Say that no frame is above both."""
+    return (
+        f"Could not find a connection between '{target}' and '{source}' because they are not "
+        f"part of the same tree.Tf has two or more unconnected trees. '{target}' is below "
+        f"'{roots[0]}', '{source}' below '{roots[1]}': nobody publishes the transform between "
+        'these two, or not yet'
+    )
+
+
+def extrapolation(gap: Gap, target: str, source: str) -> str:
+    """Say that there is nothing of this time, and how far off the nearest is."""
+    where = f'when looking up transform from frame [{source}] to frame [{target}]'
+    requested = _seconds(gap.requested_ns)
+    if gap.oldest_ns == gap.latest_ns:
+        return (
+            f'Lookup would require extrapolation at time {requested}, but only time '
+            f'{_seconds(gap.latest_ns)} is in the buffer, {where}. {_far(gap)}'
+        )
+    is_past = gap.requested_ns < gap.oldest_ns
+    direction, kind = ('past', 'earliest') if is_past else ('future', 'latest')
+    nearest = _seconds(gap.oldest_ns if is_past else gap.latest_ns)
+    return (
+        f'Lookup would require extrapolation into the {direction}.  Requested time {requested} '
+        f'but the {kind} data is at time {nearest}, {where}. {_far(gap)}'
+    )
+
+
+def _far(gap: Gap) -> str:
+    if gap.requested_ns > gap.latest_ns:
+        ahead_s = (gap.requested_ns - gap.latest_ns) / 1e9
+        if ahead_s > 60.0:
+            return f'That is {ahead_s:.0f} s ahead: is use_sim_time the same everywhere?'
+        return (
+            f'That is {ahead_s:.3f} s ahead: give a timeout to wait for it, or ask for time 0, '
+            'the latest'
+        )
+    back_s = (gap.oldest_ns - gap.requested_ns) / 1e9
+    return (
+        f'That is {back_s:.3f} s too early: the buffer was made later, keeps less, or the clocks '
+        'differ (is use_sim_time the same everywhere?)'
+    )
+
+
+def _seconds(time_ns: int) -> str:
+    return f'{time_ns // 10**9}.{time_ns % 10**9 // 1000:06d}'
+
+
+def _which(frame: str, known: Collection[str]) -> str:
+    """Name the frame that is meant, or those that there are."""
+    from difflib import get_close_matches
+
+    if not known:
+        return 'There are no frames yet: nothing has come on /tf and /tf_static'
+    close = get_close_matches(frame, list(known), n=1)
+    if close:
+        return f"Did you mean '{close[0]}'?"
+    names = sorted(known)
+    more = f' and {len(names) - _SHOWN} more' if len(names) > _SHOWN else ''
+    return f'The frames are: {", ".join(names[:_SHOWN])}{more}'

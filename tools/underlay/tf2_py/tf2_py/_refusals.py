@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is wrong with a transform that cannot be taken."""
+
+from __future__ import annotations
+
+from tf2_py._pose import is_finite, Pose
+
+
+def refusal(parent: str, child: str, pose: Pose, authority: str) -> str:
+    """Return why a transform with sound names and numbers is none, or ''."""
+    if not child:
+        return (
+            f'Ignoring transform from authority "{authority}" because child_frame_id is not set, '
+            f'with frame_id "{parent}"'
+        )
+    if not parent:
+        return (
+            f'Ignoring transform with child_frame_id "{child}" from authority "{authority}" '
+            'because frame_id is not set'
+        )
+    if parent == child:
+        return (
+            f'Ignoring transform from authority "{authority}" with frame_id and child_frame_id '
+            f'"{child}" because they are the same'
+        )
+    if not is_finite(pose):
+        return _bad_number(child, pose, authority)
+    return ''
+
+
+def _bad_number(child: str, pose: Pose, authority: str) -> str:
+    return (
+        f'Ignoring transform for child_frame_id "{child}" from authority "{authority}" because '
+        f'of a nan or infinite value in the transform {_numbers(pose)}'
+    )
+
+
+def bad_quaternion(child: str, pose: Pose, authority: str) -> str:
+    """Say that the quaternion of a transform is no rotation."""
+    hint = ' (an empty message has w = 0; no rotation is w = 1)' if not any(pose[3:]) else ''
+    return (
+        f'Ignoring transform for child_frame_id "{child}" from authority "{authority}" because '
+        f'of an invalid quaternion in the transform {_numbers(pose[3:])}: its length must be 1'
+        f'{hint}'
+    )
+
+
+def old_data(child: str, stamp_ns: int, latest_ns: int, cache_ns: int, authority: str) -> str:
+    """Say that a transform is older than what is kept."""
+    return (
+        f'TF_OLD_DATA ignoring data from the past for frame {child} at time {stamp_ns / 1e9:.6f} '
+        f'according to authority {authority}: the latest is of {latest_ns / 1e9:.6f}, and '
+        f'{cache_ns / 1e9:g} s are kept. Two clocks are in use (is use_sim_time the same '
+        'everywhere?), or time went back, as when a bag is played again'
+    )
+
+
+def _numbers(values: tuple[float, ...]) -> str:
+    return '(' + ' '.join(f'{value:g}' for value in values) + ')'

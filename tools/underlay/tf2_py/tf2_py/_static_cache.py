@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is known of a frame that does not move."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tf2_py._link import Link, Sample
+
+
+class StaticCache:
+    """The one sample of a frame; it holds at all times."""
+
+    is_static = True
+
+    def __init__(self) -> None:
+        """Create a cache without a sample."""
+        self._sample: Sample | None = None
+        self._link: Link | None = None
+
+    @property
+    def samples(self) -> Sequence[Sample]:
+        """Return the sample, if there is one."""
+        return [] if self._sample is None else [self._sample]
+
+    def insert(self, sample: Sample) -> bool:
+        """Take a sample instead of the one before."""
+        self._sample = sample._replace(stamp_ns=0)
+        self._link = Link(sample.parent, sample.pose, sample.pose, 0.0)
+        return True
+
+    def link_at(self, time_ns: int) -> Link | None:
+        """Return the link, whatever the time is."""
+        return self._link
+
+    def latest(self) -> Sample | None:
+        """Return the sample."""
+        return self._sample
+
+    def clear(self) -> None:
+        """Forget nothing: what does not move is true before a jump of time as well."""

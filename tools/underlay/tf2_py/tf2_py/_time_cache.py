@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is known of a frame that moves."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
+
+from tf2_py._link import Gap, Link, Sample
+
+
+class TimeCache:
+    """The samples of a frame, in the order of their time, as far back as they are kept."""
+
+    is_static = False
+
+    def __init__(self, duration_ns: int) -> None:
+        """Create a cache without samples."""
+        self._duration_ns = duration_ns
+        self._stamps_ns: list[int] = []
+        self._samples: list[Sample] = []
+
+    @property
+    def samples(self) -> Sequence[Sample]:
+        """Return the samples, the oldest one first."""
+        return self._samples
+
+    def insert(self, sample: Sample) -> bool:
+        """Take a sample; one of the same time makes way. Return False if it is too old."""
+        stamps_ns = self._stamps_ns
+        stamp_ns = sample.stamp_ns
+        if not stamps_ns or stamp_ns > stamps_ns[-1]:
+            stamps_ns.append(stamp_ns)
+            self._samples.append(sample)
+            self._prune(stamp_ns - self._duration_ns)
+            return True
+        if stamp_ns < stamps_ns[-1] - self._duration_ns:
+            return False
+        index = bisect_left(stamps_ns, stamp_ns)
+        end = index + (stamps_ns[index] == stamp_ns)
+        stamps_ns[index:end] = [stamp_ns]
+        self._samples[index:end] = [sample]
+        return True
+
+    def link_at(self, time_ns: int) -> Link | None:
+        """Return the link at a time, None without samples; a Gap is raised out of their range."""
+        stamps_ns = self._stamps_ns
+        index = bisect_right(stamps_ns, time_ns) - 1
+        if index < 0:
+            if not stamps_ns:
+                return None
+            raise Gap(time_ns, stamps_ns[0], stamps_ns[-1])
+        earlier = self._samples[index]
+        begin_ns = earlier.stamp_ns
+        if begin_ns == time_ns:
+            return Link(earlier.parent, earlier.pose, earlier.pose, 0.0)
+        if index + 1 == len(stamps_ns):
+            raise Gap(time_ns, stamps_ns[0], stamps_ns[-1])
+        later = self._samples[index + 1]
+        if earlier.parent != later.parent:
+            return Link(earlier.parent, earlier.pose, earlier.pose, 0.0)
+        fraction = (time_ns - begin_ns) / (later.stamp_ns - begin_ns)
+        return Link(earlier.parent, earlier.pose, later.pose, fraction)
+
+    def latest(self) -> Sample | None:
+        """Return the newest sample."""
+        return self._samples[-1] if self._samples else None
+
+    def clear(self) -> None:
+        """Forget all samples."""
+        self._stamps_ns.clear()
+        self._samples.clear()
+
+    def _prune(self, oldest_ns: int) -> None:
+        if self._stamps_ns[0] >= oldest_ns:
+            return
+        count = bisect_left(self._stamps_ns, oldest_ns)
+        del self._stamps_ns[:count]
+        del self._samples[:count]

@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Transforms between frames over time."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from typing import Any, Optional, TYPE_CHECKING
+
+from tf2_py import _listing, _refusals
+from tf2_py._complaints import Complaints
+from tf2_py._frame_store import FrameStore
+from tf2_py._link import Sample
+from tf2_py._messages import nanoseconds, pose_of, transform_message
+from tf2_py._pose import chain, normalized, Pose
+from tf2_py.exceptions import TransformException
+
+if TYPE_CHECKING:
+    from geometry_msgs.msg import TransformStamped
+    from rclpy.duration import Duration
+    from rclpy.time import Time
+
+_CACHE_NS = 10 * 10**9
+
+
+class BufferCore:
+    """
+    Keeps what is said of frames for some seconds, and answers where a frame is in another one.
+
+    All methods may be called from several threads.
+    """
+
+    def __init__(self, cache_time: Optional[Duration] = None) -> None:
+        """
+        Create a buffer without frames.
+
+        :param cache_time: how much of the past is kept; 10 s unless given
+        """
+        cache_ns = _CACHE_NS if cache_time is None else nanoseconds(cache_time)
+        self._store = FrameStore(cache_ns)
+        self._lock = threading.RLock()
+        self._complaints = Complaints(self._warn)
+
+    def set_transform(self, transform: TransformStamped, authority: str) -> None:
+        """
+        Take a transform of a frame that moves.
+
+        :param transform: where the child frame is in the frame of the header, at its time
+        :param authority: who says so
+        """
+        self._insert(transform, authority, is_static=False)
+
+    def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
+        """
+        Take a transform that holds at all times.
+
+        :param transform: where the child frame is in the frame of the header
+        :param authority: who says so
+        """
+        self._insert(transform, authority, is_static=True)
+
+    def lookup_transform_core(
+        self, target_frame: str, source_frame: str, time: Time
+    ) -> TransformStamped:
+        """
+        Return the transform that takes data from the source frame to the target frame.
+
+        :param target_frame: the frame of the result
+        :param source_frame: the frame of the data
+        :param time: when; 0 is the latest time at which all between the frames is known
+        """
+        with self._lock:
+            self._store.check(
+                'lookupTransform', target_frame=target_frame, source_frame=source_frame
+            )
+            time_ns, pose = self._pose(target_frame, source_frame, nanoseconds(time))
+        return transform_message(target_frame, source_frame, time_ns, pose)
+
+    def lookup_transform_full_core(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+    ) -> TransformStamped:
+        """
+        Return the transform from the source frame at one time to the target frame at another.
+
+        :param target_frame: the frame of the result
+        :param target_time: the time of the result
+        :param source_frame: the frame of the data
+        :param source_time: the time of the data
+        :param fixed_frame: the frame that does not move between the two times
+        """
+        with self._lock:
+            self._check_full('lookupTransform', target_frame, source_frame, fixed_frame)
+            time_ns, above = self._pose(target_frame, fixed_frame, nanoseconds(target_time))
+            _, below = self._pose(fixed_frame, source_frame, nanoseconds(source_time))
+        return transform_message(target_frame, source_frame, time_ns, chain(above, below))
+
+    def can_transform_core(
+        self, target_frame: str, source_frame: str, time: Time
+    ) -> tuple[bool, str]:
+        """Return whether the look-up with these arguments succeeds, and why not."""
+        try:
+            with self._lock:
+                self._store.check(
+                    'canTransform', target_frame=target_frame, source_frame=source_frame
+                )
+                self._find(target_frame, source_frame, nanoseconds(time))
+        except TransformException as error:
+            return False, str(error)
+        return True, ''
+
+    def can_transform_full_core(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+    ) -> tuple[bool, str]:
+        """Return whether the look-up with these arguments succeeds, and why not."""
+        try:
+            with self._lock:
+                self._check_full('canTransform', target_frame, source_frame, fixed_frame)
+                self._find(target_frame, fixed_frame, nanoseconds(target_time))
+                self._find(fixed_frame, source_frame, nanoseconds(source_time))
+        except TransformException as error:
+            return False, str(error)
+        return True, ''
+
+    def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
+        """Return the latest time at which all between two frames is known; 0 if nothing moves."""
+        from rclpy.time import Time
+
+        with self._lock:
+            self._store.check(
+                'getLatestCommonTime', target_frame=target_frame, source_frame=source_frame
+            )
+            return Time(nanoseconds=self._store.common_time_ns(target_frame, source_frame))
+
+    def clear(self) -> None:
+        """Forget all transforms but the static ones."""
+        with self._lock:
+            self._store.clear()
+
+    def all_frames_as_yaml(self) -> str:
+        """Return the frames, their parents and broadcasters as YAML."""
+        with self._lock:
+            return _listing.as_yaml(self._store)
+
+    def all_frames_as_string(self) -> str:
+        """Return the frames and their parents, one a line."""
+        with self._lock:
+            return _listing.as_string(self._store)
+
+    def _allFramesAsDot(self) -> str:  # noqa: N802
+        """Return the frames as a graph for graphviz."""
+        with self._lock:
+            return _listing.as_dot(self._store)
+
+    def _frameExists(self, frame_id: str) -> bool:  # noqa: N802
+        """Tell if there is a frame of this name."""
+        return frame_id in self._getFrameStrings()
+
+    def _getFrameStrings(self) -> list[str]:  # noqa: N802
+        """Return the names of all frames."""
+        with self._lock:
+            return self._store.names()
+
+    def _chain(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+    ) -> list[str]:
+        """Return the frames from the source over the fixed frame to the target."""
+        with self._lock:
+            self._check_full('chain', target_frame, source_frame, fixed_frame)
+            below = self._frames(fixed_frame, source_frame, nanoseconds(source_time))
+            above = self._frames(target_frame, fixed_frame, nanoseconds(target_time))
+        return [*below, *above[1:]]
+
+    def _warn(self, text: str) -> None:
+        """Say what is wrong with a transform."""
+        logging.getLogger('tf2').warning(text)
+
+    def _insert(self, transform: Any, authority: str, is_static: bool) -> None:
+        parent = transform.header.frame_id.lstrip('/')
+        child = transform.child_frame_id.lstrip('/')
+        pose = pose_of(transform.transform)
+        reason = _refusals.refusal(parent, child, pose, authority)
+        unit = None if reason else normalized(pose)
+        if unit is None:
+            reason = reason or _refusals.bad_quaternion(child, pose, authority)
+            self._complaints.add(reason, child, authority)
+            return
+        stamp_ns = nanoseconds(transform.header.stamp)
+        with self._lock:
+            is_new = self._store.insert(
+                child, Sample(stamp_ns, parent, unit, authority), is_static
+            )
+        if not is_new:
+            self._complain_of_old(child, stamp_ns, authority)
+
+    def _complain_of_old(self, child: str, stamp_ns: int, authority: str) -> None:
+        latest = self._store.latest(child)
+        if latest is not None:
+            text = _refusals.old_data(
+                child, stamp_ns, latest.stamp_ns, self._store.cache_ns, authority
+            )
+            self._complaints.add(text, child, authority)
+
+    def _check_full(self, call: str, target: str, source: str, fixed: str) -> None:
+        self._store.check(call, target_frame=target, source_frame=source, fixed_frame=fixed)
+
+    def _pose(self, target: str, source: str, time_ns: int) -> tuple[int, Pose]:
+        """Return the time that is meant, and the pose then."""
+        time_ns = time_ns or self._store.common_time_ns(target, source)
+        return time_ns, self._store.pose(target, source, time_ns)
+
+    def _find(self, target: str, source: str, time_ns: int) -> None:
+        """Raise unless there is a way between two frames."""
+        time_ns = time_ns or self._store.common_time_ns(target, source)
+        self._store.route(target, source, time_ns)
+
+    def _frames(self, target: str, source: str, time_ns: int) -> list[str]:
+        time_ns = time_ns or self._store.common_time_ns(target, source)
+        route = self._store.route(target, source, time_ns)
+        up = [source, *(link.parent for link in route.from_source)]
+        down = [target, *(link.parent for link in route.from_target)]
+        return [*up, *reversed(down[:-1])]

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Fixtures: a domain of one's own, nodes in it, and programs as processes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+import os
+from pathlib import Path
+import subprocess
+import sys
+
+from domain_coordinator import domain_id
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+
+sys.path.insert(0, str(Path(__file__).parents[2] / 'tf2_py' / 'test'))
+TIMEOUT_S = 30.0
+
+
+@pytest.fixture(scope='session')
+def domain() -> Iterator[int]:
+    """Reserve a domain."""
+    with domain_id() as domain:
+        yield domain
+
+
+@pytest.fixture
+def context(domain: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
+    """Return a context in the domain."""
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    context = Context()
+    rclpy.init(args=[], context=context, domain_id=domain)
+    yield context
+    context.try_shutdown()
+
+
+@pytest.fixture
+def make_node(context: Context) -> Callable[..., Node]:
+    """Return a function that creates a node."""
+    return lambda name, **options: Node(name, context=context, **options)
+
+
+@pytest.fixture
+def spin_until(context: Context) -> Callable[..., None]:
+    """Return a function that lets nodes work until something is true."""
+
+    def spin(condition: Callable[[], object], *nodes: Node) -> None:
+        import time
+
+        executor = SingleThreadedExecutor(context=context)
+        for node in nodes:
+            executor.add_node(node)
+        end_s = time.monotonic() + TIMEOUT_S
+        while not condition():
+            assert time.monotonic() < end_s, 'it has not become true'
+            executor.spin_once(timeout_sec=0.05)
+        for node in nodes:
+            executor.remove_node(node)
+        executor.shutdown()
+
+    return spin
+
+
+@pytest.fixture
+def start_program(domain: int) -> Iterator[Callable[..., subprocess.Popen[str]]]:
+    """Return a function that starts a module as a program; all end with the test."""
+    started = []
+
+    def start(module: str, *words: str) -> subprocess.Popen[str]:
+        process = subprocess.Popen(
+            [sys.executable, '-m', module, *words],
+            env={
+                **os.environ,
+                'ROS_DOMAIN_ID': str(domain),
+                'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+            },
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        started.append(process)
+        return process
+
+    yield start
+    for process in started:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()

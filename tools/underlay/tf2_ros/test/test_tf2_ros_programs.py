@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The programs as processes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import signal
+import subprocess
+import threading
+
+import pytest
+
+Start = Callable[..., subprocess.Popen[str]]
+TIMEOUT_S = 60.0
+PUBLISHER = 'tf2_ros.static_transform_publisher'
+ARGUMENTS = ['--x', '1', '--yaw', '0.5', '--frame-id', 'map', '--child-frame-id', 'odom']
+
+
+def read_until(stream: object, text: str) -> str:
+    """Return what comes up to a text; fail when nothing comes for long."""
+    lines: list[str] = []
+
+    def read() -> None:
+        for line in stream:  # type: ignore[attr-defined]
+            lines.append(line)
+            if text in line:
+                break
+
+    thread = threading.Thread(target=read, daemon=True)
+    thread.start()
+    thread.join(TIMEOUT_S)
+    assert lines and text in lines[-1], ''.join(lines)
+    return ''.join(lines)
+
+
+def end(process: subprocess.Popen[str], number: signal.Signals) -> None:
+    """Stop a program, which ends in order."""
+    process.send_signal(number)
+    _, errors = process.communicate(timeout=TIMEOUT_S)
+    assert process.returncode == 0 and 'Traceback' not in errors
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_publisher_and_echo(start_program: Start, number: signal.Signals) -> None:
+    """The publisher says what it publishes, and tf2_echo prints it; both end in order."""
+    publisher = start_program(PUBLISHER, *ARGUMENTS)
+    text = read_until(publisher.stderr, "from 'map' to 'odom'")
+    assert 'Spinning until stopped - publishing transform' in text
+    assert "translation: ('1.000000', '0.000000', '0.000000')" in text
+    assert "rotation: ('0.000000', '0.000000', '0.247404', '0.968912')" in text
+    echo = start_program('tf2_ros.tf2_echo', 'map', 'odom', '5', '-p', '2')
+    text = read_until(echo.stdout, '- Translation')
+    assert text.splitlines() == ['At time 0.0', '- Translation: [1.00, 0.00, 0.00]']
+    end(echo, number)
+    end(publisher, number)
+
+
+def test_echo_waits(start_program: Start) -> None:
+    """Without the transform tf2_echo says what it waits for."""
+    echo = start_program('tf2_ros.tf2_echo', 'mars', 'venus')
+    text = read_until(echo.stderr, 'Waiting for transform')
+    assert (
+        '[tf2_echo]: Waiting for transform mars ->  venus: Invalid frame ID "mars" passed to '
+        'canTransform argument target_frame - frame does not exist' in text
+    )
+    end(echo, signal.SIGTERM)
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_monitor(start_program: Start, number: signal.Signals) -> None:
+    """The monitor prints the frames between two."""
+    start_program(PUBLISHER, *ARGUMENTS)
+    monitor = start_program('tf2_ros.tf2_monitor', 'map', 'odom', '--period', '0.5')
+    text = read_until(monitor.stdout, 'Frame: odom, published by')
+    assert 'Gathering data on map -> odom for 0.5 seconds...' in text
+    assert 'RESULTS: for map to odom\nChain is: map -> odom\n' in text
+    end(monitor, number)
+
+
+def test_bad_arguments(start_program: Start) -> None:
+    """Mistakes are sentences, not tracebacks."""
+    for module, words, text in (
+        ('tf2_ros.tf2_echo', ['map'], 'required: target_frame'),
+        ('tf2_ros.tf2_echo', ['map', 'odom', '-1'], 'a rate of -1 Hz is not possible'),
+        ('tf2_ros.tf2_monitor', ['map'], 'give two frames'),
+        (PUBLISHER, [*ARGUMENTS, '--ros-args', '-p', 'wrong'], 'The ROS arguments cannot be used'),
+    ):
+        process = start_program(module, *words)
+        _, errors = process.communicate(timeout=TIMEOUT_S)
+        assert process.returncode in (1, 2) and 'Traceback' not in errors
+        assert text in errors

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Transforms between frames over time, in nodes: buffer, listener and broadcasters."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from launch._lazy import lazy_exports
+
+if TYPE_CHECKING:
+    from tf2_py import (
+        BufferCore,
+        ConnectivityException,
+        ExtrapolationException,
+        InvalidArgumentException,
+        LookupException,
+        TimeoutException,
+        TransformException,
+    )
+    from tf2_ros import (
+        buffer,
+        buffer_interface,
+        static_transform_broadcaster,
+        transform_broadcaster,
+        transform_listener,
+    )
+    from tf2_ros.buffer import Buffer
+    from tf2_ros.buffer_interface import (
+        BufferInterface,
+        convert,
+        ConvertRegistration,
+        NotImplementedException,
+        Stamped,
+        TransformRegistration,
+        TypeException,
+    )
+    from tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
+    from tf2_ros.transform_broadcaster import TransformBroadcaster
+    from tf2_ros.transform_listener import TransformListener
+
+__all__ = [
+    'Buffer',
+    'BufferCore',
+    'BufferInterface',
+    'ConnectivityException',
+    'ConvertRegistration',
+    'ExtrapolationException',
+    'InvalidArgumentException',
+    'LookupException',
+    'NotImplementedException',
+    'Stamped',
+    'StaticTransformBroadcaster',
+    'TimeoutException',
+    'TransformBroadcaster',
+    'TransformException',
+    'TransformListener',
+    'TransformRegistration',
+    'TypeException',
+    'buffer',
+    'buffer_interface',
+    'convert',
+    'static_transform_broadcaster',
+    'transform_broadcaster',
+    'transform_listener',
+]
+
+_FROM_CORE = [
+    'BufferCore',
+    'ConnectivityException',
+    'ExtrapolationException',
+    'InvalidArgumentException',
+    'LookupException',
+    'TimeoutException',
+    'TransformException',
+]
+_FROM_INTERFACE = [
+    'ConvertRegistration',
+    'NotImplementedException',
+    'Stamped',
+    'TransformRegistration',
+    'TypeException',
+    'convert',
+]
+_MODULES = [name for name in __all__ if name.islower() and name != 'convert']
+
+__getattr__, __dir__ = lazy_exports(
+    __name__,
+    __all__,
+    {
+        **dict.fromkeys(_FROM_CORE, '_core'),
+        **dict.fromkeys(_FROM_INTERFACE, 'buffer_interface'),
+        **dict.fromkeys(_MODULES, ''),
+    },
+)

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What this package hands on from tf2_py."""
+
+from tf2_py import (
+    BufferCore,
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
+
+__all__ = [
+    'BufferCore',
+    'ConnectivityException',
+    'ExtrapolationException',
+    'InvalidArgumentException',
+    'LookupException',
+    'TimeoutException',
+    'TransformException',
+]

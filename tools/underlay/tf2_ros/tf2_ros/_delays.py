@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How late transforms come, and how often."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+# Messages do not say which node has sent them.
+AUTHORITY = '<no authority available>'
+
+
+@dataclass
+class Delays:
+    """The delays of one frame or broadcaster."""
+
+    count: int = 0
+    sum_s: float = 0.0
+    longest_s: float = 0.0
+
+    def add(self, delay_s: float) -> None:
+        """Count a delay."""
+        self.count += 1
+        self.sum_s += delay_s
+        self.longest_s = max(self.longest_s, delay_s) if self.count > 1 else delay_s
+
+    @property
+    def mean_s(self) -> float:
+        """Return the mean delay."""
+        return self.sum_s / self.count if self.count else 0.0
+
+    def __str__(self) -> str:
+        """Return both figures, as tf2_monitor shows them."""
+        return f'Average Delay: {self.mean_s:.6g}, Max Delay: {self.longest_s:.6g}'
+
+
+@dataclass
+class Traffic:
+    """What has come since the beginning of a period."""
+
+    frames: dict[str, Delays] = field(default_factory=dict)
+    total: Delays = field(default_factory=Delays)
+    net: Delays = field(default_factory=Delays)
+    messages: int = 0
+
+    def add(self, delays_s: Iterable[tuple[str, float]]) -> None:
+        """Count one message: the frames and their delays."""
+        self.messages += 1
+        for frame, delay_s in delays_s:
+            self.frames.setdefault(frame, Delays()).add(delay_s)
+            self.total.add(delay_s)
+
+
+def report(traffic: Traffic, static: Iterable[str], chain: list[str], duration_s: float) -> str:
+    """Return the table of all frames, or of those of a chain between two."""
+    frames = {**dict.fromkeys(static, Delays()), **traffic.frames}
+    rows = [
+        f'Frame: {frame}, published by {AUTHORITY}, {delays}'
+        for frame, delays in sorted(frames.items())
+        if not chain or frame in chain
+    ]
+    node = f'Node: {AUTHORITY} {traffic.messages / duration_s:.6g} Hz, {traffic.total}'
+    return '\n'.join(
+        [*_title(traffic, chain), '', 'Frames:', *rows, '', 'All Broadcasters:', node, '']
+    )
+
+
+def _title(traffic: Traffic, chain: list[str]) -> list[str]:
+    if not chain:
+        return ['RESULTS: for all Frames']
+    return [
+        f'RESULTS: for {chain[0]} to {chain[-1]}',
+        f'Chain is: {" -> ".join(chain)}',
+        f'Net delay     avg = {traffic.net.mean_s:.6g}: max = {traffic.net.longest_s:.6g}',
+    ]

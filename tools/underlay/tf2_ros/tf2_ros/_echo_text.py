@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A transform in words, as tf2_echo prints it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+
+def echo_text(message: Any, precision: int) -> str:
+    """Return the time, the translation, and the rotation in four forms."""
+    from scipy.spatial.transform import Rotation
+
+    place, turn = message.transform.translation, message.transform.rotation
+    translation = [place.x, place.y, place.z]
+    quaternion = [turn.x, turn.y, turn.z, turn.w]
+    rotation = Rotation.from_quat(quaternion)
+    rows = [[*row, x] for row, x in zip(rotation.as_matrix().tolist(), translation)]
+    return '\n'.join(
+        [
+            f'At time {_time(message.header.stamp)}',
+            f'- Translation: {_vector(translation, precision)}',
+            f'- Rotation: in Quaternion (xyzw) {_vector(quaternion, precision)}',
+            f'- Rotation: in RPY (radian) {_vector(_euler(rotation), precision)}',
+            f'- Rotation: in RPY (degree) {_vector(_euler(rotation, True), precision)}',
+            '- Matrix:',
+            *(_row(row, precision) for row in [*rows, [0.0, 0.0, 0.0, 1.0]]),
+        ]
+    )
+
+
+def _euler(rotation: Any, degrees: bool = False) -> list[float]:
+    """Return roll, pitch and yaw; at a pitch of 90 degrees only their sum is certain."""
+    import warnings
+
+    with warnings.catch_warnings():
+        warnings.simplefilter('ignore', UserWarning)
+        return rotation.as_euler('xyz', degrees=degrees).tolist()  # type: ignore[no-any-return]
+
+
+def _time(stamp: Any) -> str:
+    """Return a time with nanoseconds; that of what does not move is just 0.0."""
+    if not stamp.sec and not stamp.nanosec:
+        return '0.0'
+    return f'{stamp.sec}.{stamp.nanosec:09d}'
+
+
+def _vector(numbers: Iterable[float], precision: int) -> str:
+    return '[' + ', '.join(f'{number:.{precision}f}' for number in numbers) + ']'
+
+
+def _row(numbers: Iterable[float], precision: int) -> str:
+    return ''.join(f' {number:{precision + 3}.{precision}f}' for number in numbers)

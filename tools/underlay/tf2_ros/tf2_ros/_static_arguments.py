@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The arguments of static_transform_publisher."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import isfinite
+
+_NUMBERS = {
+    'x': 'x component of the translation in metres',
+    'y': 'y component of the translation',
+    'z': 'z component of the translation',
+    'qx': 'x component of the quaternion',
+    'qy': 'y component of the quaternion',
+    'qz': 'z component of the quaternion',
+    'qw': 'w component of the quaternion',
+    'roll': 'rotation about x in radians',
+    'pitch': 'rotation about y in radians',
+    'yaw': 'rotation about z in radians',
+}
+_EULER = ('roll', 'pitch', 'yaw')
+_QUATERNION = ('qx', 'qy', 'qz', 'qw')
+_OLD_STYLE = {
+    8: ('x', 'y', 'z', 'yaw', 'pitch', 'roll'),
+    9: ('x', 'y', 'z', 'qx', 'qy', 'qz', 'qw'),
+}
+OLD_STYLE_WARNING = 'Old-style arguments are deprecated; see --help for new-style arguments'
+
+
+@dataclass(frozen=True)
+class StaticTransform:
+    """Where a frame is in another one."""
+
+    frame_id: str
+    child_frame_id: str
+    translation: tuple[float, float, float]
+    rotation: tuple[float, float, float, float]
+    is_old_style: bool = False
+
+
+def parsed(arguments: Sequence[str]) -> StaticTransform:
+    """Return what the arguments mean; unclear ones end the program with a sentence."""
+    parser = _parser()
+    if arguments and not any(word.startswith('--') or word == '-h' for word in arguments):
+        return _old_style(parser, arguments)
+    known = parser.parse_args(_joined(arguments))
+    given = {name: vars(known)[name] for name in _NUMBERS if vars(known)[name] is not None}
+    return _transform(parser, given, known.frame_id, known.child_frame_id)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog='static_transform_publisher',
+        allow_abbrev=False,
+        description='Publish where a frame is in another one, as long as the program runs.',
+        epilog='The rotation is a quaternion or roll, pitch and yaw. Deprecated: the arguments '
+        'x y z yaw pitch roll frame_id child_frame_id, or x y z qx qy qz qw frame_id '
+        'child_frame_id.',
+    )
+    for name, text in _NUMBERS.items():
+        parser.add_argument(f'--{name}', type=_number, help=text)
+    parser.add_argument('--frame-id', required=True, help='the parent frame')
+    parser.add_argument('--child-frame-id', required=True, help='the frame that is placed')
+    return parser
+
+
+def _old_style(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> StaticTransform:
+    names = _OLD_STYLE.get(len(arguments))
+    if names is None:
+        parser.error(
+            f'{len(arguments)} arguments are neither x y z yaw pitch roll frame_id child_frame_id '
+            'nor x y z qx qy qz qw frame_id child_frame_id'
+        )
+    try:
+        given = {name: _number(word) for name, word in zip(names, arguments)}
+    except argparse.ArgumentTypeError as error:
+        parser.error(str(error))
+    frame, child = arguments[-2:]
+    return _transform(parser, given, frame, child, is_old_style=True)
+
+
+def _transform(
+    parser: argparse.ArgumentParser,
+    given: dict[str, float],
+    frame: str,
+    child: str,
+    is_old_style: bool = False,
+) -> StaticTransform:
+    if frame.lstrip('/') == child.lstrip('/'):
+        parser.error(f"'{frame}' cannot be placed in itself: give two different frames")
+    x, y, z = (given.get(name, 0.0) for name in ('x', 'y', 'z'))
+    return StaticTransform(
+        frame, child, (x, y, z), _rotation(parser, given), is_old_style=is_old_style
+    )
+
+
+def _rotation(
+    parser: argparse.ArgumentParser, given: dict[str, float]
+) -> tuple[float, float, float, float]:
+    euler = [name for name in _EULER if name in given]
+    quaternion = [name for name in _QUATERNION if name in given]
+    if euler and quaternion:
+        parser.error(
+            f'--{quaternion[0]} and --{euler[0]} exclude each other: give a quaternion, or roll, '
+            'pitch and yaw'
+        )
+    if any(given[name] for name in euler):
+        return _from_euler(*(given.get(name, 0.0) for name in _EULER))
+    if not quaternion:
+        return (0.0, 0.0, 0.0, 1.0)
+    qx, qy, qz, qw = (given.get(name, 0.0) for name in _QUATERNION)
+    if 'qw' not in given and not any((qx, qy, qz)):
+        qw = 1.0
+    length = (qx * qx + qy * qy + qz * qz + qw * qw) ** 0.5
+    if abs(length - 1.0) > 1e-3:
+        parser.error(
+            f'the quaternion ({qx:g} {qy:g} {qz:g} {qw:g}) has the length {length:g} instead of 1'
+        )
+    return (qx, qy, qz, qw)
+
+
+def _from_euler(roll: float, pitch: float, yaw: float) -> tuple[float, float, float, float]:
+    from scipy.spatial.transform import Rotation
+
+    qx, qy, qz, qw = Rotation.from_euler('xyz', [roll, pitch, yaw]).as_quat().tolist()
+    return (qx, qy, qz, qw)
+
+
+def _number(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f'{text!r} is not a number') from None
+    if not isfinite(number):
+        raise argparse.ArgumentTypeError(f'{text!r} is not a finite number')
+    return number
+
+
+def _joined(arguments: Sequence[str]) -> list[str]:
+    """Join options of numbers with their values, which may look like options (-1e-3)."""
+    words = list(arguments)
+    joined = []
+    while words:
+        word = words.pop(0)
+        if word[2:] in _NUMBERS and word.startswith('--') and words:
+            word = f'{word}={words.pop(0)}'
+        joined.append(word)
+    return joined

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Wait until a buffer knows enough."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import threading
+import time
+from typing import Any
+
+Check = Callable[[], tuple[bool, str]]
+_LOOK_S = 0.1
+
+
+class Waiting:
+    """Those who wait for transforms: threads, and futures."""
+
+    def __init__(self, is_alive: Callable[[], bool]) -> None:
+        """Create the object; nobody waits while `is_alive` returns False."""
+        self._is_alive = is_alive
+        self._changed = threading.Condition()
+        self._threads = 0
+        self._futures: list[tuple[Check, Any]] = []
+        self._feeding_thread = 0
+
+    def until(self, check: Check, timeout_s: float) -> tuple[bool, str]:
+        """Return what the check says when it succeeds, or at the end of the time."""
+        end_s = time.monotonic() + timeout_s
+        with self._changed:
+            self._threads += 1
+            try:
+                while not (result := check())[0] and self._is_alive():
+                    left_s = end_s - time.monotonic()
+                    if left_s <= 0.0:
+                        break
+                    self._changed.wait(min(left_s, _LOOK_S))
+            finally:
+                self._threads -= 1
+        return result
+
+    def add(self, check: Check, future: Any) -> None:
+        """Give the future a result as soon as the check succeeds."""
+        with self._changed:
+            self._futures.append((check, future))
+        self._settle()
+
+    def announce(self) -> None:
+        """Say that the buffer has changed."""
+        self._feeding_thread = threading.get_ident()
+        if self._threads:
+            with self._changed:
+                self._changed.notify_all()
+        if self._futures:
+            self._settle()
+
+    def blocks_itself(self) -> bool:
+        """Tell if it is this thread that fills the buffer, so that it must not wait."""
+        return self._feeding_thread == threading.get_ident()
+
+    def _settle(self) -> None:
+        with self._changed:
+            entries = [entry for entry in self._futures if not _is_over(entry[1])]
+            ready = [entry for entry in entries if entry[0]()[0]]
+            self._futures = [entry for entry in entries if entry not in ready]
+        for _, future in ready:
+            future.set_result(True)
+
+
+def _is_over(future: Any) -> bool:
+    return bool(future.done() or future.cancelled())

@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The transforms of a node."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any, Optional, TYPE_CHECKING, Union
+
+from rclpy.clock import ClockChange, JumpThreshold
+from rclpy.duration import Duration
+from rclpy.logging import get_logger
+from rclpy.task import Future
+from tf2_py import BufferCore, TransformException
+from tf2_py._messages import nanoseconds
+from tf2_ros._waiting import Check, Waiting
+from tf2_ros.buffer_interface import BufferInterface
+
+if TYPE_CHECKING:
+    from geometry_msgs.msg import TransformStamped
+    from rclpy.node import Node
+    from rclpy.time import Time
+
+Result = Union[bool, tuple[bool, str]]
+_BLOCKED = (
+    'No transform could come during the wait, since the thread that waited is the one that '
+    'receives them: create the TransformListener with spin_thread=True, or await '
+    'lookup_transform_async'
+)
+
+
+class Buffer(BufferCore, BufferInterface):
+    """A BufferCore that can wait, and that forgets everything when time jumps back."""
+
+    def __init__(self, cache_time: Optional[Duration] = None, node: Optional[Node] = None) -> None:
+        """
+        Create a buffer without frames.
+
+        :param cache_time: how much of the past is kept; 10 s unless given
+        :param node: offers the frames as service `tf2_frames`, if given
+        """
+        BufferCore.__init__(self, cache_time)
+        BufferInterface.__init__(self)
+        self._node: Optional[Node] = None
+        self._jumps: Any = None
+        self._waiting = Waiting(self._is_alive)
+        if node is not None:
+            from tf2_msgs.srv import FrameGraph
+
+            self.follow_clock_of(node)
+            self._service = node.create_service(FrameGraph, 'tf2_frames', self._answer)
+
+    def follow_clock_of(self, node: Node) -> None:
+        """Forget everything when the time of a node jumps back, and wait no longer than it is."""
+        if self._node is not None:
+            return
+        self._node = node
+        threshold = JumpThreshold(
+            min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=True
+        )
+        self._jumps = node.get_clock().create_jump_callback(
+            threshold, post_callback=self.time_jump_callback
+        )
+
+    def time_jump_callback(self, time_jump: Any) -> None:
+        """Forget all transforms but the static ones."""
+        kept_clock = (ClockChange.ROS_TIME_NO_CHANGE, ClockChange.SYSTEM_TIME_NO_CHANGE)
+        is_back = time_jump.clock_change in kept_clock
+        what = 'jump back in time' if is_back else 'change between system and simulated time'
+        self._warn(f'Detected {what}. Clearing TF buffer.')
+        self.clear()
+
+    def set_transform(self, transform: TransformStamped, authority: str) -> None:
+        """Take a transform of a frame that moves."""
+        super().set_transform(transform, authority)
+        self._waiting.announce()
+
+    def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
+        """Take a transform that holds at all times."""
+        super().set_transform_static(transform, authority)
+        self._waiting.announce()
+
+    def lookup_transform(
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Time,
+        timeout: Duration = Duration(),
+    ) -> TransformStamped:
+        """
+        Return the transform that takes data from the source frame to the target frame.
+
+        :param target_frame: the frame of the result
+        :param source_frame: the frame of the data
+        :param time: when; 0 is the latest time at which all between the frames is known
+        :param timeout: how long to wait for it
+        """
+        arguments = (target_frame, source_frame, time)
+        check = partial(self.can_transform_core, *arguments)
+        return self._look_up(partial(self.lookup_transform_core, *arguments), check, timeout)
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = Duration(),
+    ) -> TransformStamped:
+        """
+        Return the transform from the source frame at one time to the target frame at another.
+
+        :param target_frame: the frame of the result
+        :param target_time: the time of the result
+        :param source_frame: the frame of the data
+        :param source_time: the time of the data
+        :param fixed_frame: the frame that does not move between the two times
+        :param timeout: how long to wait for it
+        """
+        arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
+        check = partial(self.can_transform_full_core, *arguments)
+        look_up = partial(self.lookup_transform_full_core, *arguments)
+        return self._look_up(look_up, check, timeout)
+
+    def can_transform(
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Time,
+        timeout: Duration = Duration(),
+        return_debug_tuple: bool = False,
+    ) -> Result:
+        """
+        Return whether the look-up with these arguments succeeds.
+
+        :param target_frame: the frame of the result
+        :param source_frame: the frame of the data
+        :param time: when; 0 is the latest time
+        :param timeout: how long to wait for it
+        :param return_debug_tuple: return a text as well that says why not
+        """
+        check = partial(self.can_transform_core, target_frame, source_frame, time)
+        result = self._wait(check, timeout)
+        return result if return_debug_tuple else result[0]
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = Duration(),
+        return_debug_tuple: bool = False,
+    ) -> Result:
+        """
+        Return whether the look-up with these arguments succeeds.
+
+        :param target_frame: the frame of the result
+        :param target_time: the time of the result
+        :param source_frame: the frame of the data
+        :param source_time: the time of the data
+        :param fixed_frame: the frame that does not move between the two times
+        :param timeout: how long to wait for it
+        :param return_debug_tuple: return a text as well that says why not
+        """
+        arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
+        result = self._wait(partial(self.can_transform_full_core, *arguments), timeout)
+        return result if return_debug_tuple else result[0]
+
+    def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future:
+        """Return a future whose result is True as soon as the look-up would succeed."""
+        return self._future(partial(self.can_transform_core, target_frame, source_frame, time))
+
+    def wait_for_transform_full_async(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+    ) -> Future:
+        """Return a future whose result is True as soon as the look-up would succeed."""
+        arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
+        return self._future(partial(self.can_transform_full_core, *arguments))
+
+    async def lookup_transform_async(
+        self, target_frame: str, source_frame: str, time: Time
+    ) -> TransformStamped:
+        """Return the transform as soon as it is known."""
+        await self.wait_for_transform_async(target_frame, source_frame, time)
+        return self.lookup_transform_core(target_frame, source_frame, time)
+
+    async def lookup_transform_full_async(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+    ) -> TransformStamped:
+        """Return the transform between two times as soon as it is known."""
+        arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
+        await self.wait_for_transform_full_async(*arguments)
+        return self.lookup_transform_full_core(*arguments)
+
+    def _look_up(
+        self, look_up: Callable[[], TransformStamped], check: Check, timeout: Duration
+    ) -> TransformStamped:
+        """Return the transform at once, or when the check succeeds in time."""
+        timeout_s = nanoseconds(timeout) / 1e9
+        if timeout_s <= 0.0:
+            return look_up()
+        self._waiting.until(check, timeout_s)
+        try:
+            return look_up()
+        except TransformException as error:
+            if not self._waiting.blocks_itself():
+                raise
+            raise type(error)(f'{error}. {_BLOCKED}') from None
+
+    def _wait(self, check: Check, timeout: Duration) -> tuple[bool, str]:
+        timeout_s = nanoseconds(timeout) / 1e9
+        return check() if timeout_s <= 0.0 else self._waiting.until(check, timeout_s)
+
+    def _future(self, check: Check) -> Future:
+        future = Future()
+        self._waiting.add(check, future)
+        return future
+
+    def _is_alive(self) -> bool:
+        return self._node is None or bool(self._node.context.ok())
+
+    def _warn(self, text: str) -> None:
+        get_logger('tf2').warning(text)
+
+    def _answer(self, request: Any, response: Any) -> Any:
+        response.frame_yaml = self.all_frames_as_yaml()
+        return response

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What can be asked of transforms, wherever they are kept."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from typing import Any, Optional, TYPE_CHECKING
+
+from rclpy.duration import Duration
+from tf2_ros._registrations import (
+    ConvertRegistration,
+    TransformRegistration,
+    TypeException,
+)
+
+if TYPE_CHECKING:
+    from geometry_msgs.msg import TransformStamped
+    from rclpy.time import Time
+
+__all__ = [
+    'BufferInterface',
+    'ConvertRegistration',
+    'NotImplementedException',
+    'Stamped',
+    'TransformRegistration',
+    'TypeException',
+    'convert',
+]
+
+
+class NotImplementedException(Exception):
+    """A subclass lacks a method."""
+
+    def __init__(self, method: str = 'This method') -> None:
+        super().__init__(f'{method} is for a subclass to implement')
+
+
+class BufferInterface:
+    """Asks for transforms and applies them; subclasses know the transforms."""
+
+    def __init__(self) -> None:
+        """Create the object."""
+        self.registration = TransformRegistration()
+
+    def transform(
+        self,
+        object_stamped: Any,
+        target_frame: str,
+        timeout: Duration = Duration(),
+        new_type: Optional[type] = None,
+    ) -> Any:
+        """
+        Return an object in another frame.
+
+        :param object_stamped: an object with a header, of a type that a package has registered
+        :param target_frame: the frame of the result
+        :param timeout: how long to wait for the transform
+        :param new_type: the type of the result, if not that of the object
+        """
+        do_transform = self.registration.get(type(object_stamped))
+        header = object_stamped.header
+        transform = self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout)
+        return _converted(do_transform(object_stamped, transform), new_type)
+
+    def transform_full(
+        self,
+        object_stamped: Any,
+        target_frame: str,
+        target_time: Time,
+        fixed_frame: str,
+        timeout: Duration = Duration(),
+        new_type: Optional[type] = None,
+    ) -> Any:
+        """
+        Return an object in another frame at another time.
+
+        :param object_stamped: an object with a header, of a type that a package has registered
+        :param target_frame: the frame of the result
+        :param target_time: the time of the result
+        :param fixed_frame: the frame that does not move between the two times
+        :param timeout: how long to wait for the transforms
+        :param new_type: the type of the result, if not that of the object
+        """
+        do_transform = self.registration.get(type(object_stamped))
+        header = object_stamped.header
+        transform = self.lookup_transform_full(
+            target_frame, target_time, header.frame_id, header.stamp, fixed_frame, timeout
+        )
+        return _converted(do_transform(object_stamped, transform), new_type)
+
+    def lookup_transform(
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Time,
+        timeout: Duration = Duration(),
+    ) -> TransformStamped:
+        """Return the transform from the source frame to the target frame."""
+        raise NotImplementedException('lookup_transform')
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = Duration(),
+    ) -> TransformStamped:
+        """Return the transform from the source frame at one time to the target at another."""
+        raise NotImplementedException('lookup_transform_full')
+
+    def can_transform(
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Time,
+        timeout: Duration = Duration(),
+    ) -> Any:
+        """Return whether the look-up with these arguments succeeds."""
+        raise NotImplementedException('can_transform')
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = Duration(),
+    ) -> Any:
+        """Return whether the look-up with these arguments succeeds."""
+        raise NotImplementedException('can_transform_full')
+
+
+def Stamped(obj: Any, stamp: Any, frame_id: str) -> Any:  # noqa: N802
+    """Give an object a header; return it."""
+    from std_msgs.msg import Header
+
+    obj.header = Header(frame_id=frame_id, stamp=stamp)
+    return obj
+
+
+def convert(a: Any, b_type: type) -> Any:
+    """Return an object of another type that means the same."""
+    registration = ConvertRegistration()
+    direct = registration.get_convert((type(a), b_type))
+    if direct is not None:
+        return direct(a)
+    if isinstance(a, b_type):
+        return deepcopy(a)
+    to_message = registration.get_to_msg(type(a))
+    return registration.get_from_msg(b_type)(to_message(a))
+
+
+def _converted(result: Any, new_type: Optional[type]) -> Any:
+    return result if new_type is None else convert(result, new_type)

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say where frames are that do not move."""
+
+from __future__ import annotations
+
+from typing import Optional, TYPE_CHECKING, Union
+
+from tf2_msgs.msg import TFMessage
+from tf2_ros._qos import STATIC_BROADCASTER
+from tf2_ros.transform_broadcaster import as_list, Transforms
+
+if TYPE_CHECKING:
+    from geometry_msgs.msg import TransformStamped
+    from rclpy.node import Node
+    from rclpy.qos import QoSProfile
+
+
+class StaticTransformBroadcaster:
+    """Publishes transforms on `/tf_static`; who comes later gets them as well."""
+
+    def __init__(self, node: Node, qos: Optional[Union[QoSProfile, int]] = None) -> None:
+        """
+        Create the publisher.
+
+        :param node: the node that publishes
+        :param qos: another QoS than the usual one, which is reliable and transient local with a
+            depth of 1
+        """
+        chosen = STATIC_BROADCASTER if qos is None else qos
+        self.pub_tf = node.create_publisher(TFMessage, '/tf_static', chosen)
+        self._transforms: dict[str, TransformStamped] = {}
+
+    def sendTransform(self, transform: Transforms) -> None:  # noqa: N802
+        """Publish a transform, or several, with all that were sent before."""
+        self._transforms.update({item.child_frame_id: item for item in as_list(transform)})
+        self.pub_tf.publish(TFMessage(transforms=list(self._transforms.values())))

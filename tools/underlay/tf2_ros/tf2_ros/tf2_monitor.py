@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Print how late and how often transforms come: `ros2 run tf2_ros tf2_monitor`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from typing import Any
+
+from tf2_ros._delays import AUTHORITY, report, Traffic
+from tf2_ros._program import run, spin
+
+_PERIOD_S = 10.0
+
+
+def main() -> int:
+    """Run the program."""
+    return run(_arguments, _monitor)
+
+
+def _arguments(words: list[str]) -> argparse.Namespace:
+    parser = _parser()
+    args = parser.parse_args(words)
+    if args.source_frame and not args.target_frame:
+        parser.error('give two frames to look at what is between them, or none for all')
+    return args
+
+
+def _monitor(args: argparse.Namespace) -> None:
+    spin(Monitor(args).node)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog='tf2_monitor',
+        allow_abbrev=False,
+        description='Print every 10 s how late and how often transforms come: those of all '
+        'frames, or those between two.',
+    )
+    parser.add_argument('source_frame', nargs='?', default='')
+    parser.add_argument('target_frame', nargs='?', default='')
+    parser.add_argument('--period', type=float, default=_PERIOD_S, help='seconds of each report')
+    return parser
+
+
+class Monitor:
+    """Counts transforms, and prints a report of each period."""
+
+    def __init__(self, args: argparse.Namespace) -> None:
+        """Begin to listen."""
+        from rclpy.clock import Clock, ClockType
+        from rclpy.node import Node
+        from tf2_msgs.msg import TFMessage
+        from tf2_ros._qos import DYNAMIC, STATIC_LISTENER
+        from tf2_ros.buffer import Buffer
+
+        self._frames = (args.target_frame, args.source_frame)
+        self._traffic = Traffic()
+        self._static: set[str] = set()
+        self._begin_s = time.monotonic()
+        self.node = Node('tf2_monitor')
+        self._buffer = Buffer()
+        self._buffer.follow_clock_of(self.node)
+        self.node.create_subscription(TFMessage, '/tf', self._take, DYNAMIC)
+        self.node.create_subscription(TFMessage, '/tf_static', self._take_static, STATIC_LISTENER)
+        clock = Clock(clock_type=ClockType.STEADY_TIME)
+        self.node.create_timer(args.period, self._print, clock=clock)
+        what = f'{args.source_frame} -> {args.target_frame}' if args.source_frame else 'all frames'
+        print(f'Gathering data on {what} for {args.period:g} seconds...', flush=True)
+
+    def _take(self, message: Any) -> None:
+        """Count the transforms of a message, and keep them."""
+        now_s = self._now_s()
+        for transform in message.transforms:
+            self._buffer.set_transform(transform, AUTHORITY)
+        self._traffic.add(
+            (item.child_frame_id, now_s - _stamp_s(item)) for item in message.transforms
+        )
+        if all(self._frames):
+            self._add_net_delay(now_s)
+
+    def _take_static(self, message: Any) -> None:
+        """Keep transforms that hold at all times; they are never late."""
+        for transform in message.transforms:
+            self._buffer.set_transform_static(transform, AUTHORITY)
+            self._static.add(transform.child_frame_id)
+
+    def _add_net_delay(self, now_s: float) -> None:
+        """Count how old the newest transform between the two frames is."""
+        from tf2_py import TransformException
+
+        try:
+            common_time = self._buffer.get_latest_common_time(*self._frames)
+        except TransformException:
+            return
+        if common_time.nanoseconds:
+            self._traffic.net.add(now_s - common_time.nanoseconds / 1e9)
+
+    def _print(self) -> None:
+        """Print what has come since the last report."""
+        from tf2_py import TransformException
+
+        try:
+            chain = self._chain() if all(self._frames) else []
+        except TransformException as error:
+            frames = f'{self._frames[1]} and {self._frames[0]}'
+            text = f'Waiting for transform chain to become available between {frames}: {error}'
+        else:
+            now_s = time.monotonic()
+            text = '\n' + report(self._traffic, self._static, chain, now_s - self._begin_s)
+            self._traffic, self._begin_s = Traffic(), now_s
+        print(text, flush=True)
+
+    def _chain(self) -> list[str]:
+        from rclpy.time import Time
+
+        target, source = self._frames
+        return self._buffer._chain(target, Time(), source, Time(), source)
+
+    def _now_s(self) -> float:
+        return float(self.node.get_clock().now().nanoseconds / 1e9)
+
+
+def _stamp_s(transform: Any) -> float:
+    stamp = transform.header.stamp
+    return float(stamp.sec + stamp.nanosec / 1e9)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say where frames are that move."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Optional, TYPE_CHECKING, Union
+
+from geometry_msgs.msg import TransformStamped
+from tf2_msgs.msg import TFMessage
+from tf2_ros._qos import DYNAMIC
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rclpy.qos import QoSProfile
+
+Transforms = Union[TransformStamped, Iterable[TransformStamped]]
+
+
+class TransformBroadcaster:
+    """Publishes transforms on `/tf`."""
+
+    def __init__(self, node: Node, qos: Optional[Union[QoSProfile, int]] = None) -> None:
+        """
+        Create the publisher.
+
+        :param node: the node that publishes
+        :param qos: another QoS than the usual one, which is reliable with a depth of 100
+        """
+        self.pub_tf = node.create_publisher(TFMessage, '/tf', DYNAMIC if qos is None else qos)
+
+    def sendTransform(self, transform: Transforms) -> None:  # noqa: N802
+        """Publish a transform, or several in one message."""
+        self.pub_tf.publish(TFMessage(transforms=as_list(transform)))
+
+
+def as_list(transforms: Transforms) -> list[TransformStamped]:
+    """Return one transform or several as a list."""
+    return [transforms] if isinstance(transforms, TransformStamped) else list(transforms)

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The drawing of the frames."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+
+from domain_coordinator import domain_id
+import pytest
+from tf2_tools.drawing import draw, write_graph
+
+TIMEOUT_S = 60.0
+DOT = """#!/bin/sh
+[ "$1" = -Tpdf ] && [ "$3" = -o ] || exit 2
+grep -q digraph "$2" || { echo "no graph in $2" >&2; exit 1; }
+echo drawn > "$4"
+"""
+
+
+@pytest.fixture
+def environment() -> Iterator[dict[str, str]]:
+    """Return the variables of a domain of one's own."""
+    with domain_id() as domain:
+        yield {
+            **os.environ,
+            'ROS_DOMAIN_ID': str(domain),
+            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+        }
+
+
+@pytest.fixture
+def dot(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Put a stand-in for graphviz first on the path."""
+    program = tmp_path / 'bin' / 'dot'
+    program.parent.mkdir()
+    program.write_text(DOT)
+    program.chmod(0o755)
+    monkeypatch.setenv('PATH', str(program.parent), prepend=os.pathsep)
+
+
+def start(environment: dict[str, str], *command: str) -> subprocess.Popen[str]:
+    """Start a module as a program."""
+    return subprocess.Popen(
+        [sys.executable, '-m', *command],
+        env=environment,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+
+
+def test_graph_is_drawn(tmp_path: Path, dot: None) -> None:
+    """With graphviz there is a PDF; folders are made."""
+    path = str(tmp_path / 'deep' / 'frames')
+    assert write_graph(path, 'digraph G {}\n') == f'{path}.gv'
+    assert draw(path) == ''
+    assert Path(f'{path}.pdf').read_text() == 'drawn\n'
+
+
+def test_graphviz_fails(tmp_path: Path, dot: None) -> None:
+    """What graphviz says is handed on."""
+    path = str(tmp_path / 'frames')
+    write_graph(path, 'nothing')
+    assert draw(path) == f'dot could not draw {path}.gv: no graph in {path}.gv'
+
+
+def test_no_graphviz(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without graphviz the way out is named."""
+    monkeypatch.setenv('PATH', str(tmp_path))
+    assert "'sudo apt install graphviz'" in draw(str(tmp_path / 'frames'))
+
+
+def test_program(tmp_path: Path, environment: dict[str, str]) -> None:
+    """The program writes the graph of what it has heard, and prints it as YAML."""
+    names = ['--frame-id', 'map', '--child-frame-id', 'odom']
+    publisher = start(environment, 'tf2_ros.static_transform_publisher', *names)
+    path = str(tmp_path / 'frames')
+    viewer = start(environment, 'tf2_tools.view_frames', '--wait-time', '3', '-o', path)
+    output, errors = viewer.communicate(timeout=TIMEOUT_S)
+    publisher.kill()
+    publisher.communicate()
+    assert viewer.returncode == 0 and 'Traceback' not in errors
+    assert 'Listening to tf data for 3.0 seconds...' in errors
+    assert '"map" -> "odom" [label="Broadcaster: default_authority' in Path(
+        f'{path}.gv'
+    ).read_text(encoding='utf-8')
+    assert "odom: \n  parent: 'map'\n" in output
+
+
+def test_nothing_comes(tmp_path: Path, environment: dict[str, str]) -> None:
+    """Without transforms that is said, and the file says it too."""
+    path = str(tmp_path / 'frames')
+    viewer = start(environment, 'tf2_tools.view_frames', '-t', '0.2', '-o', path)
+    output, errors = viewer.communicate(timeout=TIMEOUT_S)
+    assert viewer.returncode == 0 and output == '{}\n'
+    assert 'No transforms have come.' in errors
+    assert 'no tf data' in Path(f'{path}.gv').read_text(encoding='utf-8')
+
+
+def test_file_that_cannot_be_written(tmp_path: Path, environment: dict[str, str]) -> None:
+    """A bad place for the files is a sentence, with status 1."""
+    (tmp_path / 'file').write_text('')
+    path = str(tmp_path / 'file' / 'frames')
+    viewer = start(environment, 'tf2_tools.view_frames', '-t', '0.1', '-o', path)
+    _, errors = viewer.communicate(timeout=TIMEOUT_S)
+    assert viewer.returncode == 1 and 'Traceback' not in errors
+    assert f'{path}.gv cannot be written' in errors
+
+
+def test_interrupt(tmp_path: Path, environment: dict[str, str]) -> None:
+    """Ctrl-C while it listens ends it in order."""
+    path = str(tmp_path / 'frames')
+    viewer = start(environment, 'tf2_tools.view_frames', '-t', '50', '-o', path)
+    assert viewer.stderr is not None
+    assert 'Listening' in viewer.stderr.readline()
+    viewer.send_signal(signal.SIGINT)
+    _, errors = viewer.communicate(timeout=TIMEOUT_S)
+    assert viewer.returncode == 0 and 'Traceback' not in errors

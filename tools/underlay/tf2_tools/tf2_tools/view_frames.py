@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Draw the tree of the frames: `ros2 run tf2_tools view_frames`."""
+
+from __future__ import annotations
+
+import argparse
+from datetime import datetime
+import sys
+from typing import TYPE_CHECKING
+
+from tf2_ros._program import run, spin
+from tf2_tools.drawing import draw, write_graph
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from tf2_ros.buffer import Buffer
+
+_WAIT_S = 5.0
+
+
+def main() -> int:
+    """Run the program."""
+    return run(_parser().parse_args, _view)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog='view_frames',
+        description='Listen to transforms for some seconds, then draw the tree of the frames.',
+    )
+    parser.add_argument(
+        '--wait-time', '-t', type=float, default=_WAIT_S, help='seconds to listen; 5 if not given'
+    )
+    parser.add_argument(
+        '-o', '--output', default='', help='the files without their endings; else frames_<date>'
+    )
+    return parser
+
+
+def _view(args: argparse.Namespace) -> int:
+    """Listen, write the files, and return the exit status."""
+    import rclpy
+    from tf2_ros.buffer import Buffer
+    from tf2_ros.transform_listener import TransformListener
+
+    node = rclpy.create_node('view_frames')
+    logger = node.get_logger()
+    logger.info(f'Listening to tf data for {args.wait_time} seconds...')
+    buffer = Buffer()
+    TransformListener(buffer, node)
+    if spin(node, args.wait_time):
+        return 0
+    path = args.output or datetime.now().strftime('frames_%Y-%m-%d_%H.%M.%S')
+    logger.info(f'Generating graph in {path}.pdf file...')
+    try:
+        write_graph(path, buffer._allFramesAsDot())
+    except OSError as error:
+        logger.error(f'{path}.gv cannot be written: {error.strerror}. Give another --output')
+        return 1
+    problem = draw(path)
+    if problem:
+        logger.warning(problem)
+    _say_what_is_missing(node, buffer)
+    sys.stdout.write(f'{buffer.all_frames_as_yaml().rstrip()}\n')
+    return 0
+
+
+def _say_what_is_missing(node: Node, buffer: Buffer) -> None:
+    if not buffer._getFrameStrings():
+        node.get_logger().warning(
+            "No transforms have come. 'ros2 topic info -v /tf' shows if anybody publishes them; "
+            'nodes in other domains or on other machines are not seen'
+        )
+
+
+if __name__ == '__main__':
+    sys.exit(main())
