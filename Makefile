@@ -35,6 +35,7 @@ run: build ## Run a ros2 command: make run ARGS='topic list'
 	@$(RUN) ros2 $(ARGS)
 
 test: build ## Run every test: all packages, then the tools
+	@$(SETUP) tests
 	@tools/test/all.sh
 
 check: setup ## Check format, lint and types

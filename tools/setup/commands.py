@@ -24,6 +24,8 @@ import wheels
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILT = ('build', 'install', 'log')
+REQUIREMENTS = ROOT / 'requirements.txt'
+TEST_REQUIREMENTS = ROOT / 'requirements-test.txt'
 
 
 def main(argv: list[str]) -> int:
@@ -48,7 +50,7 @@ def main(argv: list[str]) -> int:
 def parse(argv: list[str]) -> tuple[argparse.Namespace, list[str]]:
     """Read the command line; what `build` does not know goes to colcon."""
     parser = argparse.ArgumentParser(prog='tools/setup', description=__doc__)
-    commands = ['setup', 'build', 'clean', 'distclean']
+    commands = ['setup', 'build', 'tests', 'clean', 'distclean']
     parser.add_argument('command', nargs='?', default='setup', choices=commands)
     parser.add_argument('--venv', default=os.environ.get('VENV'), help='the environment to use')
     options, rest = parser.parse_known_args(argv)
@@ -63,6 +65,8 @@ def run(command: str, locations: Locations, arguments: list[str]) -> int:
         return set_up(locations)
     if command == 'build':
         return set_up(locations, quiet=True) or build(locations, arguments)
+    if command == 'tests':
+        return set_up(locations, quiet=True) or set_up_tests(locations)
     remove(ROOT / name for name in BUILT)
     if command == 'distclean':
         forget_environment(locations)
@@ -87,7 +91,7 @@ def only_one_at_a_time(root: Path) -> Iterator[None]:
 
 def set_up(locations: Locations, *, quiet: bool = False) -> int:
     """Make the environment what this workspace needs; quick where it is that already."""
-    requirements = digest([ROOT / 'requirements.txt', ROOT / 'tools' / 'setup' / 'mend.py'])
+    requirements = wheels_digest(REQUIREMENTS)
     underlay = digest(colcon.underlay_sources(locations), requirements)
     kept = locations.environment / 'stamp'
     wheels_stamp, underlay_stamp = Stamp(kept / 'wheels'), Stamp(kept / 'underlay')
@@ -110,15 +114,35 @@ def set_up(locations: Locations, *, quiet: bool = False) -> int:
     steps.begin('Wheels from PyPI, as requirements.txt pins them')
     if not wheels_stamp.matches(requirements):
         wheels_stamp.clear()
-        wheels.install_wheels(locations, steps, sysconfig.get_path('include'))
+        wheels.install_wheels(locations, steps, sysconfig.get_path('include'), REQUIREMENTS)
         wheels_stamp.write(requirements)
-    steps.begin('Underlay: launch, ros2 and what else PyPI lacks (half a minute)')
+    steps.begin('Underlay: launch, ros2 and what else PyPI lacks (a minute)')
     underlay_stamp.clear()
     colcon.build_underlay(locations, steps)
     underlay_stamp.write(underlay)
     steps.end()
     print('The environment is complete.' + ('' if quiet else ' Next: make bringup'))
     return 0
+
+
+def set_up_tests(locations: Locations) -> int:
+    """Add what only tests need."""
+    current = wheels_digest(REQUIREMENTS, TEST_REQUIREMENTS)
+    stamp = Stamp(locations.environment / 'stamp' / 'tests')
+    if not stamp.matches(current):
+        steps = Steps(1)
+        steps.begin('Libraries that tests compare ours with')
+        stamp.clear()
+        include = sysconfig.get_path('include')
+        wheels.install_wheels(locations, steps, include, TEST_REQUIREMENTS)
+        stamp.write(current)
+        steps.end()
+    return 0
+
+
+def wheels_digest(*requirements: Path) -> str:
+    """Return the digest of what is installed, and of how it is mended."""
+    return digest([*requirements, ROOT / 'tools' / 'setup' / 'mend.py'])
 
 
 def python_version() -> str:

@@ -7,12 +7,22 @@ platform="sys_platform == 'linux' and platform_machine == 'x86_64' and implement
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 printf '[tool.uv]\nenvironments = ["%s and python_version < '"'3.14'"'"]\n' "$platform" > "$folder/pyproject.toml"
-cp tools/setup/requirements.in "$folder"
-(cd "$folder" && uv pip compile --quiet --universal --no-annotate --no-header --python-version 3.10 \
-  requirements.in -o requirements.txt "$@")
+cp tools/setup/requirements.in tools/setup/requirements-test.in "$folder"
+
+pins() { # of a file in the folder, one a line
+  (cd "$folder" && uv pip compile --quiet --universal --no-annotate --no-header --python-version 3.10 "$@") |
+    sed -e "s/ and implementation_name == 'cpython'//; s/ and platform_machine == 'x86_64'//" \
+      -e "s/ and sys_platform == 'linux'//; s/ and platform_python_implementation != 'PyPy'//" \
+      -e "s/ and python_full_version < '3.14'//; s/ ; python_full_version < '3.14'\$//"
+}
+
+pins requirements.in "$@" > "$folder/runtime"
+pins requirements-test.in --constraint runtime "$@" > "$folder/all"
 {
   echo '# Made by `make lock` from tools/setup/requirements.in, which says what each is for.'
-  sed -e "s/ and implementation_name == 'cpython'//; s/ and platform_machine == 'x86_64'//" \
-    -e "s/ and sys_platform == 'linux'//; s/ and platform_python_implementation != 'PyPy'//" \
-    -e "s/ and python_full_version < '3.14'//; s/ ; python_full_version < '3.14'\$//" "$folder/requirements.txt"
+  cat "$folder/runtime"
 } > requirements.txt
+{
+  echo '# Made by `make lock` from tools/setup/requirements-test.in: what tests need besides.'
+  grep -vxFf "$folder/runtime" "$folder/all"
+} > requirements-test.txt

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The wheels of requirements.txt in the environment: installed, complete, and mended."""
+"""The wheels of requirements.txt, and those of tests: installed, complete, and mended."""
 
 from __future__ import annotations
 
@@ -42,9 +42,10 @@ def pinned_names(requirements: str) -> list[str]:
     return re.findall(r'^([A-Za-z0-9._-]+)==', requirements, flags=re.MULTILINE)
 
 
-def install_wheels(locations: Locations, steps: Steps, include: str) -> None:
-    """Install what requirements.txt pins, repair what an interruption left half, and mend it."""
-    requirements = locations.root / 'requirements.txt'
+def install_wheels(
+    locations: Locations, steps: Steps, include: str, requirements: Path
+) -> None:
+    """Install what a file pins, repair what an interruption left half, and mend it."""
     count = len(pinned_names(requirements.read_text(encoding='utf-8')))
     _pip(locations, steps, count, '--no-deps', '--requirement', str(requirements))
     packages = site_packages(locations)

@@ -4,14 +4,18 @@
 from __future__ import annotations
 
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import SetParameter
 from launch_ros.substitutions import FindPackageShare
+
+VIEW = 'view.launch.py'
 
 
 def generate_launch_description() -> LaunchDescription:
     """Compose the launch files of the other packages."""
+    use_sim_time = LaunchConfiguration('use_sim_time')
     return LaunchDescription(
         [
             DeclareLaunchArgument(
@@ -34,8 +38,21 @@ def generate_launch_description() -> LaunchDescription:
                 ),
                 launch_arguments={
                     'use_controller': LaunchConfiguration('use_controller'),
-                    'use_sim_time': LaunchConfiguration('use_sim_time'),
+                    'use_sim_time': use_sim_time,
                 }.items(),
+            ),
+            GroupAction(
+                [
+                    SetParameter(name='use_sim_time', value=use_sim_time),
+                    IncludeLaunchDescription(
+                        PythonLaunchDescriptionSource(
+                            PathJoinSubstitution(
+                                [FindPackageShare('humanoid_description'), 'launch', VIEW]
+                            )
+                        ),
+                        launch_arguments={'gui': 'false'}.items(),
+                    ),
+                ]
             ),
         ]
     )
