@@ -73,11 +73,12 @@ def test_slashes() -> None:
     assert buffer.can_transform_core('map', 'odom', at(0))[0]
 
 
-def test_a_frame_that_begins_to_move(buffer: BufferCore) -> None:
-    """The last message tells whether a frame moves."""
+def test_a_frame_that_begins_to_move(buffer: BufferCore, caplog: pytest.LogCaptureFixture) -> None:
+    """The last message tells whether a frame moves; a change is worth a warning."""
     buffer.set_transform(stamped('base', 'camera', 2.0, (5, 0, 0)), 'me')
     assert numbers(buffer.lookup_transform_core('base', 'camera', at(2.0)))[0] == 5
     assert not buffer.can_transform_core('base', 'camera', at(1.5))[0]
+    assert '"camera" comes both as a static transform and as one that' in caplog.text
 
 
 def test_threads() -> None:

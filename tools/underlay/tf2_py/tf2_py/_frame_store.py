@@ -47,6 +47,11 @@ class FrameStore:
         self._caches.setdefault(sample.parent, None)
         return cache.insert(sample)
 
+    def changes_kind(self, frame: str, is_static: bool) -> bool:
+        """Tell if a frame has been static and begins to move, or the other way round."""
+        cache = self._caches.get(frame)
+        return cache is not None and cache.is_static != is_static
+
     def clear(self) -> None:
         """Forget what moves."""
         for _, cache in self.known():

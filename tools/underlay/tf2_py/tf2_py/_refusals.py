@@ -55,5 +55,14 @@ def old_data(child: str, stamp_ns: int, latest_ns: int, cache_ns: int, authority
     )
 
 
+def both_kinds(child: str, authority: str) -> str:
+    """Say that a frame is called static and not static."""
+    return (
+        f'The frame "{child}" comes both as a static transform and as one that moves; the last '
+        f'one counts, from authority "{authority}". Two nodes publish it: '
+        "'ros2 topic info -v /tf' and 'ros2 topic info -v /tf_static' name them"
+    )
+
+
 def _numbers(values: tuple[float, ...]) -> str:
     return '(' + ' '.join(f'{value:g}' for value in values) + ')'

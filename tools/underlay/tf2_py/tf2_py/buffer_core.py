@@ -201,6 +201,8 @@ class BufferCore:
             return
         stamp_ns = nanoseconds(transform.header.stamp)
         with self._lock:
+            if self._store.changes_kind(child, is_static):
+                self._complaints.add(_refusals.both_kinds(child, authority), child, 'both')
             is_new = self._store.insert(
                 child, Sample(stamp_ns, parent, unit, authority), is_static
             )
