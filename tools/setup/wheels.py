@@ -42,9 +42,7 @@ def pinned_names(requirements: str) -> list[str]:
     return re.findall(r'^([A-Za-z0-9._-]+)==', requirements, flags=re.MULTILINE)
 
 
-def install_wheels(
-    locations: Locations, steps: Steps, include: str, requirements: Path
-) -> None:
+def install_wheels(locations: Locations, steps: Steps, include: str, requirements: Path) -> None:
     """Install what a file pins, repair what an interruption left half, and mend it."""
     count = len(pinned_names(requirements.read_text(encoding='utf-8')))
     _pip(locations, steps, count, '--no-deps', '--requirement', str(requirements))

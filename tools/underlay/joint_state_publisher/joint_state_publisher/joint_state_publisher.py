@@ -18,11 +18,11 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from robot_state_publisher.description_file import file_argument, parameters_from_file
-from robot_state_publisher.run_node import run_node
 from robot_state_publisher.state_watch import StateWatch
 from robot_state_publisher.urdf import parse_urdf
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
+from tf2_ros.program import run_node
 
 __all__ = ['JointStatePublisher', 'main']
 

@@ -16,13 +16,13 @@ from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
 from robot_state_publisher.description_file import file_argument, parameters_from_file
 from robot_state_publisher.joint_positions import UnusableStateError, usable_positions
 from robot_state_publisher.published_robot import PublishedRobot
-from robot_state_publisher.run_node import run_node
 from robot_state_publisher.settings import DESCRIPTIONS, Settings
 from robot_state_publisher.unknown_parameters import unknown_parameters
 from robot_state_publisher.urdf import RobotModel
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
+from tf2_ros.program import run_node
 
 __all__ = ['RobotStatePublisher', 'main']
 

@@ -8,8 +8,8 @@ import string
 import sys
 from typing import TYPE_CHECKING
 
-from tf2_ros._program import run, spin
 from tf2_ros._static_arguments import OLD_STYLE_WARNING, parsed, StaticTransform
+from tf2_ros.program import run, spin
 
 if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped

@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from tf2_ros._program import run, spin
+from tf2_ros.program import run, spin
 
 _LOOK_S = 0.1
 _LOOKS_UNTIL_WORD = 10

@@ -9,7 +9,7 @@ import time
 from typing import Any
 
 from tf2_ros._delays import AUTHORITY, report, Traffic
-from tf2_ros._program import run, spin
+from tf2_ros.program import run, spin
 
 _PERIOD_S = 10.0
 

@@ -8,7 +8,7 @@ from datetime import datetime
 import sys
 from typing import TYPE_CHECKING
 
-from tf2_ros._program import run, spin
+from tf2_ros.program import run, spin
 from tf2_tools.drawing import draw, write_graph
 
 if TYPE_CHECKING:

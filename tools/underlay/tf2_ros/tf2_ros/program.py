@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The body of programs that are nodes: they end well on SIGINT and SIGTERM."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+import os
+import signal
+import sys
+import threading
+from typing import TYPE_CHECKING, TypeVar
+
+if TYPE_CHECKING:
+    from rclpy.executors import Executor
+    from rclpy.node import Node
+
+__all__ = ['run', 'run_node', 'spin']
+
+ArgumentsT = TypeVar('ArgumentsT')
+STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+BROKEN_PIPE_STATUS = 128 + signal.SIGPIPE
+
+
+def run_node(
+    make_node: Callable[[list[str]], Node], arguments: Sequence[str] | None = None
+) -> int:
+    """
+    Run the node that is made from the arguments without those for ROS; return the exit status.
+
+    A ValueError while the node is made, or a parameter that ROS refuses, is one message on
+    stderr and status 1.
+    """
+
+    def work(words: list[str]) -> int:
+        from rclpy.exceptions import ParameterException
+
+        try:
+            node = make_node(words)
+        except (ValueError, ParameterException) as error:
+            sys.stderr.write(f'{error}\n')
+            return 1
+        spin(node)
+        node.destroy_node()
+        return 0
+
+    return run(list, work, arguments)
+
+
+def run(
+    parse: Callable[[list[str]], ArgumentsT],
+    work: Callable[[ArgumentsT], int | None],
+    arguments: Sequence[str] | None = None,
+) -> int:
+    """
+    Do the work of a program; return the exit status.
+
+    SIGINT and SIGTERM are blocked from here to the end, so that they interrupt nothing; `spin`
+    waits for them.
+
+    :param parse: makes the work's arguments of the words that are not for ROS
+    :param work: runs while ROS does; may return an exit status
+    :param arguments: the command line with the program's name; by default that of the process
+    """
+    signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)
+    import rclpy
+    from rclpy.signals import SignalHandlerOptions
+    from rclpy.utilities import remove_ros_args
+
+    words = list(sys.argv if arguments is None else arguments)
+    try:
+        parsed = parse(list(remove_ros_args(words))[1:])
+        rclpy.init(args=words, signal_handler_options=SignalHandlerOptions.NO)
+    except RuntimeError as error:
+        sys.stderr.write(
+            f'The ROS arguments cannot be used: {error}. '
+            'Correct what follows --ros-args, or the parameter file that it names.\n'
+        )
+        return 1
+    try:
+        return work(parsed) or 0
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return BROKEN_PIPE_STATUS
+    finally:
+        rclpy.try_shutdown()
+
+
+def spin(node: Node, timeout_s: float | None = None) -> bool:
+    """Let a node work until a signal to stop, or so long; return whether a signal came."""
+    from rclpy.executors import SingleThreadedExecutor
+
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    failures: list[Exception] = []
+    thread = threading.Thread(target=_work, args=(executor, failures), name='node')
+    thread.start()
+    is_stopped = _wait_for_signal(timeout_s)
+    executor.shutdown()
+    thread.join()
+    if failures:
+        raise failures[0]
+    return is_stopped
+
+
+def _wait_for_signal(timeout_s: float | None) -> bool:
+    if timeout_s is None:
+        signal.sigwait(STOP_SIGNALS)
+        return True
+    return signal.sigtimedwait(STOP_SIGNALS, timeout_s) is not None
+
+
+def _work(executor: Executor, failures: list[Exception]) -> None:
+    """Let nodes work; a failure is for the main thread to raise."""
+    try:
+        executor.spin()
+    except Exception as error:
+        failures.append(error)
+        os.kill(os.getpid(), signal.SIGTERM)
