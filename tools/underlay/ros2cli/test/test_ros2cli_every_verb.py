@@ -7,6 +7,7 @@ import argparse
 from collections.abc import Iterator
 import os
 from pathlib import Path
+import shlex
 import signal
 import subprocess
 import sys
@@ -69,10 +70,10 @@ def test_every_argument_is_described(words: tuple[str, ...]) -> None:
 
 
 def shell(line: str, environment: dict[str, str]) -> subprocess.CompletedProcess[str]:
-    """Run a line of bash in which $ROS2 is the command line."""
+    """Run a line of bash in which the function `ros2` is the command line."""
     return subprocess.run(
-        ['bash', '-c', line],
-        env={**environment, 'ROS2': ' '.join(ROS2)},
+        ['bash', '-c', f'ros2() {{ exec {shlex.join(ROS2)} "$@"; }}; {line}'],
+        env=environment,
         capture_output=True,
         text=True,
         timeout=60,
@@ -86,7 +87,7 @@ EVERY_OUTPUT = pytest.mark.parametrize('words', OUTPUTS)
 @EVERY_OUTPUT
 def test_output_to_a_full_disk(words: str, ros_environment_variables: dict[str, str]) -> None:
     """What cannot be written is an error in one sentence, for help as well."""
-    result = shell(f'$ROS2 {words} >/dev/full', ros_environment_variables)
+    result = shell(f'(ros2 {words}) >/dev/full', ros_environment_variables)
     assert (result.returncode, result.stderr) == (1, FULL)
 
 
@@ -94,7 +95,7 @@ def test_output_to_a_full_disk(words: str, ros_environment_variables: dict[str, 
 def test_output_to_a_closed_pipe(words: str, ros_environment_variables: dict[str, str]) -> None:
     """A reader that ends first, or at once, is no reason for a complaint."""
     result = shell(
-        f'$ROS2 {words} | head -1 >/dev/null; echo ${{PIPESTATUS[0]}}; $ROS2 {words} | true',
+        f'ros2 {words} | head -1 >/dev/null; echo ${{PIPESTATUS[0]}}; ros2 {words} | true',
         ros_environment_variables,
     )
     assert result.stderr == ''
@@ -104,9 +105,9 @@ def test_output_to_a_closed_pipe(words: str, ros_environment_variables: dict[str
 @EVERY_OUTPUT
 def test_streams_that_are_closed(words: str, ros_environment_variables: dict[str, str]) -> None:
     """Who closes the streams wants no output, on none of them."""
-    result = shell(f'$ROS2 {words} <&- >&-', ros_environment_variables)
+    result = shell(f'(ros2 {words}) <&- >&-', ros_environment_variables)
     assert (result.returncode, result.stdout, result.stderr) == (0, '', '')
-    assert shell(f'$ROS2 {words} >&- 2>&-', ros_environment_variables).returncode == 0
+    assert shell(f'(ros2 {words}) >&- 2>&-', ros_environment_variables).returncode == 0
 
 
 def test_closed_stream_is_not_replaced_by_a_socket(
@@ -118,7 +119,7 @@ def test_closed_stream_is_not_replaced_by_a_socket(
         'open_standard_streams()\n'
         "raise SystemExit(open('/dev/null').fileno())\n"
     )
-    line = f'{sys.executable} -c "{code}" <&- >&- 2>&-'
+    line = f'{shlex.quote(sys.executable)} -c "{code}" <&- >&- 2>&-'
     assert shell(line, ros_environment_variables).returncode == 3
 
 
