@@ -15,6 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / 'docs' / 'reference'
 NOTE = '<!-- Made by `make docs`; an edit here is overwritten. -->\n'
 ENVIRONMENT = {**os.environ, 'COLUMNS': '100', 'TERM': 'dumb'}
+TRANSFORM_PACKAGES = ('tf2_ros', 'tf2_py', 'tf2_geometry_msgs', 'tf2_tools')
 
 
 def output(*command: str) -> str:
@@ -64,12 +65,23 @@ def names_page() -> str:
     return '\n'.join([NOTE, title, *launch_names.lines()])
 
 
+def transforms_page() -> str:
+    """Collect what of the interface of tf2 exists, from the tables of the packages."""
+    parts = [NOTE, '# The packages for transforms\n']
+    for package in TRANSFORM_PACKAGES:
+        text = (ROOT / 'tools' / 'underlay' / package / 'README.md').read_text()
+        tables = re.findall(r'(?:^\|.*\n)+', text, flags=re.MULTILINE)
+        parts += [f'## {package}\n', *tables]
+    return '\n'.join(parts)
+
+
 def pages() -> dict[str, str]:
     """Return the text of each page by file name."""
     return {
         'commands.md': commands_page(),
         'launch_files.md': launch_page(),
         'launch_names.md': names_page(),
+        'transforms.md': transforms_page(),
     }
 
 

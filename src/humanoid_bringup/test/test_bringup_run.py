@@ -19,6 +19,7 @@ import pytest
 
 LAUNCH_FILE = Path(__file__).parents[1] / 'launch' / 'bringup.launch.py'
 
+ROBOT = "Robot 'humanoid'"
 REPORT = '[sensor_processor]: left_shoulder: '
 ALONE = 'Sensor Processor started'
 
@@ -36,6 +37,8 @@ class TestRun(unittest.TestCase):
     def test_output(self, proc_output: ActiveIoHandler, use_controller: str) -> None:
         """The processor reports what the controller sends, and runs without it, too."""
         proc_output.assertWaitFor(REPORT if use_controller == 'true' else ALONE, timeout=20)
+        proc_output.assertWaitFor(ROBOT, process='robot_state_publisher', timeout=20)
+        proc_output.assertWaitFor(ROBOT, process='joint_state_publisher', timeout=20)
 
 
 @post_shutdown_test()

@@ -61,12 +61,24 @@ def run(
     :param work: runs while ROS does; may return an exit status
     :param arguments: the command line with the program's name; by default that of the process
     """
-    signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)
+    try:
+        return _run(parse, work, list(sys.argv if arguments is None else arguments))
+    finally:
+        while signal.sigtimedwait(STOP_SIGNALS, 0.0):
+            pass  # who is impatient has sent several
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _run(
+    parse: Callable[[list[str]], ArgumentsT],
+    work: Callable[[ArgumentsT], int | None],
+    words: list[str],
+) -> int:
     import rclpy
     from rclpy.signals import SignalHandlerOptions
     from rclpy.utilities import remove_ros_args
 
-    words = list(sys.argv if arguments is None else arguments)
     try:
         parsed = parse(list(remove_ros_args(words))[1:])
         rclpy.init(args=words, signal_handler_options=SignalHandlerOptions.NO)
