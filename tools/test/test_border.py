@@ -19,7 +19,7 @@ JAZZY = set(
     'ament_copyright ament_flake8 ament_index_python ament_pep257 builtin_interfaces '
     'domain_coordinator geometry_msgs launch launch_pytest launch_ros launch_testing '
     'launch_testing_ros nav_msgs rcl_interfaces rclpy sensor_msgs std_msgs std_srvs '
-    'tf2_msgs xacro'.split()
+    'tf2_msgs tf2_ros xacro'.split()
 )
 LIBRARIES = {'lxml', 'numpy', 'pytest', 'setuptools', 'yaml', 'yourdfpy'}
 ROOT = Path(__file__).resolve().parents[2]
