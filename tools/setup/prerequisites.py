@@ -14,7 +14,7 @@ from typing import List, Optional, Tuple
 OLDEST_PYTHON = (3, 10)
 NEWEST_PYTHON = (3, 13)
 OLDEST_GLIBC = (2, 28)
-NEEDED_FOR_WHEELS = 1500 * 1000 * 1000
+NEEDED_FOR_WHEELS = 2000 * 1000 * 1000
 NEEDED_FOR_BUILD = 100 * 1000 * 1000
 COMPILERS = ('c++', 'g++', 'clang++')
 UNUSABLE_CHARACTERS = ':;"\'`$\\\n'
