@@ -96,10 +96,7 @@ class GraphWatch:
 
         So a command finds a node that has been started just before it.
         """
-        graph = self.settled()
-        while not find(graph) and self._latest_s < self._start_s + self._spin_time_s:
-            self._exchange(waits=True)
-            graph = self.graph
+        self.wait_for(find, None, 0.0)
         return self.settled()
 
     def updated(self) -> Graph:
@@ -108,13 +105,22 @@ class GraphWatch:
         return self.graph
 
     def wait_for(
-        self, find: Callable[[Graph], T], patience: Patience, timeout_s: float = float('inf')
+        self,
+        find: Callable[[Graph], T],
+        patience: Patience | None,
+        timeout_s: float = float('inf'),
     ) -> T:
-        """Return what is found in the graph in time, or what `find` says of nothing."""
+        """
+        Return what is found in the graph in time, or what `find` says of nothing.
+
+        The time is at least the spin time; without patience, nothing is said about the wait.
+        """
         end_s = time.monotonic() + timeout_s
         found = find(self.settled(find))
+        end_s = max(end_s, self._start_s + self._spin_time_s)
         while not found and time.monotonic() < end_s:
-            patience.check()
+            if patience:
+                patience.check()
             self._exchange(waits=True)
             found = find(self.graph)
         return found

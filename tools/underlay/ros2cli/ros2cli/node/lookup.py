@@ -17,7 +17,6 @@ def find_node(watch: GraphWatch, name: str, timeout_s: float = 0.0) -> str:
     def is_known(graph: Graph) -> bool:
         return full_name in known_nodes(graph)
 
-    watch.settled_with(is_known)
     if not watch.wait_for(is_known, Patience(f"the node '{full_name}'"), timeout_s):
         hint = closest(full_name, known_nodes(watch.graph))
         raise RuntimeError('\n'.join(['Node not found', hint]).rstrip())
