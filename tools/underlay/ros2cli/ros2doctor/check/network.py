@@ -6,17 +6,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 import os
 
+from ros2cli.graph.reach import LOCALHOST, MAX_DOMAIN_ID, OFF, SUBNET, SYSTEM_DEFAULT
+from ros2cli.rtps.identifiers import multicast_port, PORT_BASE, PORTS_PER_DOMAIN
 from ros2doctor.api.extension import DoctorCheck
 from ros2doctor.api.finding import Finding, Result, Severity
 from ros2doctor.check.multicast import multicast_findings
 from ros2doctor.check.shared_memory import shared_memory_findings
 from ros2doctor.facts.network import Network, read_network
 
-RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')
-WITH_MULTICAST = ('SUBNET', 'SYSTEM_DEFAULT')
-LAST_DOMAIN = 232
-PORT_BASE = 7400
-PORTS_PER_DOMAIN = 250
+RANGES = (SUBNET, LOCALHOST, OFF, SYSTEM_DEFAULT)
+WITH_MULTICAST = (SUBNET, SYSTEM_DEFAULT)
 PROFILES_VARIABLE = 'FASTRTPS_DEFAULT_PROFILES_FILE'
 
 
@@ -43,7 +42,7 @@ def network_findings(facts: Network) -> Iterator[Finding]:
 
 def discovery_range(facts: Network) -> str:
     """Return how far nodes look for others."""
-    return facts.variables.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '') or 'SUBNET'
+    return facts.variables.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '') or SUBNET
 
 
 def _range(facts: Network) -> Iterator[Finding]:
@@ -55,7 +54,7 @@ def _range(facts: Network) -> Iterator[Finding]:
             'nodes take it for LOCALHOST, so they do not find those of other machines',
             'export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET, or LOCALHOST',
         )
-    elif found == 'OFF':
+    elif found == OFF:
         yield Finding(
             Severity.WARNING,
             'ROS_AUTOMATIC_DISCOVERY_RANGE is OFF',
@@ -73,16 +72,16 @@ def _range(facts: Network) -> Iterator[Finding]:
 
 def _domain(facts: Network) -> Iterator[Finding]:
     text = facts.variables.get('ROS_DOMAIN_ID') or '0'
-    if not text.isdigit() or int(text) > LAST_DOMAIN:
+    if not text.isdigit() or int(text) > MAX_DOMAIN_ID:
         yield Finding(
             Severity.ERROR,
-            f"ROS_DOMAIN_ID is '{text}', which is no whole number from 0 to {LAST_DOMAIN}",
+            f"ROS_DOMAIN_ID is '{text}', which is no whole number from 0 to {MAX_DOMAIN_ID}",
             'no node can start',
             'export ROS_DOMAIN_ID=0',
         )
         return
     first, last = facts.ephemeral_ports
-    port = PORT_BASE + PORTS_PER_DOMAIN * int(text)
+    port = multicast_port(int(text))
     if first <= port + PORTS_PER_DOMAIN and port <= last:
         safe = (first - PORT_BASE) // PORTS_PER_DOMAIN - 1
         yield Finding(
