@@ -48,7 +48,7 @@ def _unknown(package: str, name: str, known: Iterable[str]) -> str:
     text = f"module '{package}' has no attribute '{name}'"
     if name.startswith('_'):
         return text
-    import difflib
+    from launch._did_you_mean import closest_name
 
-    close = difflib.get_close_matches(name, list(known), n=1)
-    return text + (f". Did you mean: '{close[0]}'?" if close else '')
+    close = closest_name(name, known)
+    return text + (f". Did you mean: '{close}'?" if close else '')

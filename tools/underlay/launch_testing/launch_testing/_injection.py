@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-import difflib
 import functools
 import inspect
 from typing import Any
 import unittest
+
+from launch._did_you_mean import did_you_mean
 
 _OF_CLASS = ('setUpClass', 'tearDownClass')
 _OF_INSTANCE = ('setUp', 'tearDown', 'asyncSetUp', 'asyncTearDown')
@@ -87,8 +88,8 @@ def _require_known(
             or parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD)
         ):
             continue
-        close = difflib.get_close_matches(name, list(injected), n=1)
-        hint = f". Did you mean '{close[0]}'?" if close else ''
+        question = did_you_mean(name, injected)
+        hint = f'. {question}' if question else ''
         raise TypeError(
             f"{method.__qualname__} asks for '{name}', but a launch test can only be given: "
             f'{", ".join(sorted(injected))}{hint}'

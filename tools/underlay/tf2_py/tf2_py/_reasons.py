@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from launch._did_you_mean import did_you_mean
 from tf2_py._link import Gap
 
 _SHOWN = 20
@@ -83,13 +84,11 @@ def _seconds(time_ns: int) -> str:
 
 def _which(frame: str, known: Collection[str]) -> str:
     """Name the frame that is meant, or those that there are."""
-    from difflib import get_close_matches
-
     if not known:
         return 'There are no frames yet: nothing has come on /tf and /tf_static'
-    close = get_close_matches(frame, list(known), n=1)
-    if close:
-        return f"Did you mean '{close[0]}'?"
+    question = did_you_mean(frame, known)
+    if question:
+        return question
     names = sorted(known)
     more = f' and {len(names) - _SHOWN} more' if len(names) > _SHOWN else ''
     return f'The frames are: {", ".join(names[:_SHOWN])}{more}'
