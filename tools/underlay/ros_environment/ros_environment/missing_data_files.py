@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds a package whose setup.py names files that do not exist yet, and says which.
+"""
+Builds a package whose setup.py names files that do not exist yet, and says which.
 
 A beginner writes the `data_files` of a package before its launch files. setuptools would stop
 there with a traceback; it calls this function, an extension of its own kind, for each package.
@@ -31,7 +32,8 @@ def leave_out(distribution: Any) -> None:
 
 
 def split(data_files: Iterable[Any]) -> tuple[list[Any], list[str]]:
-    """Return the data files without those that do not exist, and the names of these.
+    """
+    Return the data files without those that do not exist, and the names of these.
 
     An element is a file, or a pair of a folder to install to and a list of files.
     """
