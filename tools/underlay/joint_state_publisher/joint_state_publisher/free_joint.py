@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
-from robot_state_publisher.urdf import Joint
+from urdf import Joint
 
 __all__ = ['FreeJoint']
 

@@ -19,10 +19,10 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from robot_state_publisher.description_file import file_argument, parameters_from_file
 from robot_state_publisher.state_watch import StateWatch
-from robot_state_publisher.urdf import parse_urdf
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_ros.program import run_node
+from urdf import parse_urdf
 
 __all__ = ['JointStatePublisher', 'main']
 

@@ -9,8 +9,8 @@ from math import isfinite
 
 from joint_state_publisher.free_joint import FreeJoint
 from joint_state_publisher.settings import Settings
-from robot_state_publisher.did_you_mean import did_you_mean
-from robot_state_publisher.urdf import check_for_loops, followed, Mimic, RobotModel
+from urdf import check_for_loops, followed, Mimic, RobotModel
+from urdf.did_you_mean import did_you_mean
 
 __all__ = ['MergedJoints', 'States']
 

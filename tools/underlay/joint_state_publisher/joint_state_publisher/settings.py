@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any
 
-from robot_state_publisher.did_you_mean import did_you_mean
-from robot_state_publisher.urdf import check_for_loops, Mimic
+from urdf import check_for_loops, Mimic
+from urdf.did_you_mean import did_you_mean
 
 __all__ = ['DESCRIPTIONS', 'MAPS', 'Settings', 'settings_of']
 

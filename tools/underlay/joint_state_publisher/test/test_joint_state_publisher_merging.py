@@ -10,7 +10,7 @@ from joint_state_publisher.free_joint import FreeJoint
 from joint_state_publisher.merged_joints import MergedJoints, States
 from joint_state_publisher.settings import Settings
 import pytest
-from robot_state_publisher.urdf import Mimic, parse_urdf
+from urdf import Mimic, parse_urdf
 
 LIMITS = '<limit lower="-1" upper="2"/><safety_controller soft_upper_limit="1"/>'
 HIGH = '<limit lower="1" upper="3"/>'

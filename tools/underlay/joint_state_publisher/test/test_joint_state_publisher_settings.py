@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from joint_state_publisher.settings import Settings, settings_of
 import pytest
-from robot_state_publisher.urdf import Mimic
+from urdf import Mimic
 
 
 def test_nothing_given_is_the_default() -> None:

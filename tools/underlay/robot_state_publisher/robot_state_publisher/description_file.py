@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from rclpy.parameter import Parameter
-from robot_state_publisher.urdf import read_urdf_file
+from urdf import read_urdf_file
 
 __all__ = ['file_argument', 'parameters_from_file']
 

@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from robot_state_publisher.kinematics import joint_motion, Pose
-from robot_state_publisher.urdf import followed, Joint, RobotModel
+from urdf import followed, Joint, RobotModel
+from urdf.kinematics import joint_motion, Pose
 
 __all__ = ['MovingLinks']
 

@@ -6,14 +6,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from builtin_interfaces.msg import Time
-from robot_state_publisher.kinematics import joint_motion
 from robot_state_publisher.moving_links import MovingLinks
 from robot_state_publisher.publish_times import PublishTimes, S
 from robot_state_publisher.settings import Settings
 from robot_state_publisher.state_watch import StateWatch
 from robot_state_publisher.transform_messages import TransformMessages
-from robot_state_publisher.urdf import RobotModel
 from tf2_msgs.msg import TFMessage
+from urdf import RobotModel
+from urdf.kinematics import joint_motion
 
 __all__ = ['PublishedRobot']
 

@@ -18,11 +18,11 @@ from robot_state_publisher.joint_positions import UnusableStateError, usable_pos
 from robot_state_publisher.published_robot import PublishedRobot
 from robot_state_publisher.settings import DESCRIPTIONS, Settings
 from robot_state_publisher.unknown_parameters import unknown_parameters
-from robot_state_publisher.urdf import RobotModel
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 from tf2_ros.program import run_node
+from urdf import RobotModel
 
 __all__ = ['RobotStatePublisher', 'main']
 

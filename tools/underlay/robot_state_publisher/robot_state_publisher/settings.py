@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from robot_state_publisher.urdf import parse_urdf, RobotModel
+from urdf import parse_urdf, RobotModel
 
 __all__ = ['DESCRIPTIONS', 'Settings']
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from robot_state_publisher.did_you_mean import closest
-from robot_state_publisher.urdf import RobotModel
+from urdf import RobotModel
+from urdf.did_you_mean import closest
 
 __all__ = ['StateWatch']
 

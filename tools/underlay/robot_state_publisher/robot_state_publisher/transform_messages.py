@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
-from robot_state_publisher.kinematics import Pose
-from robot_state_publisher.urdf import Joint
 from tf2_msgs.msg import TFMessage
+from urdf import Joint
+from urdf.kinematics import Pose
 
 __all__ = ['TransformMessages']
 

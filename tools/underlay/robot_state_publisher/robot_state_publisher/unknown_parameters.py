@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 
-from robot_state_publisher.did_you_mean import did_you_mean
+from urdf.did_you_mean import did_you_mean
 
 __all__ = ['unknown_parameters']
 

@@ -11,9 +11,9 @@ import re
 import numpy as np
 import pytest
 from random_robots import random_urdf
-from robot_state_publisher.kinematics import joint_motion, Pose
 from robot_state_publisher.moving_links import MovingLinks
-from robot_state_publisher.urdf import parse_urdf, RobotModel
+from urdf import parse_urdf, RobotModel
+from urdf.kinematics import joint_motion, Pose
 
 TOLERANCE = 1e-9
 HUMANOID = Path(__file__).parents[4] / 'src/humanoid_description/urdf/humanoid.urdf.xacro'

@@ -8,7 +8,7 @@ from robot_state_publisher.joint_positions import UnusableStateError, usable_pos
 from robot_state_publisher.publish_times import PublishTimes
 from robot_state_publisher.state_watch import StateWatch
 from robot_state_publisher.unknown_parameters import unknown_parameters
-from robot_state_publisher.urdf import parse_urdf
+from urdf import parse_urdf
 
 MS = 1_000_000
 HAND = parse_urdf(

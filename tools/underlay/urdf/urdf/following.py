@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Mapping
 
-from robot_state_publisher.urdf.joint import Mimic
+from urdf.joint import Mimic
 
 __all__ = ['check_for_loops', 'followed']
 

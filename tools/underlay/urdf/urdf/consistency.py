@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from robot_state_publisher.did_you_mean import did_you_mean
-from robot_state_publisher.urdf.following import check_for_loops
-from robot_state_publisher.urdf.joint import Joint
-from robot_state_publisher.urdf.robot_model import Link, RobotModel
-from robot_state_publisher.urdf.urdf_error import UrdfError
+from urdf.did_you_mean import did_you_mean
+from urdf.following import check_for_loops
+from urdf.joint import Joint
+from urdf.robot_model import Link, RobotModel
+from urdf.urdf_error import UrdfError
 
 __all__ = ['check_consistency']
 

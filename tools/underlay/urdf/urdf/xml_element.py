@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
-from robot_state_publisher.urdf.urdf_error import UrdfError
+from urdf.urdf_error import UrdfError
 
 __all__ = ['XmlElement', 'parse_xml']
 

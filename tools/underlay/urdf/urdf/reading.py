@@ -3,15 +3,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 import os
 import re
 
-from robot_state_publisher.urdf.attributes import text as attribute
-from robot_state_publisher.urdf.consistency import check_consistency
-from robot_state_publisher.urdf.joint_reading import read_joint
-from robot_state_publisher.urdf.robot_model import Link, RobotModel
-from robot_state_publisher.urdf.urdf_error import UrdfError
-from robot_state_publisher.urdf.xml_element import parse_xml, XmlElement
+from urdf.attributes import text as attribute
+from urdf.consistency import check_consistency
+from urdf.joint_reading import read_joint
+from urdf.robot_model import Link, RobotModel
+from urdf.shape import Color
+from urdf.shape_reading import read_materials, read_shapes
+from urdf.urdf_error import UrdfError
+from urdf.xml_element import parse_xml, XmlElement
 
 __all__ = ['parse_urdf', 'read_urdf_file']
 
@@ -68,13 +71,22 @@ def _no_xml(text: str) -> str:
 def _read(robot: XmlElement) -> RobotModel:
     """Read links and joints; those inside other elements, as <transmission>, do not count."""
     _check_expanded(robot)
+    materials = read_materials(robot)
     return RobotModel(
         attribute(robot, 'name', '<robot>'),
-        tuple(
-            Link(attribute(link, 'name', 'this <link>'), link.line)
-            for link in robot.find_all('link')
-        ),
+        tuple(_link(link, materials) for link in robot.find_all('link')),
         tuple(read_joint(joint) for joint in robot.find_all('joint')),
+    )
+
+
+def _link(element: XmlElement, materials: Mapping[str, Color]) -> Link:
+    name = attribute(element, 'name', 'this <link>')
+    where = f"link '{name}'"
+    return Link(
+        name,
+        read_shapes(element, 'visual', where, materials),
+        read_shapes(element, 'collision', where, materials),
+        element.line,
     )
 
 

@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 
 import pytest
-from robot_state_publisher.urdf import (
+from urdf import (
     Joint,
     Limits,
     Mimic,

@@ -5,24 +5,13 @@ from __future__ import annotations
 
 import math
 
-from robot_state_publisher.did_you_mean import did_you_mean
-from robot_state_publisher.urdf.attributes import child, number, text, vector
-from robot_state_publisher.urdf.joint import (
-    Joint,
-    KINDS,
-    LIMITED,
-    Limits,
-    Mimic,
-    MOVING,
-    Origin,
-    Vector,
-)
-from robot_state_publisher.urdf.urdf_error import UrdfError
-from robot_state_publisher.urdf.xml_element import XmlElement
+from urdf.attributes import child, number, origin_of, text, vector
+from urdf.did_you_mean import did_you_mean
+from urdf.joint import Joint, KINDS, LIMITED, Limits, Mimic, MOVING, Vector
+from urdf.urdf_error import UrdfError
+from urdf.xml_element import XmlElement
 
 __all__ = ['read_joint']
-
-NO_MOVE = (0.0, 0.0, 0.0)
 
 
 def read_joint(element: XmlElement) -> Joint:
@@ -35,7 +24,7 @@ def read_joint(element: XmlElement) -> Joint:
         kind,
         parent=text(child(element, 'parent', where), 'link', f'<parent> of {where}'),
         child=text(child(element, 'child', where), 'link', f'<child> of {where}'),
-        origin=_origin(element, where),
+        origin=origin_of(element, where),
         axis=_axis(element, where) if kind in MOVING else Joint.axis,
         limits=_limits(element, where) if kind in LIMITED else None,
         soft_limits=_soft_limits(element, where) if kind in LIMITED else None,
@@ -53,14 +42,6 @@ def _kind(element: XmlElement, where: str) -> str:
             element.line,
         )
     return kind
-
-
-def _origin(element: XmlElement, where: str) -> Origin:
-    origin = element.find('origin')
-    return Origin(
-        vector(origin, 'xyz', where, NO_MOVE),
-        vector(origin, 'rpy', where, NO_MOVE),
-    )
 
 
 def _axis(element: XmlElement, where: str) -> Vector:

@@ -5,16 +5,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from robot_state_publisher.urdf.joint import Joint, Mimic
+from urdf.joint import Joint, Mimic
+from urdf.shape import Shape
 
 __all__ = ['Link', 'RobotModel']
 
 
 @dataclass(frozen=True)
 class Link:
-    """A link, and the line that defines it."""
+    """A link with its bodies, and the line that defines it."""
 
     name: str
+    visuals: tuple[Shape, ...] = ()
+    collisions: tuple[Shape, ...] = ()
     line: int | None = field(default=None, compare=False)
 
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 
 import math
 
-from robot_state_publisher.urdf.joint import Vector
-from robot_state_publisher.urdf.urdf_error import UrdfError
-from robot_state_publisher.urdf.xml_element import XmlElement
+from urdf.joint import Origin, Vector
+from urdf.urdf_error import UrdfError
+from urdf.xml_element import XmlElement
 
-__all__ = ['child', 'number', 'text', 'vector']
+__all__ = ['child', 'number', 'origin_of', 'text', 'vector']
+
+NO_MOVE = (0.0, 0.0, 0.0)
 
 
 def child(element: XmlElement, tag: str, where: str) -> XmlElement:
@@ -48,6 +50,12 @@ def vector(element: XmlElement | None, name: str, where: str, default: Vector) -
     if numbers is None or len(numbers) != 3:
         raise _not('three numbers with spaces between them', element, name, where)
     return numbers[0], numbers[1], numbers[2]
+
+
+def origin_of(element: XmlElement, where: str) -> Origin:
+    """Return where an element is in the frame of its link; at its origin if nothing is said."""
+    origin = element.find('origin')
+    return Origin(vector(origin, 'xyz', where, NO_MOVE), vector(origin, 'rpy', where, NO_MOVE))
 
 
 def _numbers(given: str) -> list[float] | None:

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Read the bodies of the links of a URDF."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from urdf.attributes import child, number, origin_of, text, vector
+from urdf.did_you_mean import did_you_mean
+from urdf.shape import Box, Capsule, Color, Cylinder, Geometry, Mesh, Shape, Sphere
+from urdf.urdf_error import UrdfError
+from urdf.xml_element import XmlElement
+
+__all__ = ['read_materials', 'read_shapes']
+
+
+def read_materials(robot: XmlElement) -> dict[str, Color]:
+    """Return the colours that are defined for all links, and those that links define, by name."""
+    links = [visual for link in robot.find_all('link') for visual in link.find_all('visual')]
+    materials = [each for place in (*links, robot) for each in place.find_all('material')]
+    colors = {each.attributes.get('name', ''): _color(each) for each in materials}
+    return {name: color for name, color in colors.items() if name and color}
+
+
+def read_shapes(
+    link: XmlElement, tag: str, where: str, materials: Mapping[str, Color]
+) -> tuple[Shape, ...]:
+    """Return what a link has of `visual` or `collision`, or raise UrdfError."""
+    return tuple(_shape(each, f'<{tag}> of {where}', materials) for each in link.find_all(tag))
+
+
+def _shape(element: XmlElement, where: str, materials: Mapping[str, Color]) -> Shape:
+    material = element.find('material')
+    color = None
+    if material is not None:
+        color = _color(material) or materials.get(material.attributes.get('name', ''))
+    return Shape(_geometry(element, where), origin_of(element, where), color)
+
+
+def _color(material: XmlElement) -> Color | None:
+    """Return the colour that a material has itself."""
+    element = material.find('color')
+    if element is None:
+        return None
+    where = f"material '{material.attributes.get('name', '')}'"
+    given = text(element, 'rgba', f'<color> of {where}')
+    try:
+        red, green, blue, opacity = (min(max(float(word), 0.0), 1.0) for word in given.split())
+    except ValueError:
+        raise UrdfError(
+            f"'rgba' in <color> of {where} is '{given}', but must be four numbers from 0 to 1 "
+            'with spaces between them.',
+            element.line,
+        ) from None
+    return red, green, blue, opacity
+
+
+def _geometry(element: XmlElement, where: str) -> Geometry:
+    holder = child(element, 'geometry', where)
+    if not holder.children:
+        raise UrdfError(f'<geometry> in {where} is empty. {_kinds()}', holder.line)
+    body = holder.children[0]
+    read = READERS.get(body.tag)
+    if read is None:
+        raise UrdfError(
+            f'<{body.tag}> in {where} is no geometry. {_kinds()}{did_you_mean(body.tag, READERS)}',
+            body.line,
+        )
+    return read(body, where)
+
+
+def _kinds() -> str:
+    return f'There are {", ".join(f"<{tag}>" for tag in READERS)}.'
+
+
+def _box(body: XmlElement, where: str) -> Box:
+    text(body, 'size', f'<box> of {where}')
+    size = vector(body, 'size', where, (0.0, 0.0, 0.0))
+    if min(size) < 0.0:
+        raise _negative(body, 'size', where)
+    return Box(size)
+
+
+def _cylinder(body: XmlElement, where: str) -> Cylinder:
+    return Cylinder(_length(body, 'radius', where), _length(body, 'length', where))
+
+
+def _capsule(body: XmlElement, where: str) -> Capsule:
+    return Capsule(_length(body, 'radius', where), _length(body, 'length', where))
+
+
+def _sphere(body: XmlElement, where: str) -> Sphere:
+    return Sphere(_length(body, 'radius', where))
+
+
+def _mesh(body: XmlElement, where: str) -> Mesh:
+    file = text(body, 'filename', f'<mesh> of {where}')
+    return Mesh(file, vector(body, 'scale', where, (1.0, 1.0, 1.0)))
+
+
+def _length(body: XmlElement, name: str, where: str) -> float:
+    text(body, name, f'<{body.tag}> of {where}')
+    length = number(body, name, where, 0.0)
+    if length < 0.0:
+        raise _negative(body, name, where)
+    return length
+
+
+def _negative(body: XmlElement, name: str, where: str) -> UrdfError:
+    given = body.attributes[name]
+    return UrdfError(f"'{name}' in <{body.tag}> of {where} is {given}, below zero.", body.line)
+
+
+READERS: dict[str, Callable[[XmlElement, str], Geometry]] = {
+    'box': _box,
+    'capsule': _capsule,
+    'cylinder': _cylinder,
+    'mesh': _mesh,
+    'sphere': _sphere,
+}
