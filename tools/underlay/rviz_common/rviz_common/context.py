@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What displays, tools and panels have at hand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, TYPE_CHECKING
+
+from rviz_common.frames import Frames
+from rviz_common.work_queue import WorkQueue
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from viser import GuiApi, SceneApi, ViserServer
+
+__all__ = ['Context']
+
+
+@dataclass(frozen=True)
+class Context:
+    """
+    What displays, tools and panels have at hand; it is used in the thread of the node only.
+
+    What is set of the scene in one frame reaches browsers together. Callbacks of widgets come in
+    other threads: `on_input` and `on_click` bring what they do to the thread of the node.
+    """
+
+    node: Node
+    server: ViserServer
+    frames: Frames
+    queue: WorkQueue
+
+    @property
+    def scene(self) -> SceneApi:
+        """Return what is drawn in three dimensions."""
+        return self.server.scene
+
+    @property
+    def gui(self) -> GuiApi:
+        """Return the widgets of the page."""
+        return self.server.gui
+
+    def on_input(self, widget: Any, take: Callable[[Any], None]) -> None:
+        """Pass on the value that a person gives to a widget; not those that a program sets."""
+
+        def pass_on(event: Any) -> None:
+            if event.client is not None:
+                value = event.target.value
+                self.queue.post(lambda: take(value))
+
+        widget.on_update(pass_on)
+
+    def on_click(self, button: Any, do: Callable[[], None]) -> None:
+        """Do something when a button is pressed."""
+        button.on_click(lambda event: self.queue.post(do))

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Something that is shown, with properties that can be set."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from rviz_common.context import Context
+from rviz_common.properties import Flag, Property, Values
+from rviz_common.status import Level, Statuses
+
+__all__ = ['Display']
+
+COMMON = ('Class', 'Name', 'Value')
+
+
+class Display:
+    """
+    An entry of the list of displays.
+
+    A display draws below `root`, a path of the scene which it has for itself. It is started when
+    it is enabled, and stopped when it is disabled; `update` is called for each frame in between.
+    """
+
+    CLASS: ClassVar[str]
+    """The class that the file names, such as `rviz_default_plugins/Grid`."""
+    PROPERTIES: ClassVar[tuple[Property, ...]] = ()
+    UNUSED: ClassVar[tuple[str, ...]] = ()
+    """Properties of RViz, by their first name, that mean nothing in a browser."""
+
+    def __init__(
+        self, context: Context, root: str, given: Mapping[str, Any] | None = None
+    ) -> None:
+        """Take the properties that a file gives; nothing is shown yet."""
+        given = given or {}
+        self.context = context
+        self.root = root
+        self.name = str(given.get('Name') or self.CLASS.partition('/')[2])
+        enabled = Flag('Enabled', True, 'Whether it is shown.')
+        self.values = Values((enabled, *self.PROPERTIES), given)
+        self.status = Statuses()
+        for refusal in self.values.refusals:
+            self.status.say('File', Level.WARN, refusal)
+
+    @property
+    def unknown(self) -> list[str]:
+        """Return the properties of the file that nobody knows."""
+        return self.values.unknown((*COMMON, *self.UNUSED))
+
+    def to_file(self) -> dict[str, Any]:
+        """Return what the file is to have."""
+        written = self.values.to_file()
+        enabled = self.values['Enabled']
+        return {**written, 'Class': self.CLASS, 'Name': self.name, 'Value': enabled}
+
+    def start(self) -> None:
+        """Begin to show it."""
+
+    def stop(self) -> None:
+        """Show it no longer."""
+
+    def update(self) -> None:
+        """Draw the next frame."""
+
+    def on_change(self, path: str) -> None:
+        """Follow a property that has been changed while it is shown: begin anew, by default."""
+        self.stop()
+        self.start()

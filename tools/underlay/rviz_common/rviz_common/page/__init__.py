@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A page in the browser, for who may see it."""
+
+from rviz_common.page.listening import PortError
+from rviz_common.page.page import Page
+from rviz_common.page.settings import PageSettings
+
+__all__ = ['Page', 'PageSettings', 'PortError']

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Who may see and use a page.
+
+A browser lets any site that it shows connect to servers of this machine; it only says, in the
+header `Origin`, which site that is. And it takes any name for this machine that a site's owner
+makes the DNS say; then the header `Host` has that name.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from http import HTTPStatus
+from http.cookies import CookieError, SimpleCookie
+import secrets
+from urllib.parse import parse_qs, urlsplit
+
+__all__ = ['Admission', 'Refusal']
+
+OWN_NAMES = ('127.0.0.1', 'localhost', '[::1]')
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """Why a request is not answered."""
+
+    status: HTTPStatus
+    sentence: str
+
+
+@dataclass(frozen=True)
+class Admission:
+    """Decides on the requests to a port; an empty token admits whoever is on this machine."""
+
+    port: int
+    token: str = ''
+
+    @property
+    def cookie(self) -> str:
+        """Return the name of the cookie that holds the token; cookies know no ports."""
+        return f'token_{self.port}'
+
+    def refusal(
+        self, path: str, host: str, origin: str | None, cookies: str | None
+    ) -> Refusal | None:
+        """Return why a request with these headers is refused, or None if it is not."""
+        if origin is not None and urlsplit(origin).netloc != host:
+            return Refusal(
+                HTTPStatus.FORBIDDEN, f'Pages of {origin} may not use this one, which is {host}.'
+            )
+        if not self.token:
+            return self._refusal_of_name(host)
+        given = self._token_of(path, cookies)
+        if not given:
+            return Refusal(
+                HTTPStatus.UNAUTHORIZED,
+                'This page needs a token. Open the address with ?token= that was printed at the '
+                'start.',
+            )
+        if not secrets.compare_digest(given.encode(), self.token.encode()):
+            return Refusal(
+                HTTPStatus.FORBIDDEN,
+                'The token is not that of this page. Open the address that was printed at the '
+                'last start.',
+            )
+        return None
+
+    def brings_token(self, path: str) -> bool:
+        """Tell if the address has the token, which from then on a cookie is to hold."""
+        return bool(self.token and _token_in(path))
+
+    def _refusal_of_name(self, host: str) -> Refusal | None:
+        """Refuse names of this machine that are not its own."""
+        if host in {f'{name}:{self.port}' for name in OWN_NAMES}:
+            return None
+        return Refusal(
+            HTTPStatus.FORBIDDEN,
+            f"This page is not at '{host}'. Open http://localhost:{self.port}.",
+        )
+
+    def _token_of(self, path: str, cookies: str | None) -> str:
+        try:
+            cookie = SimpleCookie(cookies or '').get(self.cookie)
+        except CookieError:
+            cookie = None
+        return _token_in(path) or (cookie.value if cookie else '')
+
+
+def _token_in(path: str) -> str:
+    """Return the token in the query of a path, or an empty one."""
+    return parse_qs(urlsplit(path).query).get('token', [''])[0]

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Put an admission before the server of viser, which has none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+import functools
+from http import HTTPStatus
+import socket
+from typing import Any
+
+from rviz_common.page.admission import Admission, Refusal
+import websockets.asyncio.server
+from websockets.asyncio.server import ServerConnection
+from websockets.datastructures import Headers
+from websockets.http11 import Request, Response
+
+__all__ = ['gated']
+
+# What a page may load and do: all from here, and inside no page of others.
+POLICY = "frame-ancestors 'self'"
+
+
+@contextmanager
+def gated(bound: socket.socket, admission: Admission) -> Iterator[None]:
+    """Make the server that is started meanwhile use a bound socket, and admit only some."""
+    serve = websockets.asyncio.server.serve
+    used: list[bool] = []
+
+    @functools.wraps(serve)
+    def serve_gated(handler: Any, host: Any, port: Any, **options: Any) -> Any:
+        if used:
+            raise RuntimeError('The page has been started already.')
+        used.append(True)
+        answer = options.pop('process_request')
+        return serve(handler, sock=bound, process_request=_gate(answer, admission), **options)
+
+    websockets.asyncio.server.serve = serve_gated  # type: ignore[assignment, misc]
+    try:
+        yield
+    finally:
+        websockets.asyncio.server.serve = serve  # type: ignore[misc]
+    if not used:
+        raise RuntimeError('The page is not protected: this version of viser starts otherwise.')
+
+
+def _gate(answer: Any, admission: Admission) -> Any:
+    """Return what answers requests that are admitted, and refuses the others."""
+
+    def process_request(connection: ServerConnection, request: Request) -> Response | None:
+        headers = request.headers
+        refusal = admission.refusal(
+            request.path,
+            headers.get('Host', ''),
+            headers.get('Origin'),
+            headers.get('Cookie'),
+        )
+        if refusal is not None:
+            return _refused(refusal)
+        if admission.brings_token(request.path):
+            return _with_cookie(request.path, admission)
+        response: Response | None = answer(connection, request)
+        if response is not None:
+            response.headers['Content-Security-Policy'] = POLICY
+        return response
+
+    return process_request
+
+
+def _refused(refusal: Refusal) -> Response:
+    headers = Headers({'Content-Type': 'text/plain; charset=utf-8', 'Connection': 'close'})
+    body = f'{refusal.sentence}\n'.encode()
+    headers['Content-Length'] = str(len(body))
+    return Response(refusal.status, refusal.status.phrase, headers, body)
+
+
+def _with_cookie(path: str, admission: Admission) -> Response:
+    """Send the browser to the address without the token, which the history must not keep."""
+    cookie = f'{admission.cookie}={admission.token}; HttpOnly; SameSite=Strict; Path=/'
+    headers = Headers(
+        {'Location': path.partition('?')[0], 'Set-Cookie': cookie, 'Content-Length': '0'}
+    )
+    headers['Connection'] = 'close'
+    return Response(HTTPStatus.SEE_OTHER, HTTPStatus.SEE_OTHER.phrase, headers)

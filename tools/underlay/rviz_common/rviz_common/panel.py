@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A group of widgets of the page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from rviz_common.context import Context
+from rviz_common.properties import Property, Values
+
+__all__ = ['Panel']
+
+COMMON = ('Class', 'Name')
+
+
+class Panel:
+    """
+    An entry of the list of panels.
+
+    `start` is called once, where the widgets that it adds get into the panel; `update` is called
+    for each frame.
+    """
+
+    CLASS: ClassVar[str]
+    """The class that the file names, such as `rviz_common/Displays`."""
+    PROPERTIES: ClassVar[tuple[Property, ...]] = ()
+    UNUSED: ClassVar[tuple[str, ...]] = ()
+    """Properties of RViz, by their first name, that mean nothing in a browser."""
+
+    def __init__(self, context: Context, given: Mapping[str, Any] | None = None) -> None:
+        """Take the properties that a file gives."""
+        given = given or {}
+        self.context = context
+        self.name = str(given.get('Name') or self.CLASS.partition('/')[2])
+        self.values = Values(self.PROPERTIES, given)
+
+    @property
+    def unknown(self) -> list[str]:
+        """Return the properties of the file that nobody knows."""
+        return self.values.unknown((*COMMON, *self.UNUSED))
+
+    def to_file(self) -> dict[str, Any]:
+        """Return what the file is to have."""
+        return {**self.values.to_file(), 'Class': self.CLASS, 'Name': self.name}
+
+    def start(self) -> None:
+        """Add the widgets."""
+        raise NotImplementedError
+
+    def update(self) -> None:
+        """Show what is new."""
+
+    def close(self) -> None:
+        """End what the panel has begun; its widgets go with the page."""

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find the classes that files name, which installed packages offer as entry points."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.metadata import entry_points
+from typing import Any
+
+__all__ = ['DISPLAYS', 'PANELS', 'TOOLS', 'load_plugin', 'plugin_names']
+
+DISPLAYS = 'rviz_common.displays'
+PANELS = 'rviz_common.panels'
+TOOLS = 'rviz_common.tools'
+
+
+def plugin_names(group: str) -> list[str]:
+    """Return the names of the classes of a group, such as `rviz_default_plugins/Grid`."""
+    return sorted(_plugins(group))
+
+
+def load_plugin(group: str, name: str) -> Any:
+    """Return the class of a name, or raise LookupError."""
+    try:
+        return _plugins(group)[name].load()
+    except KeyError:
+        raise LookupError(name) from None
+
+
+@cache
+def _plugins(group: str) -> dict[str, Any]:
+    return {each.name: each for each in entry_points(group=group)}

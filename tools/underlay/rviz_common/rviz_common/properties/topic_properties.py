@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The properties of a topic that is shown: its name, and the quality of service."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rviz_common.properties.property import Choice, Property, Topic, Whole
+
+if TYPE_CHECKING:
+    from rclpy.qos import QoSProfile
+    from rviz_common.properties.values import Values
+
+__all__ = ['qos_of', 'topic_properties']
+
+BEST_EFFORT, RELIABLE, SYSTEM_DEFAULT = 'Best Effort', 'Reliable', 'System Default'
+TRANSIENT_LOCAL, VOLATILE = 'Transient Local', 'Volatile'
+KEEP_ALL, KEEP_LAST = 'Keep All', 'Keep Last'
+
+
+def topic_properties(
+    type_name: str,
+    topic: str = '',
+    *,
+    path: str = 'Topic',
+    depth: int = 5,
+    durability: str = VOLATILE,
+) -> tuple[Property, ...]:
+    """Return the properties of a topic that messages of a type come from."""
+    return (
+        Topic(f'{path}/Value', topic, 'Where the messages come from.', type_name),
+        Whole(f'{path}/Depth', depth, 'How many messages may wait.', 1, 100000),
+        Choice(
+            f'{path}/Durability Policy',
+            durability,
+            'Transient Local asks for messages from before.',
+            (VOLATILE, TRANSIENT_LOCAL, SYSTEM_DEFAULT),
+        ),
+        Choice(
+            f'{path}/History Policy',
+            KEEP_LAST,
+            'Whether messages beyond the depth are dropped.',
+            (KEEP_LAST, KEEP_ALL, SYSTEM_DEFAULT),
+        ),
+        Choice(
+            f'{path}/Reliability Policy',
+            RELIABLE,
+            'Best Effort also hears those who do not repeat what is lost.',
+            (RELIABLE, BEST_EFFORT, SYSTEM_DEFAULT),
+        ),
+    )
+
+
+def qos_of(values: Values, path: str = 'Topic') -> QoSProfile:
+    """Return the quality of service that the properties of a topic ask for."""
+    from rclpy import qos
+
+    reliability = {
+        RELIABLE: qos.ReliabilityPolicy.RELIABLE,
+        BEST_EFFORT: qos.ReliabilityPolicy.BEST_EFFORT,
+        SYSTEM_DEFAULT: qos.ReliabilityPolicy.SYSTEM_DEFAULT,
+    }
+    durability = {
+        VOLATILE: qos.DurabilityPolicy.VOLATILE,
+        TRANSIENT_LOCAL: qos.DurabilityPolicy.TRANSIENT_LOCAL,
+        SYSTEM_DEFAULT: qos.DurabilityPolicy.SYSTEM_DEFAULT,
+    }
+    history = {
+        KEEP_LAST: qos.HistoryPolicy.KEEP_LAST,
+        KEEP_ALL: qos.HistoryPolicy.KEEP_ALL,
+        SYSTEM_DEFAULT: qos.HistoryPolicy.SYSTEM_DEFAULT,
+    }
+    return qos.QoSProfile(
+        depth=values[f'{path}/Depth'],
+        reliability=reliability[values[f'{path}/Reliability Policy']],
+        durability=durability[values[f'{path}/Durability Policy']],
+        history=history[values[f'{path}/History Policy']],
+    )

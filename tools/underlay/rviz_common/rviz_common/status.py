@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a display has to say about itself."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+__all__ = ['Level', 'Statuses']
+
+
+class Level(IntEnum):
+    """How bad something is."""
+
+    OK = 0
+    WARN = 1
+    ERROR = 2
+
+
+class Statuses:
+    """Sentences about a display by subject (`Topic`, `Transform`), the newest of each."""
+
+    def __init__(self) -> None:
+        """Begin without sentences."""
+        self._sentences: dict[str, tuple[Level, str]] = {}
+
+    def say(self, subject: str, level: Level, sentence: str) -> None:
+        """Replace what is said about a subject."""
+        self._sentences[subject] = level, sentence
+
+    def forget(self, subject: str) -> None:
+        """Say no longer anything about a subject."""
+        self._sentences.pop(subject, None)
+
+    def clear(self) -> None:
+        """Say no longer anything."""
+        self._sentences.clear()
+
+    @property
+    def level(self) -> Level:
+        """Return the worst level."""
+        return max((level for level, _ in self._sentences.values()), default=Level.OK)
+
+    def items(self) -> list[tuple[str, Level, str]]:
+        """Return subject, level and sentence of all."""
+        return [(subject, *said) for subject, said in list(self._sentences.items())]
