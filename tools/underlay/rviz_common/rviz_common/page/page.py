@@ -37,12 +37,12 @@ class Page:
                 host=settings.host, port=self.port, label=title, verbose=False
             )
         self.viser.gui.configure_theme(
-            control_layout='fixed',
             control_width='large',
             dark_mode=True,
             show_logo=False,
             show_share_button=False,
         )
+        self.viser.gui.main_panel.dock_right()
         # Shadows halve the frames where the processor draws.
         self.viser.scene.configure_default_lights(cast_shadow=False)
 
