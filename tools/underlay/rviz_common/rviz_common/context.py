@@ -12,6 +12,7 @@ from rviz_common.work_queue import WorkQueue
 
 if TYPE_CHECKING:
     from rclpy.node import Node
+    from rviz_common.page import Page
     from viser import GuiApi, SceneApi, ViserServer
 
 __all__ = ['Context']
@@ -27,9 +28,14 @@ class Context:
     """
 
     node: Node
-    server: ViserServer
+    page: Page
     frames: Frames
     queue: WorkQueue
+
+    @property
+    def server(self) -> ViserServer:
+        """Return the server of the page."""
+        return self.page.viser
 
     @property
     def scene(self) -> SceneApi:

@@ -8,9 +8,10 @@ from http.client import HTTPConnection, HTTPResponse
 import socket
 
 import pytest
-from rviz_common.page import Page, PageSettings, PortError
+from rviz_common.page import Page, PageSettings, PortError, Route
 import viser
-from websockets.exceptions import InvalidStatus
+from websockets.asyncio.server import ServerConnection
+from websockets.exceptions import ConnectionClosed, ConnectionClosedError, InvalidStatus
 from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
@@ -117,3 +118,44 @@ def test_nothing_is_printed(capfd: pytest.CaptureFixture[str]) -> None:
     with Page('test'):
         pass
     assert capfd.readouterr() == ('', '')
+
+
+def test_route(page: Page) -> None:
+    """A page serves smaller ones inside of it, with connections of their own."""
+
+    async def echo(connection: ServerConnection) -> None:
+        await connection.send(await connection.recv())
+
+    page.routes.add('/echo', Route('<p>hello</p>', echo))
+    answer = ask(page, '/echo')
+    assert (answer.status, answer.read()) == (200, b'<p>hello</p>')
+    assert answer.getheader('Content-Type') == 'text/html; charset=utf-8'
+    url = f'ws://127.0.0.1:{page.port}/echo'
+    with connect(url, origin=Origin(f'http://127.0.0.1:{page.port}')) as client:
+        client.send('hello')
+        assert client.recv(timeout=30) == 'hello'
+    with pytest.raises(InvalidStatus):
+        connect(url, origin=Origin('http://evil.example'))
+    with pytest.raises(ValueError, match="something at '/echo' already"):
+        page.routes.add('/echo', Route(''))
+
+
+def test_failing_route(page: Page) -> None:
+    """A connection whose handler fails is closed; the page goes on."""
+
+    async def fail(connection: ServerConnection) -> None:
+        raise RuntimeError('on purpose')
+
+    page.routes.add('/fail', Route('', fail))
+    with connect(f'ws://127.0.0.1:{page.port}/fail') as client:
+        with pytest.raises(ConnectionClosedError):
+            client.recv(timeout=30)
+    assert ask(page).status == 200
+
+
+def test_foreign_protocol(page: Page) -> None:
+    """A client that does not speak viser's language is sent away; the page goes on."""
+    with connect(f'ws://127.0.0.1:{page.port}') as client:
+        with pytest.raises(ConnectionClosed):
+            client.recv(timeout=30)
+    assert ask(page).status == 200

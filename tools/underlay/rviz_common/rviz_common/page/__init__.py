@@ -3,6 +3,7 @@
 
 from rviz_common.page.listening import PortError
 from rviz_common.page.page import Page
+from rviz_common.page.routes import Route
 from rviz_common.page.settings import PageSettings
 
-__all__ = ['Page', 'PageSettings', 'PortError']
+__all__ = ['Page', 'PageSettings', 'PortError', 'Route']

@@ -11,6 +11,7 @@ import socket
 from typing import Any
 
 from rviz_common.page.admission import Admission, Refusal
+from rviz_common.page.routes import Route, Routes
 import websockets.asyncio.server
 from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
@@ -23,8 +24,8 @@ POLICY = "frame-ancestors 'self'"
 
 
 @contextmanager
-def gated(bound: socket.socket, admission: Admission) -> Iterator[None]:
-    """Make the server that is started meanwhile use a bound socket, and admit only some."""
+def gated(bound: socket.socket, admission: Admission, routes: Routes) -> Iterator[None]:
+    """Give the server that is started meanwhile a bound socket, an admission and routes."""
     serve = websockets.asyncio.server.serve
     used: list[bool] = []
 
@@ -33,8 +34,8 @@ def gated(bound: socket.socket, admission: Admission) -> Iterator[None]:
         if used:
             raise RuntimeError('The page has been started already.')
         used.append(True)
-        answer = options.pop('process_request')
-        return serve(handler, sock=bound, process_request=_gate(answer, admission), **options)
+        answer = _gate(options.pop('process_request'), admission, routes)
+        return serve(_routed(handler, routes), sock=bound, process_request=answer, **options)
 
     websockets.asyncio.server.serve = serve_gated  # type: ignore[assignment, misc]
     try:
@@ -45,7 +46,18 @@ def gated(bound: socket.socket, admission: Admission) -> Iterator[None]:
         raise RuntimeError('The page is not protected: this version of viser starts otherwise.')
 
 
-def _gate(answer: Any, admission: Admission) -> Any:
+def _routed(handler: Any, routes: Routes) -> Any:
+    """Return what talks to those who connect: a route, or viser."""
+
+    async def talk(connection: ServerConnection) -> None:
+        request = connection.request
+        route = routes.find(request.path) if request else None
+        await (handler if route is None or route.connect is None else route.connect)(connection)
+
+    return talk
+
+
+def _gate(answer: Any, admission: Admission, routes: Routes) -> Any:
     """Return what answers requests that are admitted, and refuses the others."""
 
     def process_request(connection: ServerConnection, request: Request) -> Response | None:
@@ -60,6 +72,9 @@ def _gate(answer: Any, admission: Admission) -> Any:
             return _refused(refusal)
         if admission.brings_token(request.path):
             return _with_cookie(request.path, admission)
+        route = routes.find(request.path)
+        if route is not None:
+            return None if headers.get('Upgrade') == 'websocket' else _served(route)
         response: Response | None = answer(connection, request)
         if response is not None:
             response.headers['Content-Security-Policy'] = POLICY
@@ -69,10 +84,20 @@ def _gate(answer: Any, admission: Admission) -> Any:
 
 
 def _refused(refusal: Refusal) -> Response:
-    headers = Headers({'Content-Type': 'text/plain; charset=utf-8', 'Connection': 'close'})
-    body = f'{refusal.sentence}\n'.encode()
-    headers['Content-Length'] = str(len(body))
-    return Response(refusal.status, refusal.status.phrase, headers, body)
+    return _answer(refusal.status, f'{refusal.sentence}\n', 'text/plain; charset=utf-8')
+
+
+def _served(route: Route) -> Response:
+    response = _answer(HTTPStatus.OK, route.content, route.kind)
+    response.headers['Content-Security-Policy'] = POLICY
+    return response
+
+
+def _answer(status: HTTPStatus, text: str, kind: str) -> Response:
+    body = text.encode()
+    headers = Headers({'Content-Type': kind, 'Content-Length': str(len(body))})
+    headers['Connection'] = 'close'
+    return Response(status, status.phrase, headers, body)
 
 
 def _with_cookie(path: str, admission: Admission) -> Response:

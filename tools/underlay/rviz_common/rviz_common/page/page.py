@@ -12,6 +12,7 @@ from types import TracebackType
 import rich
 from rviz_common.page.admission import Admission
 from rviz_common.page.listening import listen
+from rviz_common.page.routes import Routes
 from rviz_common.page.settings import PageSettings
 import viser
 
@@ -32,7 +33,8 @@ class Page:
         bound = listen(settings)
         self.settings = settings
         self.port: int = bound.getsockname()[1]
-        with gated(bound, Admission(self.port, settings.token)):
+        self.routes = Routes()
+        with gated(bound, Admission(self.port, settings.token), self.routes):
             self.viser = viser.ViserServer(
                 host=settings.host, port=self.port, label=title, verbose=False
             )

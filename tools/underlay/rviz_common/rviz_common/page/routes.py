@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a page serves besides itself: small pages inside of it, with a connection of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass
+from urllib.parse import unquote, urlsplit
+
+from websockets.asyncio.server import ServerConnection
+
+__all__ = ['Route', 'Routes']
+
+
+@dataclass(frozen=True)
+class Route:
+    """
+    What is at a path: a text for those who load it, and who talks to those who connect to it.
+
+    The connection is that of the `websockets` library, in the thread of the page.
+    """
+
+    content: str
+    connect: Callable[[ServerConnection], Awaitable[None]] | None = None
+    kind: str = 'text/html; charset=utf-8'
+
+
+class Routes:
+    """Routes by path, such as `/drive`; they can be added while the page is served."""
+
+    def __init__(self) -> None:
+        """Begin without any."""
+        self._by_path: dict[str, Route] = {}
+
+    def add(self, path: str, route: Route) -> None:
+        """Serve something at a path, or raise ValueError if something is there already."""
+        if path in self._by_path:
+            raise ValueError(f"There is something at '{path}' already.")
+        self._by_path[path] = route
+
+    def find(self, target: str) -> Route | None:
+        """Return what is at the path of a request."""
+        return self._by_path.get(unquote(urlsplit(target).path).rstrip('/'))
