@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 import sys
-from typing import Any
+from typing import Any, ClassVar
 
 from joint_state_publisher.merged_joints import MergedJoints, States
-from joint_state_publisher.parameters import CHANGEABLE, declare_settings
+from joint_state_publisher.parameters import CHANGEABLE, declare_settings, Extra
 from joint_state_publisher.settings import Settings, settings_of
 from joint_state_publisher.sources import Sources
 from rcl_interfaces.msg import SetParametersResult
@@ -34,6 +34,9 @@ REPEAT_S = 10.0
 class JointStatePublisher(Node):
     """Publishes the joint states of a robot: defaults, merged with what other topics tell."""
 
+    EXTRAS: ClassVar[Mapping[str, Extra]] = {}
+    """The parameters of a node that does more."""
+
     def __init__(self, file: str | None = None) -> None:
         """Declare the parameters; the URDF may be in a file."""
         super().__init__(
@@ -41,7 +44,7 @@ class JointStatePublisher(Node):
             automatically_declare_parameters_from_overrides=True,
             parameter_overrides=parameters_from_file(file),
         )
-        self._settings = declare_settings(self)
+        self._settings = declare_settings(self, self.EXTRAS)
         self._joints: MergedJoints | None = None
         self._watch: StateWatch | None = None
         self._publisher = self.create_publisher(JointState, 'joint_states', QoSProfile(depth=10))
@@ -66,10 +69,18 @@ class JointStatePublisher(Node):
         try:
             self._joints.take(states)
         except ValueError as error:
-            self.get_logger().warning(
-                f'{topic}: a message has {error}, and is left out.',
-                throttle_duration_sec=REPEAT_S,
-            )
+            self._left_out(f'{topic}: a message has {error}, and is left out.')
+            return
+        for name in self._joints.not_finite(states):
+            self._left_out(f"{topic}: the position of '{name}' is no number, and is left out.")
+
+    def _left_out(self, sentence: str) -> None:
+        """Say what a source told in vain; sources may do so again and again."""
+        self.get_logger().warning(sentence, throttle_duration_sec=REPEAT_S)
+
+    def _refused(self, sentence: str) -> None:
+        """Say why a robot is not taken over."""
+        self.get_logger().error(sentence)
 
     def _find_robot(self, file: str | None) -> None:
         """Load the robot from the file or the parameter, or wait for it on the topic."""
@@ -97,7 +108,7 @@ class JointStatePublisher(Node):
         try:
             self._load(self._changed({'robot_description': message.data}), 'robot_description')
         except ValueError as error:
-            self.get_logger().error(f'A robot description is left out. {error}')
+            self._refused(f'A robot description is left out. {error}')
 
     def _publish(self) -> None:
         """Publish the states of all joints, if any are known."""
