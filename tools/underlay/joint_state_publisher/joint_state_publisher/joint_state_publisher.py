@@ -22,7 +22,7 @@ from robot_state_publisher.state_watch import StateWatch
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_ros.program import run_node
-from urdf import parse_urdf
+from urdf import parse_urdf, RobotModel
 
 __all__ = ['JointStatePublisher', 'main']
 
@@ -97,11 +97,15 @@ class JointStatePublisher(Node):
         """Begin anew with a robot, or raise ValueError and go on with the one that there was."""
         model = parse_urdf(settings.robot_description, source)
         joints = MergedJoints(model, settings)
-        self._settings, self._joints, self._watch = settings, joints, StateWatch(model)
-        logger = self.get_logger()
-        logger.info(model.describe())
+        self._settings = settings
+        self._begin(model, joints)
         for sentence in joints.surplus_zeros(settings):
-            logger.warning(sentence)
+            self.get_logger().warning(sentence)
+
+    def _begin(self, model: RobotModel, joints: MergedJoints) -> None:
+        """Publish the states of a robot from now on."""
+        self._joints, self._watch = joints, StateWatch(model)
+        self.get_logger().info(model.describe())
 
     def _on_description(self, message: String) -> None:
         """Take over a robot that is published, unless it is unusable."""
