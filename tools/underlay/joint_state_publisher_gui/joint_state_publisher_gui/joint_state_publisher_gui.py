@@ -36,7 +36,7 @@ class JointStatePublisherGui(JointStatePublisher):
     def __init__(self, file: str | None = None) -> None:
         """Declare the parameters and serve the page; the URDF may be in a file."""
         self._board: Board | None = None
-        self._sliders: JointPage | None = None
+        self.joint_page: JointPage | None = None
         super().__init__(file)
         values = {name: self.get_parameter(name).value for name in EXTRAS}
         if values['num_rows']:
@@ -44,11 +44,11 @@ class JointStatePublisherGui(JointStatePublisher):
                 "The parameter 'num_rows' means nothing here: the page scrolls."
             )
         self.page = _serve(values)
-        self._sliders = JointPage(self.page.viser, self._make_queue(), _poses_folder())
+        self.joint_page = JointPage(self.page.viser, self._make_queue(), _poses_folder())
         if self._board is not None:
-            self._sliders.show(self._board)
+            self.joint_page.show(self._board)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self.create_timer(FRAME_S, self._sliders.refresh, clock=steady)
+        self.create_timer(FRAME_S, self.joint_page.refresh, clock=steady)
         self.get_logger().info(f'The sliders are at {self.page.url}')
 
     def _make_queue(self) -> WorkQueue:
@@ -61,8 +61,8 @@ class JointStatePublisherGui(JointStatePublisher):
         """Show the sliders of a robot."""
         super()._begin(model, joints)
         self._board = Board(model, joints)
-        if self._sliders is not None:
-            self._sliders.show(self._board)
+        if self.joint_page is not None:
+            self.joint_page.show(self._board)
 
     def _left_out(self, sentence: str) -> None:
         """Say it in the page too."""
@@ -75,8 +75,8 @@ class JointStatePublisherGui(JointStatePublisher):
         self._say(sentence)
 
     def _say(self, sentence: str) -> None:
-        if self._sliders is not None:
-            self._sliders.notice.say(sentence)
+        if self.joint_page is not None:
+            self.joint_page.notice.say(sentence)
 
     def destroy_node(self) -> None:
         """Serve the page no longer, too."""

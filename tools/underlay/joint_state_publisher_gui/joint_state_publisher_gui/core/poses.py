@@ -64,11 +64,14 @@ class Poses:
         self._write({**self.read(), name: dict(pose)})
         return name
 
-    def delete(self, name: str) -> None:
-        """Keep a pose no longer."""
+    def delete(self, name: str) -> bool:
+        """Keep a pose no longer; tell if it was there."""
         poses = self.read()
-        poses.pop(name, None)
+        if name not in poses:
+            return False
+        del poses[name]
         self._write(poses)
+        return True
 
     def _poses(self, content: Any) -> dict[str, Pose]:
         if not isinstance(content, dict):

@@ -67,8 +67,9 @@ class Scale:
         return self.upper if shown >= last else shown
 
     def in_words(self, position: float) -> str:
-        """Return a position with its unit: in degrees if it is an angle."""
-        return f'{degrees(position):.1f}°' if self.is_angle else f'{position * 1000.0:.1f} mm'
+        """Return a position in whole degrees or millimetres."""
+        number = degrees(position) if self.is_angle else position * 1000.0
+        return f'{round(number)}°' if self.is_angle else f'{round(number)}\u00a0mm'
 
     def describe(self) -> str:
         """Return the limits in both units."""

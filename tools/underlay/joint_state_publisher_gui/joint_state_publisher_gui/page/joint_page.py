@@ -40,7 +40,6 @@ class JointPage:
         self._folder: GuiFolderHandle | None = None
         self.poses: PoseFolder | None = None
         self.sliders: SliderRows | None = None
-        server.gui.set_panel_label('Joint State Publisher')
         server.gui.main_panel.set_width(WIDTH_PX)
         self.notice = Notice(server.gui)
         self.notice.say('Waiting for robot_description ...')

@@ -60,7 +60,7 @@ class PoseFolder:
         pose = self._poses.read().get(name)
         self._list()
         if pose is None:
-            self._notice.say(f"There is no pose '{name}' in {self._poses.file}.")
+            self._say_missing(name)
             return
         self._notice.say(f"The pose '{name}' is loaded.", *self._board.apply(pose))
 
@@ -72,6 +72,11 @@ class PoseFolder:
 
     def _delete(self) -> None:
         name = self.saved.value
-        self._poses.delete(name)
+        if self._poses.delete(name):
+            self._notice.say(f"The pose '{name}' is deleted.")
+        else:
+            self._say_missing(name)
         self._list()
-        self._notice.say(f"There is no pose '{name}' any more.")
+
+    def _say_missing(self, name: str) -> None:
+        self._notice.say(f"There is no pose '{name}' in {self._poses.file}.")

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
 __all__ = ['SliderRow']
 
+FIGURE_SPACE = '\u2007'
+MINUS = '\u2212'  # viser lets lines end after the other one
+LENGTH = len('-180°')
 SETTLED = 5
 """After how many frames without input the page is made to agree."""
 
@@ -54,4 +57,6 @@ class SliderRow:
         self.slider.give(shown)
 
     def _text(self) -> str:
-        return f'{self._label} {self.slider.scale.in_words(self.slider.position)}'
+        """Return a label of one length, so that lines do not break anew while the joint moves."""
+        words = self.slider.scale.in_words(self.slider.position)
+        return f'{self._label} {words.replace("-", MINUS).ljust(LENGTH, FIGURE_SPACE)}'

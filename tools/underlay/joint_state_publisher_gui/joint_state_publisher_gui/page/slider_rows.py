@@ -31,9 +31,9 @@ class SliderRows:
         self._parent = parent
         self._board = board
         with parent:
-            search = server.gui.add_text('Search', '', hint='Words of the names of joints')
+            self.search = server.gui.add_text('Search', '', hint='Words of the names of joints')
             self._area = server.gui.add_folder(None)
-        on_input(post, search, self._search)
+        on_input(post, self.search, self._search)
         self.rows: list[SliderRow] = []
         """The rows that are there."""
         self._search('')
