@@ -71,8 +71,9 @@ class JointStatePublisher(Node):
         except ValueError as error:
             self._left_out(f'{topic}: a message has {error}, and is left out.')
             return
-        for name in self._joints.not_finite(states):
-            self._left_out(f"{topic}: the position of '{name}' is no number, and is left out.")
+        if wrong := self._joints.not_finite(states):
+            names = ', '.join(f"'{name}'" for name in wrong)
+            self._left_out(f'{topic}: no number, and left out, is the position of {names}.')
 
     def _left_out(self, sentence: str) -> None:
         """Say what a source told in vain; sources may do so again and again."""
@@ -130,13 +131,24 @@ class JointStatePublisher(Node):
     def _on_patience_end(self) -> None:
         """Name what is still awaited, once."""
         self._patience.cancel()
+        self._report_silence([self._silence(topic) for topic in self._awaited()])
+
+    def _awaited(self) -> list[str]:
+        """Return the topics on which nothing was heard."""
         awaited = sorted(self._sources.silent)
         if self._joints is None:
             awaited.append(self.resolve_topic_name('robot_description'))
-        for topic in awaited:
-            count = self.count_publishers(topic)
-            who = f'{count} publishers were found' if count else 'nobody publishes it'
-            self.get_logger().warning(f'Nothing was heard on {topic} so far: {who}.')
+        return awaited
+
+    def _silence(self, topic: str) -> str:
+        count = self.count_publishers(topic)
+        who = f'{count} publishers were found' if count else 'nobody publishes it'
+        return f'Nothing was heard on {topic} so far: {who}.'
+
+    def _report_silence(self, sentences: list[str]) -> None:
+        """Say what is still awaited."""
+        for sentence in sentences:
+            self.get_logger().warning(sentence)
 
     def _check(self, changes: list[Parameter]) -> SetParametersResult:
         """Accept changes only if all can be done that they ask for."""

@@ -65,7 +65,7 @@ def test_positions_that_are_no_number(probe: Probe, programs: Programs, arm: str
         lambda: heard and list(heard[-1].position) == [0.5, 0.0],
         'nothing was merged',
     )
-    says(probe, program, "/commands: the position of 'elbow' is no number, and is left out.")
+    says(probe, program, "/commands: no number, and left out, is the position of 'elbow'.")
 
 
 def test_description_from_the_topic(probe: Probe, programs: Programs) -> None:

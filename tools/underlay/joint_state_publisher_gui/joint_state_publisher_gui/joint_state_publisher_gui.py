@@ -67,16 +67,20 @@ class JointStatePublisherGui(JointStatePublisher):
     def _left_out(self, sentence: str) -> None:
         """Say it in the page too."""
         super()._left_out(sentence)
-        self._say(sentence)
+        if self.joint_page is not None:
+            self.joint_page.warn(sentence)
 
     def _refused(self, sentence: str) -> None:
         """Say it in the page too."""
         super()._refused(sentence)
-        self._say(sentence)
-
-    def _say(self, sentence: str) -> None:
         if self.joint_page is not None:
             self.joint_page.notice.say(sentence)
+
+    def _report_silence(self, sentences: list[str]) -> None:
+        """Say it in the page too."""
+        super()._report_silence(sentences)
+        if self.joint_page is not None:
+            self.joint_page.warn(*sentences)
 
     def destroy_node(self) -> None:
         """Serve the page no longer, too."""

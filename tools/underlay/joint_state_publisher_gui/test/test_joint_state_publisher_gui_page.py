@@ -12,6 +12,7 @@ from typing import Any
 
 from joint_state_publisher_gui.core.poses import pose_file
 from joint_state_publisher_gui.joint_state_publisher_gui import FRAME_S, JointStatePublisherGui
+from joint_state_publisher_gui.page import joint_page
 from publisher_probe import LATCHED, Probe
 import pytest
 import rclpy
@@ -85,8 +86,11 @@ def sliders(node: JointStatePublisherGui) -> dict[str, Any]:
 
 def says(probe: Probe, node: JointStatePublisherGui, text: str) -> None:
     """Wait until the page says something."""
-    html = node.joint_page.notice._html
-    probe.until(lambda: text in html.content, f'the page does not say {text!r}')
+    notices = node.joint_page.notice, node.joint_page.warnings
+    probe.until(
+        lambda: any(text in notice.content for notice in notices),
+        f'the page does not say {text!r}',
+    )
 
 
 def test_sliders_move_joints(probe: Probe, gui: JointStatePublisherGui) -> None:
@@ -131,11 +135,15 @@ def test_a_slider_that_missed_something_agrees_in_the_end(
 
 
 def test_numbers_that_are_none(probe: Probe, gui: JointStatePublisherGui) -> None:
-    """Positions of NaN and lists of different lengths are named in the page, and change nothing."""
+    """Positions of NaN, and lists of different lengths, are named and change nothing."""
     heard = probe.listen(JointState, '/joint_states')
     source = probe.sender(JointState, '/commands')
     source.publish(probe.state(left_elbow=nan, left_shoulder=0.25))
-    says(probe, gui, '/commands: the position of &#x27;left_elbow&#x27; is no number')
+    says(
+        probe,
+        gui,
+        '/commands: no number, and left out, is the position of &#x27;left_elbow&#x27;.',
+    )
     probe.until(lambda: heard and list(heard[-1].position) == [0.25, 0.0], 'the rest is missing')
     source.publish(JointState(name=['left_elbow'], position=[1.0, 2.0]))
     says(probe, gui, '/commands: a message has 1 names but 2 position values')
@@ -189,6 +197,41 @@ def test_nothing_to_load(probe: Probe, gui: JointStatePublisherGui) -> None:
     gui.joint_page.notice.say('')
     give(gui.joint_page.poses.use, 'Delete')
     says(probe, gui, 'There is no pose')
+
+
+def test_warnings_end(
+    probe: Probe, gui: JointStatePublisherGui, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What a source does wrong is said for some time, beside what is said of other things."""
+    monkeypatch.setattr(joint_page, 'WARNED_FRAMES', 15)
+    probe.sender(JointState, '/commands').publish(probe.state(left_elbow=nan))
+    probe.until(lambda: gui.joint_page.warnings.content, 'the page does not warn')
+    says(probe, gui, 'bot: 2 joints')
+    probe.until(lambda: not gui.joint_page.warnings.content, 'the page still warns')
+
+
+def test_silent_topics(probe: Probe, start: Start) -> None:
+    """The page says which robot and which sources it has not heard of."""
+    node = start('source_list:=[commands]')
+    says(probe, node, 'Nothing was heard on /commands so far: nobody publishes it.')
+    says(probe, node, 'Nothing was heard on /robot_description so far: nobody publishes it.')
+    says(probe, node, 'Waiting for robot_description')
+
+
+def test_robots_without_joints_and_with_many(probe: Probe, gui: JointStatePublisherGui) -> None:
+    """A robot without joints has a sentence; of very many joints the page has some."""
+    describe(probe, gui, '<robot name="rock"><link name="base"/></robot>')
+    says(probe, gui, 'rock: 0 joints')
+    many = ''.join(
+        f'<link name="l{n}"/><joint name="j{n}" type="continuous"><parent link="base"/>'
+        f'<child link="l{n}"/></joint>'
+        for n in range(300)
+    )
+    describe(probe, gui, f'<robot name="many"><link name="base"/>{many}</robot>')
+    says(probe, gui, 'many: 300 joints')
+    assert len(sliders(gui)) == 200
+    give(gui.joint_page.sliders.search, 'j299')
+    probe.until(lambda: list(sliders(gui)) == ['j299'], 'not found')
 
 
 def test_search(probe: Probe, gui: JointStatePublisherGui) -> None:

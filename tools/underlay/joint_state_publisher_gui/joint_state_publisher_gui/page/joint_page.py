@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 __all__ = ['JointPage']
 
 WIDTH_PX = 460
+WARNED_FRAMES = 100
 
 
 class JointPage:
@@ -43,6 +44,8 @@ class JointPage:
         server.gui.main_panel.set_width(WIDTH_PX)
         self.notice = Notice(server.gui)
         self.notice.say('Waiting for robot_description ...')
+        self.warnings = Notice(server.gui)
+        self._warned_frames = 0
 
     def show(self, board: Board) -> None:
         """Show the sliders of a robot instead of those that were there."""
@@ -59,11 +62,20 @@ class JointPage:
                 self.poses = PoseFolder(gui, post, board, poses, self.notice)
             self.sliders = SliderRows(self._server, post, self._folder, board)
 
+    def warn(self, *sentences: str) -> None:
+        """Say what others do wrong; for some time, as it may be over then."""
+        self.warnings.say(*sentences)
+        self._warned_frames = WARNED_FRAMES
+
     def refresh(self) -> None:
         """Show what has changed."""
-        if self.sliders is not None:
-            with self._server.atomic():
-                self.sliders.refresh()
+        if self.sliders is None:
+            return
+        with self._server.atomic():
+            self.sliders.refresh()
+            self._warned_frames -= 1
+            if self._warned_frames == 0:
+                self.warnings.say()
 
     def _post_while(self, folder: GuiFolderHandle) -> Post:
         """Return what has done what belongs to a folder, as long as the folder is there."""

@@ -23,6 +23,11 @@ class Notice:
         """Say nothing yet."""
         self._html = gui.add_html('')
 
+    @property
+    def content(self) -> str:
+        """Return what is said, in HTML."""
+        return str(self._html.content)
+
     def say(self, *sentences: str) -> None:
         """Say something instead of what was said before."""
         lines = [line[:LONGEST_LINE] for line in sentences]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from joint_state_publisher_gui.core.board import Board
 from joint_state_publisher_gui.core.limbs import Limb
+from joint_state_publisher_gui.page.notice import Notice
 from joint_state_publisher_gui.page.slider_row import SliderRow
 from rviz_common.inputs import on_input, Post
 
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ['SliderRows']
 
+MOST_ROWS = 200
 OPEN_ROWS = 12
 """Groups are open at first as long as they have no more joints than this together."""
 
@@ -54,14 +56,26 @@ class SliderRows:
             with self._area:
                 for limb in found:
                     self._add(limb)
-                if not found:
-                    self._server.gui.add_markdown('No joint has this in its name.')
+                self._say_what_is_missing(sum(len(limb.joints) for limb in found))
+
+    def _say_what_is_missing(self, count: int) -> None:
+        """Say why there are no sliders, or not all that were found."""
+        notice = Notice(self._server.gui)
+        if not self._board.sliders:
+            notice.say('This robot has no joint that can be moved.')
+        elif not count:
+            notice.say('No joint has this in its name.')
+        elif count > len(self.rows):
+            notice.say(f'{len(self.rows)} of {count} joints are shown. Search for the others.')
 
     def _add(self, limb: Limb) -> None:
         """Add a group, which is open if it is not far down."""
+        names = limb.joints[: MOST_ROWS - len(self.rows)]
+        if not names:
+            return
         is_open = len(self.rows) + len(limb.joints) <= OPEN_ROWS
         gui = self._server.gui
         with gui.add_folder(f'{limb.title} ({len(limb.joints)})', expand_by_default=is_open):
-            for name in limb.joints:
+            for name in names:
                 slider = self._board.sliders[name]
                 self.rows.append(SliderRow(gui, self._post, slider, limb.label(name)))
