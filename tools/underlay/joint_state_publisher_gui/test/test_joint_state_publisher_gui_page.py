@@ -216,6 +216,9 @@ def test_silent_topics(probe: Probe, start: Start) -> None:
     says(probe, node, 'Nothing was heard on /commands so far: nobody publishes it.')
     says(probe, node, 'Nothing was heard on /robot_description so far: nobody publishes it.')
     says(probe, node, 'Waiting for robot_description')
+    describe(probe, node, URDF)
+    says(probe, node, 'bot: 2 joints')
+    assert not node.joint_page.warnings.content
 
 
 def test_robots_without_joints_and_with_many(probe: Probe, gui: JointStatePublisherGui) -> None:

@@ -53,6 +53,7 @@ class JointPage:
         with self._server.atomic():
             if self._folder is not None:
                 self._folder.remove()
+            self.warnings.say()
             self.notice.say(f'{board.robot}: {len(board.sliders)} joints')
             self._folder = gui.add_folder(None)
             with self._folder:
