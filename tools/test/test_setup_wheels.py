@@ -63,6 +63,8 @@ def test_cmake_files_name_the_python_at_hand(tmp_path: Path, packages: Path) -> 
         assert 'ENCODING UTF-8' in adapter.read_text()
         hook = packages / 'ros_wheels_bootstrapper.pth'
         assert '_ROS_WHEELS_BOOTSTRAP_COMPLETE' in hook.read_text()
+        xacro = (tmp_path / 'bin' / 'xacro').read_text()
+        assert xacro == 'import sys\nfrom xacro_program import main\nsys.exit(main())\n'
 
 
 def test_activation_sources_the_environment(tmp_path: Path, packages: Path) -> None:
@@ -91,6 +93,8 @@ def write_wheels(environment: Path, packages: Path) -> None:
     activate = environment / 'bin' / 'activate'
     activate.parent.mkdir()
     activate.write_text(f'VIRTUAL_ENV={environment}\n')
+    program = 'import sys\nfrom xacro import main\nsys.exit(main())\n'
+    (environment / 'bin' / 'xacro').write_text(program)
     generator = packages / 'rosidl_generator_py'
     generator.mkdir()
     (generator / 'generate_py_impl.py').write_text("print('loaded')\ngenerate_py = len\n")
