@@ -84,6 +84,7 @@ def _rewrite(path: Path, change: Callable[[str], str]) -> None:
         return
     new = path.with_name(path.name + '.new')
     new.write_text(changed, encoding='utf-8')
+    new.chmod(path.stat().st_mode)
     new.replace(path)
 
 
