@@ -7,6 +7,8 @@
 - Their start-up hook loads half of pathlib into every Python, and starts the small Python that
   reads colcon's set-up files a second time in an environment that the shell does not have.
 - Every program that imports a message loads the generator of messages, with a parser of IDL.
+- The program xacro says of an error neither the line nor, in some cases, anything but a traceback:
+  that of the underlay takes its place, and uses the module of the wheel.
 - bin/activate, which Python users source, knows nothing of the variables of ROS.
 """
 
@@ -60,6 +62,8 @@ def mend_wheels(environment: Path, include: str, site_packages: Path) -> None:
     _rewrite(hook, lambda text: START_UP_HOOK)
     generator = site_packages / 'rosidl_generator_py' / '__init__.py'
     _rewrite(generator, lambda text: GENERATOR_IMPORT.sub(GENERATOR_WHEN_NEEDED, text))
+    xacro = environment / 'bin' / 'xacro'
+    _rewrite(xacro, lambda text: text.replace('from xacro import', 'from xacro_program import'))
     activate = environment / 'bin' / 'activate'
     _rewrite(activate, lambda text: text if ACTIVATION in text else text + ACTIVATION)
     link_libraries(environment / 'lib', site_packages)
@@ -80,6 +84,7 @@ def _rewrite(path: Path, change: Callable[[str], str]) -> None:
         return
     new = path.with_name(path.name + '.new')
     new.write_text(changed, encoding='utf-8')
+    new.chmod(path.stat().st_mode)
     new.replace(path)
 
 

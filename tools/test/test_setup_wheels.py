@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 import subprocess
 import sys
@@ -63,6 +64,10 @@ def test_cmake_files_name_the_python_at_hand(tmp_path: Path, packages: Path) -> 
         assert 'ENCODING UTF-8' in adapter.read_text()
         hook = packages / 'ros_wheels_bootstrapper.pth'
         assert '_ROS_WHEELS_BOOTSTRAP_COMPLETE' in hook.read_text()
+        xacro = tmp_path / 'bin' / 'xacro'
+        program = 'import sys\nfrom xacro_program import main\nsys.exit(main())\n'
+        assert xacro.read_text() == program
+        assert os.access(xacro, os.X_OK)
 
 
 def test_activation_sources_the_environment(tmp_path: Path, packages: Path) -> None:
@@ -91,6 +96,10 @@ def write_wheels(environment: Path, packages: Path) -> None:
     activate = environment / 'bin' / 'activate'
     activate.parent.mkdir()
     activate.write_text(f'VIRTUAL_ENV={environment}\n')
+    program = 'import sys\nfrom xacro import main\nsys.exit(main())\n'
+    xacro = environment / 'bin' / 'xacro'
+    xacro.write_text(program)
+    xacro.chmod(0o755)
     generator = packages / 'rosidl_generator_py'
     generator.mkdir()
     (generator / 'generate_py_impl.py').write_text("print('loaded')\ngenerate_py = len\n")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from xml.parsers.expat import ExpatError
+import subprocess
 
 from humanoid_description.errors import DescriptionError
 from humanoid_description.files import share
@@ -25,19 +25,19 @@ def humanoid_urdf(scale: float = 1.0, prefix: str = '', upper_body_only: bool = 
 
 def expand(path: Path, arguments: Mapping[str, str]) -> str:
     """Return the URDF that a xacro file describes."""
-    import xacro
-
+    given = [f'{name}:={value}' for name, value in arguments.items()]
     try:
-        document = xacro.process_file(str(path), mappings=dict(arguments))
-    except (xacro.XacroException, ExpatError) as error:
-        reason = ' '.join(str(error).split()).rstrip('.')
-        raise DescriptionError(f'xacro cannot expand {_places()}: {reason}.') from error
-    text: str = document.toprettyxml(indent='  ')
-    return text
-
-
-def _places() -> str:
-    """Name the file in which xacro has stopped, and those that include it."""
-    import xacro
-
-    return ', included from '.join(map(str, reversed(xacro.filestack)))
+        result = subprocess.run(
+            ['xacro', str(path), *given],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            encoding='utf-8',
+        )
+    except FileNotFoundError as error:
+        raise DescriptionError(
+            f"{path} cannot be expanded: there is no program 'xacro' on PATH. Source the setup "
+            'file of ROS 2.'
+        ) from error
+    if result.returncode != 0:
+        raise DescriptionError(f'xacro cannot expand {path}:\n{result.stderr.strip()}')
+    return result.stdout

@@ -314,18 +314,21 @@ def test_nothing_to_check(
 @pytest.mark.parametrize(
     ('content', 'reason'),
     [
-        ('<robot name="a" xmlns:xacro="x">\n<link></robot>', 'mismatched tag: line 2, column 8.'),
+        ('<robot name="a" xmlns:xacro="x">\n<link></robot>', 'mismatched tag'),
         (
             '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">${b}</robot>',
-            "name 'b' is not defined when evaluating expression 'b'.",
+            "name 'b' is not defined",
         ),
     ],
 )
 def test_broken_xacro(
     content: str, reason: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """What xacro cannot expand is told with the file."""
+    """What xacro cannot expand is told in its words, which name the file."""
     path = tmp_path / 'broken.xacro'
     path.write_text(content)
     assert main([str(path)]) == 1
-    assert capsys.readouterr().err == f'xacro cannot expand {path}: {reason}\n'
+    first, *said = capsys.readouterr().err.splitlines()
+    assert first == f'xacro cannot expand {path}:'
+    assert reason in said[0]
+    assert 'Traceback' not in ''.join(said)

@@ -170,6 +170,28 @@ def test_command_failures(context: LaunchContext, command: str, mode: str, text:
         Command(command, on_stderr=mode).perform(context)
 
 
+@pytest.mark.parametrize('mode', ['fail', 'warn', 'capture'])
+def test_hints_of_a_command(
+    context: LaunchContext, mode: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A line `PROGRAM: hint: ...` is a warning, and neither a failure nor a result."""
+    command = Command("sh -c 'echo sh: hint: look >&2; echo out'", on_stderr=mode)
+    assert command.perform(context) == 'out\n'
+    out = capsys.readouterr().out
+    assert out == '[WARNING] [launch.substitutions.command]: sh: hint: look\n'
+
+
+def test_missing_file_is_told_once(context: LaunchContext) -> None:
+    """What the command itself says of a missing file is not said again."""
+    text = "the file '/nowhere' does not exist"
+    for said in (text, 'no'):
+        command = ['sh -c "echo \\"', said, '\\" >&2; exit 1" /nowhere']
+        with pytest.raises(SubstitutionFailure) as caught:
+            Command(command).perform(context)
+        lines = str(caught.value).splitlines()[1:]
+        assert sum(text in line for line in lines) == 1
+
+
 def test_python_expression(context: LaunchContext) -> None:
     """The members of math are known by name, other modules only when they are listed."""
     context.launch_configurations['n'] = '4'

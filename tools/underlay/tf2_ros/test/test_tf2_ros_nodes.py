@@ -8,6 +8,7 @@ import threading
 from typing import Any
 
 from rclpy.duration import Duration
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
@@ -132,6 +133,33 @@ def test_await_in_a_callback(make_node: NodeMaker, spin_until: Spin) -> None:
     timer = user.create_timer(0.01, look)
     spin_until(awaited, user)
     assert numbers(results[0])[2] == 4
+
+
+def test_await_what_another_thread_brings(make_node: NodeMaker) -> None:
+    """A callback that awaits a transform goes on when another thread fills the buffer."""
+    node, results = make_node('user'), threading.Event()
+    buffer = Buffer(node=node)
+    waits = threading.Event()
+
+    async def look() -> None:
+        timer.cancel()
+        waits.set()
+        await buffer.lookup_transform_async('awaited', 'camera', at(0))
+        results.set()
+
+    timer = node.create_timer(0.01, look)
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    thread = threading.Thread(target=executor.spin)
+    thread.start()
+    try:
+        assert waits.wait(20.0)
+        assert not results.wait(0.2)
+        buffer.set_transform_static(stamped('awaited', 'camera'), 'test')
+        assert results.wait(20.0)
+    finally:
+        executor.shutdown()
+        thread.join()
 
 
 def test_static_only(make_node: NodeMaker) -> None:

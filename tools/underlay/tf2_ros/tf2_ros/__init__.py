@@ -19,12 +19,15 @@ if TYPE_CHECKING:
     )
     from tf2_ros import (
         buffer,
+        buffer_client,
         buffer_interface,
+        buffer_server,
         static_transform_broadcaster,
         transform_broadcaster,
         transform_listener,
     )
     from tf2_ros.buffer import Buffer
+    from tf2_ros.buffer_client import BufferClient
     from tf2_ros.buffer_interface import (
         BufferInterface,
         convert,
@@ -34,14 +37,17 @@ if TYPE_CHECKING:
         TransformRegistration,
         TypeException,
     )
+    from tf2_ros.buffer_server import BufferServer
     from tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
     from tf2_ros.transform_broadcaster import TransformBroadcaster
     from tf2_ros.transform_listener import TransformListener
 
 __all__ = [
     'Buffer',
+    'BufferClient',
     'BufferCore',
     'BufferInterface',
+    'BufferServer',
     'ConnectivityException',
     'ConvertRegistration',
     'ExtrapolationException',
@@ -57,7 +63,9 @@ __all__ = [
     'TransformRegistration',
     'TypeException',
     'buffer',
+    'buffer_client',
     'buffer_interface',
+    'buffer_server',
     'convert',
     'static_transform_broadcaster',
     'transform_broadcaster',

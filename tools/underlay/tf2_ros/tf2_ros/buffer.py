@@ -226,8 +226,15 @@ class Buffer(BufferCore, BufferInterface):
 
     def _future(self, check: Check) -> Future:
         future = Future()
+        future.add_done_callback(self._wake)
         self._waiting.add(check, future)
         return future
+
+    def _wake(self, future: Future) -> None:
+        """Let callbacks go on that await a future; another thread may have filled the buffer."""
+        executor = self._node.executor if self._node else None
+        if executor is not None:
+            executor.wake()
 
     def _is_alive(self) -> bool:
         return self._node is None or bool(self._node.context.ok())

@@ -67,6 +67,8 @@ class Command(Substitution):
                 f'{", ".join(_MODES)}'
             )
         result = _run(command, merge=mode == 'capture')
+        if mode != 'ignore':
+            _show_hints(result)
         _judge(command, mode, result)
         return result.stdout
 
@@ -91,6 +93,20 @@ def _run(command: str, merge: bool) -> subprocess.CompletedProcess[str]:
         ) from error
 
 
+def _show_hints(result: subprocess.CompletedProcess[str]) -> None:
+    """Log the lines `PROGRAM: hint: ...`, which are advice to people, and take them out."""
+    stream = 'stdout' if result.stderr is None else 'stderr'
+    lines = getattr(result, stream).splitlines(keepends=True)
+    hints = [line for line in lines if line.split(' ', 2)[1:2] == ['hint:']]
+    if not hints:
+        return
+    from launch.logging import get_logger
+
+    for hint in hints:
+        get_logger('launch.substitutions.command').warning(hint.rstrip())
+    setattr(result, stream, ''.join(line for line in lines if line not in hints))
+
+
 def _judge(command: str, mode: str, result: subprocess.CompletedProcess[str]) -> None:
     """Raise or warn if the result is not what the mode asks for."""
     if result.returncode != 0:
@@ -98,7 +114,7 @@ def _judge(command: str, mode: str, result: subprocess.CompletedProcess[str]) ->
         raise SubstitutionFailure(
             f'executed command failed. Command: {command}'
             + _captured(said).rstrip()
-            + _advice(command)
+            + _advice(command, said)
         )
     if result.stderr and mode == 'fail':
         raise SubstitutionFailure(
@@ -116,11 +132,12 @@ def _captured(text: str) -> str:
     return f'\nCaptured stderr output: {text}' if text else ''
 
 
-def _advice(command: str) -> str:
-    """Return a line about the first path in a command that does not exist, or nothing."""
+def _advice(command: str, said: str) -> str:
+    """Return a line about the first path in a command that does not exist, or nothing new."""
     from launch._missing_file import explain_missing_file
 
     for word in shlex.split(command)[1:]:
         if word.startswith('/') and not os.path.exists(word):
-            return '\n' + explain_missing_file('file', word)
+            explanation = explain_missing_file('file', word)
+            return '' if explanation in said else f'\n{explanation}'
     return ''

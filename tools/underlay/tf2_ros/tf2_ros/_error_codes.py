@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Exceptions of tf2 as codes of messages, and back."""
+
+from __future__ import annotations
+
+from tf2_msgs.msg import TF2Error
+from tf2_py import (
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
+
+_CODES = {
+    LookupException: TF2Error.LOOKUP_ERROR,
+    ConnectivityException: TF2Error.CONNECTIVITY_ERROR,
+    ExtrapolationException: TF2Error.EXTRAPOLATION_ERROR,
+    InvalidArgumentException: TF2Error.INVALID_ARGUMENT_ERROR,
+    TimeoutException: TF2Error.TIMEOUT_ERROR,
+}
+
+
+def to_message(error: TransformException) -> TF2Error:
+    """Return the message that tells an exception."""
+    code = _CODES.get(type(error), TF2Error.TRANSFORM_ERROR)
+    return TF2Error(error=code, error_string=str(error))
+
+
+def raise_error(message: TF2Error) -> None:
+    """Raise the exception that a message tells, if it tells one."""
+    if message.error == TF2Error.NO_ERROR:
+        return
+    for kind, code in _CODES.items():
+        if code == message.error:
+            raise kind(message.error_string)
+    raise TransformException(message.error_string)

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ask another node, a buffer server, for transforms."""
+
+from __future__ import annotations
+
+import threading
+import time as wall_clock
+from typing import Any, TYPE_CHECKING
+
+from rclpy.action import ActionClient
+from rclpy.duration import Duration
+from rclpy.time import Time
+from tf2_msgs.action import LookupTransform
+from tf2_py import TimeoutException, TransformException
+from tf2_py._messages import nanoseconds
+from tf2_ros._error_codes import raise_error
+from tf2_ros.buffer_interface import BufferInterface
+
+if TYPE_CHECKING:
+    from geometry_msgs.msg import TransformStamped
+    from rclpy.node import Node
+    from rclpy.task import Future
+
+_SPIN = (
+    'The answer reaches a node only while it is spun: spin it in another thread than the one '
+    'that asks'
+)
+
+
+class BufferClient(BufferInterface):
+    """Has the look-ups of a Buffer, which another node answers; they block until then."""
+
+    def __init__(
+        self,
+        node: Node,
+        ns: str,
+        check_frequency: float = 10.0,
+        timeout_padding: Duration = Duration(seconds=2.0),
+    ) -> None:
+        """
+        Create a client.
+
+        :param node: the node that asks; another thread must spin it
+        :param ns: the name of the server's action; that of `buffer_server` is tf2_buffer_server
+        :param check_frequency: how often a second it is looked whether the server is there
+        :param timeout_padding: how much longer than its timeout a look-up may take
+        """
+        super().__init__()
+        self.node = node
+        self.action_client = ActionClient(node, LookupTransform, ns)
+        self.check_frequency = check_frequency
+        self.timeout_padding = timeout_padding
+        self._ns = ns
+
+    def lookup_transform(
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Time,
+        timeout: Duration = Duration(),
+    ) -> TransformStamped:
+        """
+        Return the transform that takes data from the source frame to the target frame.
+
+        :param target_frame: the frame of the result
+        :param source_frame: the frame of the data
+        :param time: when; 0 is the latest time at which all between the frames is known
+        :param timeout: how long the server waits for it
+        """
+        goal = _goal(target_frame, source_frame, time, timeout)
+        return self._answer(goal)
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = Duration(),
+    ) -> TransformStamped:
+        """
+        Return the transform from the source frame at one time to the target frame at another.
+
+        :param target_frame: the frame of the result
+        :param target_time: the time of the result
+        :param source_frame: the frame of the data
+        :param source_time: the time of the data
+        :param fixed_frame: the frame that does not move between the two times
+        :param timeout: how long the server waits for it
+        """
+        goal = _goal(target_frame, source_frame, source_time, timeout)
+        goal.target_time = _stamp(target_time)
+        goal.fixed_frame = fixed_frame
+        goal.advanced = True
+        return self._answer(goal)
+
+    def can_transform(
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Time,
+        timeout: Duration = Duration(),
+    ) -> bool:
+        """Return whether the look-up with these arguments succeeds."""
+        try:
+            self.lookup_transform(target_frame, source_frame, time, timeout)
+        except TransformException:
+            return False
+        return True
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = Duration(),
+    ) -> bool:
+        """Return whether the look-up with these arguments succeeds."""
+        try:
+            self.lookup_transform_full(
+                target_frame, target_time, source_frame, source_time, fixed_frame, timeout
+            )
+        except TransformException:
+            return False
+        return True
+
+    def _answer(self, goal: LookupTransform.Goal) -> TransformStamped:
+        """Return the server's answer to a goal."""
+        allowed_s = (nanoseconds(goal.timeout) + nanoseconds(self.timeout_padding)) / 1e9
+        end_s = wall_clock.monotonic() + allowed_s
+        self._wait_for_server(end_s, allowed_s)
+        accepted = self._wait(self.action_client.send_goal_async(goal), end_s, allowed_s)
+        answer = accepted.get_result_async()
+        try:
+            result = self._wait(answer, end_s, allowed_s).result
+        except TimeoutException:
+            accepted.cancel_goal_async()
+            raise
+        raise_error(result.error)
+        return result.transform
+
+    def _wait_for_server(self, end_s: float, allowed_s: float) -> None:
+        while not self.action_client.server_is_ready():
+            if wall_clock.monotonic() > end_s or not self.node.context.ok():
+                raise TimeoutException(
+                    f"No node has offered the action '{self._ns}' for {allowed_s:g} s. Start "
+                    "one, such as 'ros2 run tf2_ros buffer_server', or give its name as ns"
+                )
+            wall_clock.sleep(1.0 / self.check_frequency)
+
+    def _wait(self, future: Future, end_s: float, allowed_s: float) -> Any:
+        """Return the result of a future, which another thread provides."""
+        is_done = threading.Event()
+        future.add_done_callback(lambda _: is_done.set())
+        if not is_done.wait(max(0.0, end_s - wall_clock.monotonic())):
+            raise TimeoutException(
+                f"The server of the action '{self._ns}' has not answered within {allowed_s:g} s. "
+                + _SPIN
+            )
+        return future.result()
+
+
+def _goal(target: str, source: str, time: Time, timeout: Duration) -> LookupTransform.Goal:
+    goal = LookupTransform.Goal(target_frame=target, source_frame=source)
+    goal.source_time = _stamp(time)
+    goal.timeout = Duration(nanoseconds=nanoseconds(timeout)).to_msg()
+    return goal
+
+
+def _stamp(time: Any) -> Any:
+    return Time(nanoseconds=nanoseconds(time)).to_msg()

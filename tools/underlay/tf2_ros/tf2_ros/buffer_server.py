@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Look transforms up for other nodes: a class, and a program, `ros2 run tf2_ros buffer_server`."""
+
+from __future__ import annotations
+
+from functools import partial
+import sys
+from typing import Any, TYPE_CHECKING
+
+from tf2_ros.program import run_node
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rclpy.task import Future
+    from tf2_ros.buffer import Buffer
+
+_NAME = 'tf2_buffer_server'
+_CACHE_S = 120.0
+
+
+class BufferServer:
+    """Offers a buffer as an action, which each BufferClient asks instead of listening itself."""
+
+    def __init__(self, buffer: Buffer, node: Node, ns: str) -> None:
+        """
+        Offer the action.
+
+        :param buffer: what has the transforms
+        :param node: the node that offers the action
+        :param ns: the name of the action
+        """
+        from rclpy.action import ActionServer
+        from rclpy.callback_groups import ReentrantCallbackGroup
+        from tf2_msgs.action import LookupTransform
+
+        self._buffer = buffer
+        self._node = node
+        self._group = ReentrantCallbackGroup()
+        self._waits: dict[bytes, Future] = {}
+        self._result = LookupTransform.Result
+        self._server = ActionServer(
+            node,
+            LookupTransform,
+            ns,
+            self._execute,
+            cancel_callback=self._cancel,
+            callback_group=self._group,
+        )
+
+    def destroy(self) -> None:
+        """Offer the action no longer."""
+        self._server.destroy()
+
+    async def _execute(self, goal: Any) -> Any:
+        """Answer a goal: at once, as soon as the transform is known, or at the end of its time."""
+        from tf2_py import TransformException
+        from tf2_ros._error_codes import to_message
+
+        look_up, waiting = self._questions(goal.request)
+        await self._end_of(goal, waiting)
+        result = self._result()
+        if goal.is_cancel_requested:
+            goal.canceled()
+            return result
+        try:
+            result.transform = look_up()
+        except TransformException as error:
+            result.error = to_message(error)
+        goal.succeed()
+        return result
+
+    def _questions(self, request: Any) -> tuple[partial[Any], Future]:
+        """Return the look-up of a goal, and the future of its success."""
+        frames = (request.target_frame, request.source_frame)
+        if not request.advanced:
+            arguments: tuple[Any, ...] = (*frames, request.source_time)
+            waiting = self._buffer.wait_for_transform_async(*arguments)
+            return partial(self._buffer.lookup_transform_core, *arguments), waiting
+        target, source = frames
+        times = (request.target_time, request.source_time)
+        arguments = (target, times[0], source, times[1], request.fixed_frame)
+        waiting = self._buffer.wait_for_transform_full_async(*arguments)
+        return partial(self._buffer.lookup_transform_full_core, *arguments), waiting
+
+    async def _end_of(self, goal: Any, waiting: Future) -> None:
+        """Wait until a goal's transform is known, its time is over, or it is cancelled."""
+        from rclpy.clock import Clock, ClockType
+        from rclpy.task import Future
+        from tf2_py._messages import nanoseconds
+
+        timeout_s = nanoseconds(goal.request.timeout) / 1e9
+        if waiting.done() or timeout_s <= 0.0:
+            waiting.cancel()
+            return
+        executor = self._node.executor
+        end = self._waits[bytes(goal.goal_id.uuid)] = Future(executor=executor)
+        waiting.add_done_callback(end.set_result)
+        waiting.add_done_callback(lambda _: executor.wake())  # another thread may fill the buffer
+        timer = self._node.create_timer(
+            timeout_s,
+            lambda: end.set_result(None),
+            callback_group=self._group,
+            clock=Clock(clock_type=ClockType.STEADY_TIME),
+        )
+        await end
+        waiting.cancel()
+        self._node.destroy_timer(timer)
+        del self._waits[bytes(goal.goal_id.uuid)]
+
+    def _cancel(self, goal: Any) -> Any:
+        """Let a goal be cancelled."""
+        from rclpy.action import CancelResponse
+
+        wait = self._waits.get(bytes(goal.goal_id.uuid))
+        if wait is not None:
+            wait.set_result(None)
+        return CancelResponse.ACCEPT
+
+
+def make_node(words: list[str]) -> Node:
+    """Return the node of the program, which listens and offers its buffer."""
+    from rclpy.duration import Duration
+    from rclpy.node import Node
+    from tf2_ros.buffer import Buffer
+    from tf2_ros.transform_listener import TransformListener
+
+    if words:
+        raise ValueError(
+            f"buffer_server takes no arguments, but has been given '{' '.join(words)}'. Its "
+            'parameters are set so: --ros-args -p buffer_size:=120.0'
+        )
+    node = Node('tf_buffer')
+    cache_s = float(node.declare_parameter('buffer_size', _CACHE_S).value)
+    is_named_as_node = node.declare_parameter('use_node_namespace', False).value
+    buffer = Buffer(Duration(seconds=cache_s))
+    TransformListener(buffer, node)
+    BufferServer(buffer, node, node.get_name() if is_named_as_node else _NAME)
+    return node
+
+
+def main() -> int:
+    """Run the program."""
+    return run_node(make_node)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

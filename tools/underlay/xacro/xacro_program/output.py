@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Write the result, all or nothing."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import Optional
+
+
+def write_output(text: str, path: Optional[str]) -> None:
+    """Write to a file, whose folder is made if need be, or to the standard output."""
+    if path is None:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    elif os.path.exists(path) and not os.path.isfile(path):
+        _write(text, path)
+    else:
+        _replace(text, os.path.realpath(path))
+
+
+def _replace(text: str, path: str) -> None:
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    new = f'{path}.{os.getpid()}.new'
+    try:
+        _write(text, new)
+        if os.path.exists(path):
+            os.chmod(new, os.stat(path).st_mode)
+        os.replace(new, path)
+    finally:
+        if os.path.exists(new):
+            os.unlink(new)
+
+
+def _write(text: str, path: str) -> None:
+    with open(path, 'w', encoding='utf-8') as file:
+        file.write(text)
