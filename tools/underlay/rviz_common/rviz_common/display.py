@@ -50,9 +50,10 @@ class Display:
 
     def to_file(self) -> dict[str, Any]:
         """Return what the file is to have."""
-        written = self.values.to_file()
-        enabled = self.values['Enabled']
-        return {**written, 'Class': self.CLASS, 'Name': self.name, 'Value': enabled}
+        written = {**self.values.to_file(), 'Class': self.CLASS, 'Name': self.name}
+        if 'Enabled' in written:
+            written['Value'] = self.values['Enabled']
+        return written
 
     def start(self) -> None:
         """Begin to show it."""

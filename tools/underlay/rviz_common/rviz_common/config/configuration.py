@@ -14,13 +14,14 @@ from rviz_common.config.saving import replace_file
 from rviz_common.config.yaml_reading import read_yaml
 from rviz_common.config.yaml_writing import write_yaml
 
-__all__ = ['Configuration', 'DISPLAYS', 'MANAGER', 'OPTIONS', 'PANELS', 'TOOLS']
+__all__ = ['DISPLAYS', 'OPTIONS', 'PANELS', 'SAVED_VIEWS', 'TOOLS', 'VIEW', 'Configuration']
 
 MANAGER: Place = ('Visualization Manager',)
 DISPLAYS: Place = (*MANAGER, 'Displays')
 OPTIONS: Place = (*MANAGER, 'Global Options')
 TOOLS: Place = (*MANAGER, 'Tools')
-VIEWS: Place = (*MANAGER, 'Views')
+VIEW: Place = (*MANAGER, 'Views', 'Current')
+SAVED_VIEWS: Place = (*MANAGER, 'Views', 'Saved')
 PANELS: Place = ('Panels',)
 GROUP = 'rviz_common/Group'
 
@@ -38,8 +39,16 @@ class Configuration:
         self.panels = self._entries(PANELS, defaults['Panels'])
         self.tools = self._entries(TOOLS, defaults['Visualization Manager']['Tools'])
         self.options: dict[str, Any] = self._find(OPTIONS, dict) or {}
-        self.view: dict[str, Any] = self._find((*VIEWS, 'Current'), dict) or {}
-        self.saved_views = self._entries((*VIEWS, 'Saved'), [])
+        self.view: dict[str, Any] = self._find(VIEW, dict) or {}
+        self.saved_views = self._entries(SAVED_VIEWS, [])
+        self._given: dict[Place, Any] = {
+            DISPLAYS: self.displays,
+            PANELS: self.panels,
+            TOOLS: self.tools,
+            OPTIONS: self.options,
+            VIEW: self.view,
+            SAVED_VIEWS: self.saved_views,
+        }
 
     @classmethod
     def default(cls) -> Configuration:
@@ -67,10 +76,10 @@ class Configuration:
         return cls(document)
 
     def text(self, sections: Mapping[Place, Any]) -> str:
-        """Return the text of the file with sections as they are now, and all others kept."""
+        """Return the text of the file with sections as they are now; what is as it was is kept."""
         values = self.document.values
         for place, section in sections.items():
-            if section != self._at(place):
+            if section != self._given[place]:
                 values = _replaced(values, place, section)
         return write_yaml(values)
 

@@ -72,23 +72,25 @@ class _Reader:
             return self._mapping(node, place)
         if isinstance(node, yaml.SequenceNode):
             return [self.value(each, (*place, index)) for index, each in enumerate(node.value)]
-        return node.value if node.style else scalar_value(node.value)
+        is_quoted = bool(getattr(node, 'style', None))
+        return node.value if is_quoted else scalar_value(node.value)
 
     def _mapping(self, node: yaml.MappingNode, place: Place) -> dict[str, Any]:
         values: dict[str, Any] = {}
         for key, below in node.value:
             name, line = key.value, key.start_mark.line + 1
+            here = (*place, name)
             if not isinstance(key, yaml.ScalarNode):
                 raise ConfigError(self._source, line, 'A key must be a text, and not a tree.')
             if name in values:
-                first = self.lines[(*place, name)]
+                first = self.lines[here]
                 raise ConfigError(
                     self._source,
                     line,
                     f"'{name}' stands here and in line {first} already: remove one of them.",
                 )
-            values[name] = self.value(below, (*place, name))
-            self.lines[(*place, name)] = line
+            values[name] = self.value(below, here)
+            self.lines[here] = line
         return values
 
 
