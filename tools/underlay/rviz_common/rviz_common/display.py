@@ -36,7 +36,7 @@ class Display:
         given = given or {}
         self.context = context
         self.root = root
-        self.name = str(given.get('Name') or self.CLASS.partition('/')[2])
+        self.name = self._first_name = str(given.get('Name') or self.CLASS.partition('/')[2])
         enabled = Flag('Enabled', True, 'Whether it is shown.')
         self.values = Values((enabled, *self.PROPERTIES), given)
         self.status = Statuses()
@@ -50,7 +50,9 @@ class Display:
 
     def to_file(self) -> dict[str, Any]:
         """Return what the file is to have."""
-        written = {**self.values.to_file(), 'Class': self.CLASS, 'Name': self.name}
+        written = self.values.to_file()
+        if 'Class' not in written or self.name != self._first_name:
+            written.update({'Class': self.CLASS, 'Name': self.name})
         if 'Enabled' in written:
             written['Value'] = self.values['Enabled']
         return written

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from rviz_common.context import Context
 from rviz_common.plugins import DISPLAYS, load_plugin, plugin_names
-from rviz_common.properties import Topic
+from rviz_common.properties import Topic, topic_path
 
 __all__ = ['AddDisplay']
 
@@ -57,7 +57,10 @@ def topics_for(context: Context, class_name: str) -> list[str]:
         properties = load_plugin(DISPLAYS, class_name).PROPERTIES
     except (LookupError, ImportError):
         return []
-    types = {each.type_name for each in properties if isinstance(each, Topic)}
+    path = topic_path(properties)
+    types = {
+        each.type_name for each in properties if isinstance(each, Topic) and each.path == path
+    }
     return sorted(
         topic for topic, names in context.node.get_topic_names_and_types() if types & set(names)
     )

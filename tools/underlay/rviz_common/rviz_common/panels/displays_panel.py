@@ -9,7 +9,6 @@ from rviz_common.panel import Panel
 from rviz_common.panels.add_display import AddDisplay
 from rviz_common.panels.entry_folder import EntryFolder
 from rviz_common.panels.file_folder import FileFolder
-from rviz_common.panels.marks import status_text
 from rviz_common.panels.pace import Pace
 from rviz_common.panels.property_editor import PropertyEditor
 from rviz_common.visualizer.entry import Entry
@@ -36,7 +35,6 @@ class DisplaysPanel(Panel):
             self._options = PropertyEditor(
                 self.context, self._visualizer.options, self._visualizer.set_option
             )
-        self._status = gui.add_markdown('')
         self._add = AddDisplay(self.context)
         self._tree = gui.add_folder(None)
         self._folders: dict[Entry, EntryFolder] = {}
@@ -54,9 +52,6 @@ class DisplaysPanel(Panel):
             self._say()
 
     def _say(self) -> None:
-        text = status_text(self._visualizer.status)
-        if text != self._status.content:
-            self._status.content = text
         frames = tuple(sorted({self._fixed_frame(), *self._visualizer.watch.names()}))
         if frames != self._frames.options:
             self._frames.options = frames

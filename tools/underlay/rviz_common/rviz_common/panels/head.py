@@ -74,7 +74,9 @@ class Head:
             for subject, level, sentence in visualizer.status.items()
             if level
         ]
-        bad = [each for each in visualizer.displays.walk() if each.is_enabled and each.level]
+        bad = [
+            each for each in visualizer.displays.walk() if each.is_enabled and each.status.level
+        ]
         for level in (Level.ERROR, Level.WARN):
             names = [escaped(each.name) for each in bad if each.level is level]
             if names:

@@ -9,7 +9,7 @@ from rviz_common.status import Level, Statuses
 
 __all__ = ['MARKS', 'escaped', 'status_text']
 
-MARKS = {Level.OK: '✅', Level.WARN: '⚠️', Level.ERROR: '❌'}
+MARKS = {Level.OK: '✔', Level.WARN: '⚠', Level.ERROR: '✖'}
 SPECIAL = re.compile(r'([\\`*_{}\[\]<>#|~])')
 LONGEST = 500
 

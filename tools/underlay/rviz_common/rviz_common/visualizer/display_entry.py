@@ -92,9 +92,13 @@ class DisplayEntry(Entry):
         self._is_running = False
         with suppress(Exception):  # what has failed may not be able to stop either
             self.display.stop()
+        with suppress(KeyError):
+            self.display.context.scene.remove_by_name(self.display.root)
         reason = f'{type(error).__name__}: {error}'
         self.status.say(
-            'Display', Level.ERROR, f'It has been stopped by an error ({reason}). Enable it again.'
+            'Display',
+            Level.ERROR,
+            f'It has been stopped by an error ({reason}). Disable and enable it to try again.',
         )
         self.display.context.node.get_logger().error(
             f"Display '{self.name}' ({self.class_name}) has been stopped: {_where(error)}{reason}"

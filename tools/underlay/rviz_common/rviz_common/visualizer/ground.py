@@ -37,24 +37,27 @@ class Ground:
         self._click = click
         self._drag = drag
         self._plane: Any = None
+        self._scene: Any = context.scene
 
     def watch(self, is_wanted: bool) -> None:
         """Begin or cease to say where the pointer is."""
         if is_wanted and self._plane is None:
             self._plane = self._add()
+            # Not of the plane: what can be clicked is painted over where the pointer is.
+            self._scene.on_click()(self._on_click)
         elif not is_wanted and self._plane is not None:
+            self._scene.remove_click_callback(self._on_click)
             self._plane.remove()
             self._plane = None
 
     def _add(self) -> Any:
-        plane = self._context.scene.add_box(
+        plane = self._scene.add_box(
             f'{WORLD}/ground',
             dimensions=(SIZE_M, SIZE_M, THICKNESS_M),
             opacity=0.0,
             cast_shadow=False,
             receive_shadow=False,
         )
-        plane.on_click(self._on_click)
         plane.on_drag('left')(self._on_drag)
         return plane
 

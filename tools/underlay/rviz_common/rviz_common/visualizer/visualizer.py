@@ -24,7 +24,7 @@ from rviz_common.frames import Frames
 from rviz_common.panels.head import Head
 from rviz_common.panels.pace import Pace
 from rviz_common.panels.panel_tabs import PanelTabs
-from rviz_common.properties import Values
+from rviz_common.properties import topic_path, Values
 from rviz_common.status import Statuses
 from rviz_common.views import View
 from rviz_common.visualizer.cameras import Cameras, WORLD
@@ -104,8 +104,9 @@ class Visualizer:
     def add(self, class_name: str, topic: str = '') -> Entry:
         """Add a display of a class with its defaults, or raise LookupError."""
         entry = self._maker.new(class_name)
-        if topic:
-            entry.display.values['Topic/Value'] = topic
+        path = topic_path(entry.display.PROPERTIES)
+        if topic and path:
+            entry.display.values[path] = topic
         self.displays.add(entry)
         self.revision += 1
         return entry
