@@ -55,7 +55,7 @@ class Frames:
         try:
             found = self.buffer.lookup_transform(target, source, Time(nanoseconds=stamp_ns))
         except TransformException as error:
-            raise FrameError(str(error)) from error
+            raise FrameError(f'No transform from [{source}] to [{target}]: {error}') from error
         at, turn = found.transform.translation, found.transform.rotation
         return Pose((at.x, at.y, at.z), (turn.w, turn.x, turn.y, turn.z))
 

@@ -47,8 +47,8 @@ class Parts:
         return bool(self._setting(name, AXES, AXES.default))
 
     def to_file(self) -> dict[str, Any]:
-        """Return what the file is to have."""
-        return self._given
+        """Return what the file is to have of the parts."""
+        return {name: each for name, each in self._given.items() if isinstance(each, dict)}
 
     def _setting(self, name: str, setting: Property, default: Any) -> Any:
         settings = self._given.get(name)
