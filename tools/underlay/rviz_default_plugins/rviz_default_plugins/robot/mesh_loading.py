@@ -14,7 +14,7 @@ from urdf import Color
 
 __all__ = ['MAX_BYTES', 'MAX_TRIANGLES', 'load_mesh']
 
-MAX_BYTES = 200_000_000
+MAX_BYTES = 100_000_000
 MAX_TRIANGLES = 200_000
 
 

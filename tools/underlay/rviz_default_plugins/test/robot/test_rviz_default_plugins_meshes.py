@@ -153,7 +153,7 @@ def test_huge_file(tmp_path: Path) -> None:
     path = tmp_path / 'huge.stl'
     with path.open('wb') as stream:
         stream.truncate(mesh_loading.MAX_BYTES + 1)
-    with pytest.raises(MeshError, match='at most 200 MB'):
+    with pytest.raises(MeshError, match='at most 100 MB'):
         load_mesh(path, 'huge')
 
 

@@ -286,6 +286,19 @@ def test_huge_robot(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
     assert stage.node_at('/display_0/l/visual_5') is None
 
 
+def test_too_many_links(stage: Stage) -> None:
+    """A robot of more links than a browser can move is refused with both numbers."""
+    links = ''.join(f'<link name="l{number}"/>' for number in range(2002))
+    joints = ''.join(
+        f'<joint name="j{number}" type="fixed"><parent link="l0"/><child link="l{number}"/></joint>'
+        for number in range(1, 2002)
+    )
+    display = stage.show(RobotModel)
+    stage.describe(f'<robot name="r">{links}{joints}</robot>')
+    display.update()
+    assert '2002 links are too many: at most 2000' in sentence(display, 'URDF')
+
+
 def test_names_with_slashes(stage: Stage) -> None:
     """A link whose name has slashes is one node."""
     stage.show(RobotModel)
