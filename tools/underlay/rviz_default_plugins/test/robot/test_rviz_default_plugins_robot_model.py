@@ -290,7 +290,8 @@ def test_too_many_links(stage: Stage) -> None:
     """A robot of more links than a browser can move is refused with both numbers."""
     links = ''.join(f'<link name="l{number}"/>' for number in range(2002))
     joints = ''.join(
-        f'<joint name="j{number}" type="fixed"><parent link="l0"/><child link="l{number}"/></joint>'
+        f'<joint name="j{number}" type="fixed"><parent link="l0"/>'
+        f'<child link="l{number}"/></joint>'
         for number in range(1, 2002)
     )
     display = stage.show(RobotModel)
