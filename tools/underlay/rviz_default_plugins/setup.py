@@ -25,6 +25,10 @@ setup(
     entry_points={
         'rviz_common.displays': [
             'rviz_default_plugins/Axes = rviz_default_plugins.displays.axes:Axes',
+            'rviz_default_plugins/Grid = rviz_default_plugins.displays.grid:Grid',
+            'rviz_default_plugins/RobotModel = '
+            'rviz_default_plugins.displays.robot_model:RobotModel',
+            'rviz_default_plugins/TF = rviz_default_plugins.displays.tf:TF',
         ],
     },
 )

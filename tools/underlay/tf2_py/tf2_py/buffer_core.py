@@ -170,6 +170,17 @@ class BufferCore:
         with self._lock:
             return self._store.names()
 
+    def _latest_sample(self, frame: str) -> Optional[Sample]:
+        """Return the newest that is known of a frame; one that does not move has time 0."""
+        with self._lock:
+            return self._store.latest(frame)
+
+    def _latest_samples(self) -> dict[str, Sample]:
+        """Return the newest that is known of each frame that has a parent."""
+        with self._lock:
+            latest = {frame: cache.latest() for frame, cache in self._store.known()}
+        return {frame: sample for frame, sample in latest.items() if sample is not None}
+
     def _chain(
         self,
         target_frame: str,
