@@ -38,7 +38,8 @@ class Scale:
         if self.is_rainbow:
             return rainbow(parts if self.is_inverted else 1.0 - parts)
         low, high = (np.asarray(end, dtype=np.float64) for end in self.colors)
-        return (low + parts[:, None] * (high - low)).round().astype(np.uint8)
+        colors: Colors = (low + parts[:, None] * (high - low)).round().astype(np.uint8)
+        return colors
 
     def _parts(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return where from 0 to 1 the values are between the limits."""
@@ -62,7 +63,8 @@ class Scale:
 def rainbow(parts: NDArray[np.float64]) -> Colors:
     """Return colours from magenta at 0 to red at 1."""
     channels = [np.interp(parts, _STOPS, stops) for stops in (_RED, _GREEN, _BLUE)]
-    return (np.stack(channels, axis=-1) * 255.0).round().astype(np.uint8)
+    colors: Colors = (np.stack(channels, axis=-1) * 255.0).round().astype(np.uint8)
+    return colors
 
 
 def colors_rgb8(cloud: Cloud) -> Colors | None:
@@ -80,4 +82,5 @@ def colors_rgbf32(cloud: Cloud) -> Colors | None:
     if not all(name in cloud.channels for name in 'rgb'):
         return None
     parts = np.stack([cloud.channels[name].astype(np.float64) for name in 'rgb'], axis=1)
-    return (np.clip(np.nan_to_num(parts), 0.0, 1.0) * 255.0).round().astype(np.uint8)
+    colors: Colors = (np.clip(np.nan_to_num(parts), 0.0, 1.0) * 255.0).round().astype(np.uint8)
+    return colors

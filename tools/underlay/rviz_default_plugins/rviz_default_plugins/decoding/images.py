@@ -13,6 +13,8 @@ from rviz_default_plugins.decoding.pixels import Layout, layout_of, raw_pixels
 
 __all__ = ['MOST_PIXELS', 'Picture', 'decode_image', 'step_for']
 
+Bytes = NDArray[np.uint8]
+
 MOST_PIXELS = 1_300_000
 """How many pixels of a picture are shown; greater ones are made smaller."""
 
@@ -20,7 +22,7 @@ MOST_PIXELS = 1_300_000
 class Picture(NamedTuple):
     """Rows of pixels of red, green and blue; each stands for `step` in both directions."""
 
-    pixels: NDArray[np.uint8]
+    pixels: Bytes
     step: int = 1
 
 
@@ -41,7 +43,7 @@ def decode_image(message: Any, brightness: Brightness) -> Picture:
     return Picture(_from_colors(raw[::step, ::step], layout, brightness), step)
 
 
-def _from_colors(raw: NDArray[Any], layout: Layout, brightness: Brightness) -> NDArray[np.uint8]:
+def _from_colors(raw: NDArray[Any], layout: Layout, brightness: Brightness) -> Bytes:
     if layout.order == 'mono':
         gray = raw[:, :, 0]
         # What has eight bits is bright as it is; depths and the like have no such range.
@@ -51,13 +53,14 @@ def _from_colors(raw: NDArray[Any], layout: Layout, brightness: Brightness) -> N
     return colors[:, :, 2::-1] if layout.order.startswith('bgr') else colors[:, :, :3]
 
 
-def _eight_bits(raw: NDArray[Any]) -> NDArray[np.uint8]:
+def _eight_bits(raw: NDArray[Any]) -> Bytes:
     """Return numbers of any type as bytes."""
     if raw.dtype.kind == 'f':
-        return (np.clip(np.nan_to_num(raw), 0.0, 1.0) * 255.0).astype(np.uint8)
-    if raw.dtype.itemsize == 1:
-        return np.maximum(raw, 0).astype(np.uint8)
-    return (np.maximum(raw, 0) >> 8 * (raw.dtype.itemsize - 1)).astype(np.uint8)
+        shown = np.clip(np.nan_to_num(raw), 0.0, 1.0) * 255.0
+    else:
+        shown = np.maximum(raw, 0) >> 8 * (raw.dtype.itemsize - 1)
+    small: Bytes = shown.astype(np.uint8)
+    return small
 
 
 def _from_bayer(raw: NDArray[Any], layout: Layout, step: int) -> Picture:
@@ -74,7 +77,7 @@ def _from_bayer(raw: NDArray[Any], layout: Layout, step: int) -> Picture:
     return Picture(np.stack([red, green.astype(np.uint8), blue], axis=2), 2 * half)
 
 
-def _from_yuv(raw: NDArray[np.uint8], order: str) -> NDArray[np.uint8]:
+def _from_yuv(raw: Bytes, order: str) -> Bytes:
     """Return colours of pixels that share theirs by twos (BT.601, as cameras have it)."""
     width = raw.shape[1] // 2 * 2
     if not width:
@@ -86,4 +89,5 @@ def _from_yuv(raw: NDArray[np.uint8], order: str) -> NDArray[np.uint8]:
     red = 1.164 * y + 1.596 * v
     green = 1.164 * y - 0.392 * u - 0.813 * v
     blue = 1.164 * y + 2.017 * u
-    return np.clip(np.stack([red, green, blue], axis=2), 0, 255).round().astype(np.uint8)
+    colors: Bytes = np.clip(np.stack([red, green, blue], axis=2), 0, 255).round().astype(np.uint8)
+    return colors

@@ -64,7 +64,8 @@ def paint(cells: Cells, scheme: str, alpha: float) -> NDArray[np.uint8]:
     """Return the picture of a map with red, green, blue and alpha, the smallest y first."""
     palette = _palette(scheme).copy()
     palette[:, 3] = (palette[:, 3] * alpha).round()
-    return palette[np.ascontiguousarray(cells).view(np.uint8)]
+    picture: Palette = palette[np.ascontiguousarray(cells).view(np.uint8)]
+    return picture
 
 
 def _rows(data: Any, width: int, height: int) -> Cells:

@@ -67,7 +67,10 @@ def raw_pixels(message: Any, layout: Layout) -> NDArray[Any]:
             f'{step * height}.'
         )
     strides = (step, pixel, layout.kind.itemsize)
-    return np.ndarray((height, width, layout.channels), layout.kind, data, strides=strides)
+    pixels: NDArray[Any] = np.ndarray(
+        (height, width, layout.channels), layout.kind, data, strides=strides
+    )
+    return pixels
 
 
 def _unknown(encoding: str) -> ValueError:

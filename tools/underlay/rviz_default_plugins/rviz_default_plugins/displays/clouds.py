@@ -129,7 +129,8 @@ class CloudDisplay(HistoryDisplay):
         if not self.values['Use Fixed Frame']:
             return cloud.points[:, axis]
         turned: NDArray[np.float32] = rotated(cloud.points, pose.wxyz)
-        return turned[:, axis] + np.float32(pose.position[axis])
+        heights: NDArray[np.float32] = turned[:, axis] + np.float32(pose.position[axis])
+        return heights
 
     def _axis_scale(self) -> Scale:
         if self.values[f'{BOUNDS}/Value']:

@@ -66,7 +66,8 @@ class ImageTopicDisplay(TopicDisplay):
 
     def message_type(self, topic: str) -> type:
         """Return the type of the messages of the topic."""
-        return CompressedImage if topic.endswith('/compressed') else Image
+        kind: type = CompressedImage if topic.endswith('/compressed') else Image
+        return kind
 
     def take(self, message: Any) -> None:
         """Keep the newest picture."""

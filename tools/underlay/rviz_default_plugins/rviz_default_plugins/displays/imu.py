@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from rviz_common.frames import Pose
 from rviz_common.message_display import MessageDisplay
 from rviz_common.properties import ColorOf, Flag, Number, topic_properties
@@ -12,7 +13,6 @@ from rviz_common.status import Level
 from rviz_default_plugins.decoding.geometry import position, Quaternion, rotated, rotation
 from rviz_default_plugins.drawing.bodies import add_arrow_to, opacity_of
 from rviz_default_plugins.drawing.drawn import Drawn
-import numpy as np
 from sensor_msgs.msg import Imu as ImuMessage
 
 __all__ = ['Imu']

@@ -30,7 +30,9 @@ class Path(HistoryDisplay):
         Choice('Line Style', 'Lines', 'Billboards have a width.', ('Lines', 'Billboards')),
         Number('Line Width', 0.03, 'Width of billboards, in metres.', 0.001),
         ColorOf('Color', (25, 255, 0), 'Colour of the line.'),
-        Number('Alpha', 1.0, '0 hides the line; between, a browser makes no difference.', 0.0, 1.0),
+        Number(
+            'Alpha', 1.0, '0 hides the line; between, a browser makes no difference.', 0.0, 1.0
+        ),
         Whole('Buffer Length', 1, 'How many paths are shown at once.', 1, 100),
         Vector('Offset', (0.0, 0.0, 0.0), 'How far from its place the path is shown.'),
         Choice('Pose Style', 'None', 'What shows the poses.', ('None', 'Axes', 'Arrows')),

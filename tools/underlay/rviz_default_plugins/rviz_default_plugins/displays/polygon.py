@@ -24,7 +24,9 @@ class Polygon(MessageDisplay):
     PROPERTIES = (
         *topic_properties('geometry_msgs/msg/PolygonStamped', '/polygon'),
         ColorOf('Color', (25, 255, 0), 'Colour of the line.'),
-        Number('Alpha', 1.0, '0 hides the line; between, a browser makes no difference.', 0.0, 1.0),
+        Number(
+            'Alpha', 1.0, '0 hides the line; between, a browser makes no difference.', 0.0, 1.0
+        ),
     )
 
     def start(self) -> None:

@@ -39,4 +39,6 @@ class PoseWithCovariance(MessageDisplay):
         """Draw the pose and the ellipsoid."""
         scene, pose = self.context.scene, message.pose
         around = add_covariance(scene, self.root, pose, self.values)
-        self._drawn.replace([*around, *add_pose(scene, self.root, pose.pose, self.values, 'Shape')])
+        self._drawn.replace(
+            [*around, *add_pose(scene, self.root, pose.pose, self.values, 'Shape')]
+        )

@@ -52,6 +52,4 @@ def _length(message: Any) -> float:
         return float(message.min_range) if message.range < 0.0 else 0.0
     if math.isnan(message.range):
         raise ValueError('its range is no number.')
-    return (
-        float(message.range) if message.min_range <= message.range <= message.max_range else 0.0
-    )
+    return float(message.range) if message.min_range <= message.range <= message.max_range else 0.0

@@ -32,9 +32,7 @@ class TwistStamped(VectorsDisplay):
 
     def draw(self, place: str, message: Any, pose: Pose) -> None:
         """Draw both arrows."""
-        self.draw_pair(
-            place, message.twist.linear, message.twist.angular, ('Linear', 'Angular')
-        )
+        self.draw_pair(place, message.twist.linear, message.twist.angular, ('Linear', 'Angular'))
 
     def smallest(self) -> float:
         """Return how long a vector is that is not drawn."""

@@ -57,4 +57,3 @@ class VectorsDisplay(HistoryDisplay):
         segments = np.stack([points[:-1], points[1:]], axis=1)
         line = add_lines(self.context.scene, name, segments, paint[0])
         line.wxyz = along_x(vector)
-
