@@ -21,7 +21,7 @@ class Surface(NamedTuple):
 
 
 def revolved(profile: Sequence[tuple[float, float]], segments: int = 12) -> Surface:
-    """Return what a line of x and radius becomes that is turned around the x axis."""
+    """Return what a line of x and radius, upwards in x, becomes turned around the x axis."""
     turns = np.linspace(0.0, 2.0 * np.pi, segments, endpoint=False)
     rings = [
         np.stack([np.full(segments, x), radius * np.cos(turns), radius * np.sin(turns)], axis=1)
@@ -34,9 +34,8 @@ def revolved(profile: Sequence[tuple[float, float]], segments: int = 12) -> Surf
         low, high = ring * segments, (ring + 1) * segments
         faces.append(np.stack([low + here, low + beside, high + here], axis=1))
         faces.append(np.stack([low + beside, high + beside, high + here], axis=1))
-    # The rings run against the clock seen from +x, so these faces look inwards.
     return Surface(
-        np.concatenate(rings).astype(np.float32), np.concatenate(faces).astype(np.uint32)[:, ::-1]
+        np.concatenate(rings).astype(np.float32), np.concatenate(faces).astype(np.uint32)
     )
 
 
