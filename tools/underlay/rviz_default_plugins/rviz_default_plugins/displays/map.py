@@ -63,6 +63,11 @@ class Map(MessageDisplay):
         elif self.values['Topic/Value']:
             self.subscribe(kind, topic, self._take_update, 'Update Topic')
 
+    def take(self, message: Any) -> None:
+        """Keep the newest map; updates from before are of another one."""
+        super().take(message)
+        self._updates.clear()
+
     def update(self) -> None:
         """Show the newest map, changed as the updates say, and follow its frame."""
         if self._updates and self._of is self._newest and self._cells is not None:

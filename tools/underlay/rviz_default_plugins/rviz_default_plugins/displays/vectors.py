@@ -27,7 +27,7 @@ class VectorsDisplay(HistoryDisplay):
         """Draw both; the names are those of the properties of each."""
         for name, vector, is_turning in ((names[0], straight, False), (names[1], turning, True)):
             scale = self.values[f'{name} Arrow Scale']
-            x, y, z = position(vector, name.lower())
+            x, y, z = position(vector, f'{name.lower()} vector')
             scaled = (x * scale, y * scale, z * scale)
             if math.hypot(x, y, z) <= self.smallest():
                 continue
