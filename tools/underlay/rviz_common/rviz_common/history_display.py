@@ -98,12 +98,13 @@ class HistoryDisplay(TopicDisplay):
             except FrameError as error:
                 still.append(waiting)
                 reason = str(error)
-        self._waiting = deque(still[-self.PATIENCE :])
+        self._waiting = deque(still, maxlen=self.PATIENCE)
         if reason:
             self.status.say('Transform', Level.ERROR, reason)
         else:
             self.status.forget('Transform')
-        for waiting, pose in ready if self.decay_s() else ready[-self.keep() :]:
+        newest = -len(ready) if self.decay_s() else -self.keep()
+        for waiting, pose in ready[newest:]:
             self._draw(waiting, pose)
 
     def _draw(self, waiting: Waiting, pose: Pose) -> None:

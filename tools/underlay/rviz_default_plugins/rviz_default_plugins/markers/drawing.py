@@ -29,9 +29,9 @@ HEAD = 0.23
 
 def draw_look(scene: Any, place: str, look: Look) -> None:
     """Draw a marker below a path, or raise ValueError with the reason why that cannot be."""
-    draw = DRAWINGS.get(look.type)
+    draw = DRAWINGS.get(look.kind)
     if draw is None:
-        raise ValueError(f'its type {look.type} is not known.')
+        raise ValueError(f'its type {look.kind} is not known.')
     _check_scale(look)
     if look.alpha or look.colors is not None:
         draw(scene, f'{place}/marker', look)
@@ -39,8 +39,8 @@ def draw_look(scene: Any, place: str, look: Look) -> None:
 
 def _check_scale(look: Look) -> None:
     """Refuse a scale that leaves nothing to be seen."""
-    names = SCALES.get(look.type, 'xyz')
-    if look.type == Marker.ARROW and len(look.points):
+    names = SCALES.get(look.kind, 'xyz')
+    if look.kind == Marker.ARROW and len(look.points):
         names = 'xy'
     for name, part in zip('xyz', look.scale):
         if name in names and part <= 0.0:

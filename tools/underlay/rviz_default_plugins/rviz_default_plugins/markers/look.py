@@ -32,7 +32,7 @@ class Look:
     worth knowing of it is said by `note`.
     """
 
-    type: int
+    kind: int
     scale: Triple
     color: tuple[int, int, int]
     alpha: float
@@ -48,7 +48,7 @@ class Look:
         return other is not None and self._parts() == other._parts() and self._same_points(other)
 
     def _parts(self) -> tuple[Any, ...]:
-        return self.type, self.scale, self.color, self.alpha, self.text, self.mesh
+        return self.kind, self.scale, self.color, self.alpha, self.text, self.mesh
 
     def _same_points(self, other: Look) -> bool:
         return (

@@ -77,7 +77,7 @@ class MarkerScene:
             shown = ShownMarker(self._scene, f'{self._root}/{self._serial}')
             self._shown[key] = shown
             self._left_out.discard(key)
-        shown.set(coming)
+        shown.change(coming)
 
     def _remove(self, key: Key) -> None:
         self._left_out.discard(key)

@@ -45,7 +45,7 @@ class ShownMarker:
         self.stamp_ns = 0
         self.is_locked = False
 
-    def set(self, coming: Coming) -> None:
+    def change(self, coming: Coming) -> None:
         """Look as a message says; a wrong one leaves nothing to be seen."""
         marker = coming.marker
         self.note = self.problem = ''
