@@ -3,17 +3,16 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any
 
-from rviz_common.display import Display
 from rviz_common.frames import FrameError, Pose
-from rviz_common.properties import qos_of
 from rviz_common.status import Level
+from rviz_common.topic_display import TopicDisplay
 
 __all__ = ['MessageDisplay']
 
 
-class MessageDisplay(Display):
+class MessageDisplay(TopicDisplay):
     """
     A display of the newest message of a topic.
 
@@ -21,36 +20,17 @@ class MessageDisplay(Display):
     draws belongs below `root`, which has the pose of the message's frame.
     """
 
-    MESSAGE: ClassVar[type]
-
     def start(self) -> None:
         """Subscribe the topic."""
-        self._frame = self.context.scene.add_frame(self.root, show_axes=False)
         self._pose = Pose()
         self._newest: Any = None
         self._shown: Any = None
-        self.received = 0
-        self._subscription: Any = None
-        topic = self.values['Topic/Value']
-        if not topic:
-            self.status.say('Topic', Level.WARN, 'No topic is chosen.')
-            return
-        try:
-            self._subscription = self.context.node.create_subscription(
-                self.MESSAGE, topic, self._take, qos_of(self.values)
-            )
-        except Exception as error:  # rclpy has no one exception for bad names
-            self.status.say('Topic', Level.ERROR, f"'{topic}' cannot be subscribed: {error}")
-            return
-        self.status.say('Topic', Level.WARN, f'No message has come on {topic} yet.')
+        super().start()
 
     def stop(self) -> None:
         """Subscribe no longer, and remove what was drawn."""
-        if self._subscription is not None:
-            self.context.node.destroy_subscription(self._subscription)
-        self._subscription = self._newest = self._shown = None
-        self._frame.remove()
-        self.status.clear()
+        super().stop()
+        self._newest = self._shown = None
 
     def update(self) -> None:
         """Show the newest message, and follow its frame."""
@@ -66,24 +46,30 @@ class MessageDisplay(Display):
         """Draw a message, or raise ValueError with the reason why it cannot be drawn."""
         raise NotImplementedError
 
-    def _take(self, message: Any) -> None:
+    def placed(self, pose: Pose) -> Pose:
+        """Return the pose of what is drawn, where that of the message's frame is given."""
+        return pose
+
+    def take(self, message: Any) -> None:
+        """Keep the newest message."""
         self._newest = message
-        self.received += 1
+
+    def redraw(self) -> None:
+        """Show the newest message again."""
+        self._shown = None
 
     def _show(self, message: Any) -> None:
-        topic = self.values['Topic/Value']
         try:
             self.show(message)
         except ValueError as error:
-            self.status.say('Message', Level.ERROR, f'A message of {topic} is left out: {error}')
+            self.say_left_out(error)
             return
-        self.status.forget('Message')
-        self.status.say('Topic', Level.OK, f'{self.received} messages have come on {topic}.')
+        self.say_shown()
 
     def _follow(self, header: Any) -> None:
         """Move what is drawn to where the frame of the message is."""
         try:
-            pose = self.context.frames.pose(header.frame_id)
+            pose = self.placed(self.context.frames.pose(header.frame_id))
         except FrameError as error:
             self.status.say('Transform', Level.ERROR, str(error))
             self._frame.visible = False

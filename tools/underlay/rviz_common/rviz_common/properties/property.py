@@ -11,6 +11,7 @@ __all__ = [
     'Choice',
     'ColorOf',
     'Flag',
+    'Flags',
     'Frame',
     'Number',
     'Property',
@@ -47,6 +48,18 @@ class Flag(Property):
         if not isinstance(value, bool):
             raise ValueError(f"must be true or false, and not '{value}'")
         return value
+
+
+@dataclass(frozen=True)
+class Flags(Property):
+    """Yes or no for each of some names that only turn up later, such as those of namespaces."""
+
+    def read(self, value: Any) -> dict[str, bool]:
+        """Return the values by name, or raise ValueError."""
+        if not isinstance(value, dict):
+            raise ValueError(f"must be true or false for each of some names, and not '{value}'")
+        flag = Flag('', True)
+        return {str(name): flag.read(each) for name, each in value.items()}
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A display of the last messages of a topic, each where its frame was at its time."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import Any, ClassVar, NamedTuple
+
+from rviz_common.frames import FrameError, Pose
+from rviz_common.status import Level
+from rviz_common.topic_display import TopicDisplay
+
+__all__ = ['HistoryDisplay']
+
+
+class Waiting(NamedTuple):
+    """A message, and when it came in nanoseconds of the node's clock."""
+
+    message: Any
+    came_ns: int
+
+
+class Kept(NamedTuple):
+    """A message that is drawn, and the node of the scene below which it is."""
+
+    waiting: Waiting
+    node: Any
+
+
+class HistoryDisplay(TopicDisplay):
+    """
+    A display of the last messages of a topic.
+
+    Each stays in the fixed frame where its own frame was at the time of its stamp; it waits until
+    that is known. `draw` is called once for each.
+    """
+
+    PATIENCE: ClassVar[int] = 10
+    """How many messages wait for their transform."""
+    MOST: ClassVar[int] = 50
+    """How many messages are shown at once while they decay."""
+
+    def start(self) -> None:
+        """Subscribe the topic."""
+        self._waiting: deque[Waiting] = deque()
+        self._kept: deque[Kept] = deque()
+        self._serial = 0
+        self._fixed_frame = self.context.frames.fixed_frame
+        super().start()
+
+    def stop(self) -> None:
+        """Subscribe no longer, and remove what was drawn."""
+        super().stop()
+        self._waiting.clear()
+        self._kept.clear()
+
+    def update(self) -> None:
+        """Draw the messages whose place has become known, and remove old ones."""
+        if self.context.frames.fixed_frame != self._fixed_frame:
+            self._fixed_frame = self.context.frames.fixed_frame
+            self.redraw()
+        if self._waiting:
+            self._draw_ready()
+        self._remove_old()
+
+    def draw(self, place: str, message: Any, pose: Pose) -> None:
+        """Draw a message below a path, or raise ValueError; its frame has the pose."""
+        raise NotImplementedError
+
+    def keep(self) -> int:
+        """Return how many messages are shown at once."""
+        return 1
+
+    def decay_s(self) -> float:
+        """Return how long messages are shown; the newest ones that are kept in any case for 0."""
+        return 0.0
+
+    def take(self, message: Any) -> None:
+        """Let a message wait for its transform."""
+        self._waiting.append(Waiting(message, self._now_ns()))
+        while len(self._waiting) > max(self.PATIENCE, self.keep()):
+            self._waiting.popleft()
+
+    def redraw(self) -> None:
+        """Draw the messages that are shown again."""
+        for kept in reversed(self._kept):
+            self._waiting.appendleft(kept.waiting)
+            kept.node.remove()
+        self._kept.clear()
+
+    def _draw_ready(self) -> None:
+        """Draw those of the waiting messages whose place is known."""
+        ready, still = [], []
+        reason = ''
+        for waiting in self._waiting:
+            try:
+                ready.append((waiting, self._pose_of(waiting.message.header)))
+            except FrameError as error:
+                still.append(waiting)
+                reason = str(error)
+        self._waiting = deque(still, maxlen=self.PATIENCE)
+        if reason:
+            self.status.say('Transform', Level.ERROR, reason)
+        else:
+            self.status.forget('Transform')
+        newest = -len(ready) if self.decay_s() else -self.keep()
+        for waiting, pose in ready[newest:]:
+            self._draw(waiting, pose)
+
+    def _draw(self, waiting: Waiting, pose: Pose) -> None:
+        self._serial += 1
+        place = f'{self.root}/{self._serial}'
+        node = self.context.scene.add_frame(
+            place, show_axes=False, position=pose.position, wxyz=pose.wxyz
+        )
+        try:
+            self.draw(place, waiting.message, pose)
+        except ValueError as error:
+            node.remove()
+            self.say_left_out(error)
+            return
+        self._kept.append(Kept(waiting, node))
+        self.say_shown()
+
+    def _remove_old(self) -> None:
+        decay_ns = round(self.decay_s() * 1e9)
+        if decay_ns:
+            now_ns = self._now_ns()
+            while self._kept and now_ns - self._kept[0].waiting.came_ns > decay_ns:
+                self._kept.popleft().node.remove()
+        self._keep_last(self.MOST if decay_ns else self.keep())
+        if decay_ns and len(self._kept) == self.MOST:
+            self.status.say(
+                'Decay', Level.WARN, f'No more than the last {self.MOST} messages are shown.'
+            )
+        else:
+            self.status.forget('Decay')
+
+    def _keep_last(self, count: int) -> None:
+        while len(self._kept) > count:
+            self._kept.popleft().node.remove()
+
+    def _pose_of(self, header: Any) -> Pose:
+        stamp_ns = header.stamp.sec * 1_000_000_000 + header.stamp.nanosec
+        return self.context.frames.pose(header.frame_id, max(stamp_ns, 0))
+
+    def _now_ns(self) -> int:
+        return int(self.context.node.get_clock().now().nanoseconds)

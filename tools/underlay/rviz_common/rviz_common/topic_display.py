@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A display of what comes on a topic."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, ClassVar
+
+from rviz_common.display import Display
+from rviz_common.properties import qos_of
+from rviz_common.status import Level
+
+__all__ = ['TopicDisplay']
+
+
+class TopicDisplay(Display):
+    """
+    A display of what comes on a topic.
+
+    Messages are given to `take` as they come; what is to be drawn of them waits for `update`.
+    """
+
+    MESSAGE: ClassVar[type]
+
+    def start(self) -> None:
+        """Subscribe the topic."""
+        self._frame = self.context.scene.add_frame(self.root, show_axes=False)
+        self._subscriptions: list[Any] = []
+        self.received = 0
+        topic = self.values['Topic/Value']
+        if not topic:
+            self.status.say('Topic', Level.WARN, 'No topic is chosen.')
+        elif self.subscribe(self.message_type(topic), topic, self._count):
+            self.status.say('Topic', Level.WARN, f'No message has come on {topic} yet.')
+
+    def stop(self) -> None:
+        """Subscribe no longer, and remove what was drawn."""
+        for subscription in self._subscriptions:
+            self.context.node.destroy_subscription(subscription)
+        self._subscriptions = []
+        self._frame.remove()
+        self.status.clear()
+
+    def on_change(self, path: str) -> None:
+        """Begin anew with another topic, and draw what there is again otherwise."""
+        if path.partition('/')[0].endswith('Topic'):
+            super().on_change(path)
+        else:
+            self.redraw()
+
+    def message_type(self, topic: str) -> type:
+        """Return the type of the messages of the topic."""
+        return self.MESSAGE
+
+    def take(self, message: Any) -> None:
+        """Keep a message that has come for the next frame."""
+        raise NotImplementedError
+
+    def redraw(self) -> None:
+        """Draw what there is again, since a property has been changed."""
+        raise NotImplementedError
+
+    def subscribe(
+        self, kind: type, topic: str, take: Callable[[Any], None], path: str = 'Topic'
+    ) -> bool:
+        """Have messages taken until the display stops; say it if that cannot be."""
+        try:
+            subscription = self.context.node.create_subscription(
+                kind, topic, take, qos_of(self.values, path)
+            )
+        except Exception as error:  # rclpy has no one exception for bad names
+            self.status.say(path, Level.ERROR, f"'{topic}' cannot be subscribed: {error}")
+            return False
+        self._subscriptions.append(subscription)
+        return True
+
+    def say_shown(self) -> None:
+        """Say that a message has been shown."""
+        topic = self.values['Topic/Value']
+        self.status.forget('Message')
+        self.status.say('Topic', Level.OK, f'{self.received} messages have come on {topic}.')
+
+    def say_left_out(self, reason: object) -> None:
+        """Say that a message cannot be shown."""
+        topic = self.values['Topic/Value']
+        self.status.say('Message', Level.ERROR, f'A message of {topic} is left out: {reason}')
+
+    def _count(self, message: Any) -> None:
+        self.received += 1
+        self.take(message)

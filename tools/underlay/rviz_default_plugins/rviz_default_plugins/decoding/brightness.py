@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is black and what is white in pictures of depths and the like."""
+
+from __future__ import annotations
+
+from collections import deque
+from statistics import median
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ['Brightness']
+
+
+class Brightness:
+    """Turns numbers into grays between limits, which may be those of the last pictures."""
+
+    def __init__(self, limits: tuple[float, float] | None = None, window: int = 5) -> None:
+        """Take fixed limits, or the medians of those of so many pictures."""
+        self._limits = limits
+        self._seen: deque[tuple[float, float]] = deque(maxlen=max(1, window))
+
+    def apply(self, values: NDArray[Any]) -> NDArray[np.uint8]:
+        """Return grays; what is not finite is black."""
+        numbers = values.astype(np.float32)
+        finite = np.isfinite(numbers)
+        low, high = self._limits or self._found(numbers[finite])
+        span = high - low
+        if span == 0.0 or not np.isfinite(span):
+            return np.zeros(values.shape, dtype=np.uint8)
+        parts = np.where(finite, (np.where(finite, numbers, low) - low) / span, 0.0)
+        return (np.clip(parts, 0.0, 1.0) * 255.0).astype(np.uint8)
+
+    def _found(self, numbers: NDArray[np.float32]) -> tuple[float, float]:
+        if numbers.size:
+            self._seen.append((float(numbers.min()), float(numbers.max())))
+        if not self._seen:
+            return 0.0, 0.0
+        return median(low for low, _ in self._seen), median(high for _, high in self._seen)

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Points with what was measured at each of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from rviz_default_plugins.decoding.geometry import Points
+
+__all__ = ['Cloud']
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """Points as rows x, y and z in metres; each channel has a value for each of them."""
+
+    points: Points
+    channels: dict[str, NDArray[Any]] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        """Return the number of points."""
+        return len(self.points)
+
+    def __getitem__(self, chosen: Any) -> Cloud:
+        """Return some of the points."""
+        channels = {name: values[chosen] for name, values in self.channels.items()}
+        return Cloud(self.points[chosen], channels)
+
+    def finite(self) -> Cloud:
+        """Return the points that are somewhere."""
+        somewhere = np.isfinite(self.points).all(axis=1)
+        return self if somewhere.all() else self[somewhere]
+
+    def thinned(self, most: int) -> Cloud:
+        """Return each n-th point, so that there are not more than some."""
+        step = -(-len(self) // most)
+        return self[::step] if step > 1 else self

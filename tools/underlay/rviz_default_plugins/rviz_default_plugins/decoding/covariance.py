@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How uncertain a position is, as an ellipsoid."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from rviz_default_plugins.decoding.geometry import from_axes, Quaternion, Triple
+
+__all__ = ['Ellipsoid', 'ellipsoid_of']
+
+
+class Ellipsoid(NamedTuple):
+    """Half axes in metres, and how they are turned."""
+
+    radii: Triple
+    wxyz: Quaternion
+
+
+def ellipsoid_of(covariance: Any) -> Ellipsoid:
+    """Return one standard deviation of a position, from 6 x 6 numbers, or raise ValueError."""
+    block = np.asarray(covariance, dtype=float).reshape(6, 6)[:3, :3]
+    if not np.isfinite(block).all():
+        raise ValueError('its covariance has numbers that are not finite.')
+    variances, axes = np.linalg.eigh((block + block.T) / 2.0)
+    if variances[0] < -1e-9 * max(1.0, variances[-1]):
+        raise ValueError('its covariance is none: the variance in some direction is negative.')
+    if np.linalg.det(axes) < 0.0:
+        axes[:, 0] = -axes[:, 0]
+    x, y, z = np.sqrt(np.maximum(variances, 0.0))
+    return Ellipsoid((float(x), float(y), float(z)), from_axes(axes))

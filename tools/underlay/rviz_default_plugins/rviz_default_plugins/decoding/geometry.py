@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Positions and rotations of messages, checked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    'Points',
+    'Quaternion',
+    'Triple',
+    'along_x',
+    'finite_points_of',
+    'from_axes',
+    'joined',
+    'points_of',
+    'position',
+    'rotated',
+    'rotation',
+    'rotations_of',
+]
+
+Points = NDArray[np.float32]
+Quaternion = tuple[float, float, float, float]
+Triple = tuple[float, float, float]
+
+
+def position(vector: Any, what: str = 'position') -> Triple:
+    """Return x, y and z of a point or vector, or raise ValueError if they are not finite."""
+    triple = (float(vector.x), float(vector.y), float(vector.z))
+    if not all(map(math.isfinite, triple)):
+        raise ValueError(f'its {what} is {_listed(triple)}, which is nowhere.')
+    return triple
+
+
+def rotation(quaternion: Any, what: str = 'orientation') -> Quaternion:
+    """Return w, x, y and z of a quaternion at length 1, or raise ValueError if it is none."""
+    parts = (quaternion.w, quaternion.x, quaternion.y, quaternion.z)
+    length = math.sqrt(sum(part * part for part in parts))
+    if not math.isfinite(length):
+        raise ValueError(f'its {what} has numbers that are not finite.')
+    if length < 1e-6:
+        raise ValueError(f'its {what} is a quaternion of zeros; no rotation is w=1.')
+    w, x, y, z = (float(part / length) for part in parts)
+    return w, x, y, z
+
+
+def points_of(points: Iterable[Any]) -> Points:
+    """Return the points of a message as rows, those which are not finite too."""
+    flat = [part for point in points for part in (point.x, point.y, point.z)]
+    return np.array(flat, dtype=np.float32).reshape(-1, 3)
+
+
+def finite_points_of(points: Iterable[Any]) -> Points:
+    """Return the points of a message as rows, or raise ValueError if any is nowhere."""
+    rows = points_of(points)
+    if lost := int((~np.isfinite(rows).all(axis=1)).sum()):
+        raise ValueError(f'{lost} of its {len(rows)} points have numbers that are not finite.')
+    return rows
+
+
+def rotations_of(quaternions: Iterable[Any]) -> tuple[Points, NDArray[np.bool_]]:
+    """Return quaternions as rows w, x, y and z at length 1, and which of them are rotations."""
+    flat = [part for each in quaternions for part in (each.w, each.x, each.y, each.z)]
+    rows = np.array(flat, dtype=np.float64).reshape(-1, 4)
+    lengths = np.linalg.norm(rows, axis=1)
+    valid = np.isfinite(lengths) & (lengths >= 1e-6)
+    rows[~valid] = (1.0, 0.0, 0.0, 0.0)
+    lengths[~valid] = 1.0
+    return (rows / lengths[:, None]).astype(np.float32), valid
+
+
+def rotated(points: NDArray[Any], by: Sequence[float]) -> NDArray[Any]:
+    """Return rows of points turned by one quaternion w, x, y, z."""
+    w, axis = by[0], np.asarray(by[1:], dtype=points.dtype)
+    across = 2.0 * np.cross(axis, points)
+    turned: NDArray[Any] = points + w * across + np.cross(axis, across)
+    return turned.astype(points.dtype)
+
+
+def joined(first: Sequence[float], then: Sequence[float]) -> Quaternion:
+    """Return the product of two quaternions w, x, y, z: `then` in the frame that `first` gives."""
+    (a, b, c, d), (e, f, g, h) = first, then
+    return (
+        a * e - b * f - c * g - d * h,
+        a * f + b * e + c * h - d * g,
+        a * g - b * h + c * e + d * f,
+        a * h + b * g - c * f + d * e,
+    )
+
+
+def along_x(direction: Sequence[float]) -> Quaternion:
+    """Return the rotation that turns the x axis into a direction, which is not zero."""
+    x, y, z = np.asarray(direction, dtype=float) / np.linalg.norm(direction)
+    w = 1.0 + x
+    if w < 1e-9:
+        return 0.0, 0.0, 0.0, 1.0
+    length = math.sqrt(w * w + y * y + z * z)
+    return float(w / length), 0.0, float(-z / length), float(y / length)
+
+
+def from_axes(axes: NDArray[Any]) -> Quaternion:
+    """Return the rotation whose axes are the columns of a matrix."""
+    # The quaternion is the eigenvector of the greatest eigenvalue of this symmetric matrix.
+    (a, b, c), (d, e, f), (g, h, i) = np.asarray(axes, dtype=float)
+    symmetric = np.array(
+        [
+            [a + e + i, h - f, c - g, d - b],
+            [h - f, a - e - i, b + d, c + g],
+            [c - g, b + d, e - a - i, f + h],
+            [d - b, c + g, f + h, i - a - e],
+        ]
+    )
+    w, x, y, z = np.linalg.eigh(symmetric)[1][:, -1]
+    return float(w), float(x), float(y), float(z)
+
+
+def _listed(parts: Iterable[float]) -> str:
+    return ', '.join(f'{part:g}' for part in parts)

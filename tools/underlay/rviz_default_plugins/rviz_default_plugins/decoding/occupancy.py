@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Maps of `nav_msgs/msg/OccupancyGrid`: their cells, and the colours that show them."""
+
+from __future__ import annotations
+
+from functools import cache
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ['Cells', 'apply_update', 'binary', 'cells_of', 'paint', 'thinned']
+
+Cells = NDArray[np.int8]
+Palette = NDArray[np.uint8]
+
+ILLEGAL = (0, 255, 0)
+UNKNOWN = (112, 137, 134)
+
+
+def cells_of(message: Any) -> Cells:
+    """Return the rows of a map, the first with the smallest y, or raise ValueError."""
+    width, height = message.info.width, message.info.height
+    if not width or not height:
+        raise ValueError(f'it has no cells: it is {width} wide and {height} high.')
+    resolution = message.info.resolution
+    if not (math.isfinite(resolution) and resolution > 0.0):
+        raise ValueError(f'its cells are {resolution:g} m long.')
+    return _rows(message.data, width, height)
+
+
+def apply_update(cells: Cells, update: Any) -> None:
+    """Put the rectangle of `map_msgs/msg/OccupancyGridUpdate` into a map, or raise ValueError."""
+    height, width = cells.shape
+    x, y = update.x, update.y
+    if x < 0 or y < 0 or x + update.width > width or y + update.height > height:
+        raise ValueError(
+            f'an update of {update.width} x {update.height} cells at {x}, {y} is not inside the '
+            f'map of {width} x {height}.'
+        )
+    rows, columns = slice(y, y + update.height), slice(x, x + update.width)
+    cells[rows, columns] = _rows(update.data, update.width, update.height)
+
+
+def thinned(cells: Cells, most: int) -> tuple[Cells, int]:
+    """Return a map of not more than so many cells along a side, and how many became one."""
+    step = -(-max(cells.shape) // most)
+    if step == 1:
+        return cells, 1
+    height, width = (-(-length // step) * step for length in cells.shape)
+    padded = np.full((height, width), -1, dtype=np.int8)
+    padded[: cells.shape[0], : cells.shape[1]] = cells
+    blocks = padded.reshape(height // step, step, width // step, step)
+    return blocks.max(axis=(1, 3)), step  # what is occupied must not vanish
+
+
+def binary(cells: Cells, threshold: int) -> Cells:
+    """Return a map that has only free, occupied from a threshold on, and unknown."""
+    return np.where(cells < 0, cells, np.where(cells >= threshold, 100, 0)).astype(np.int8)
+
+
+def paint(cells: Cells, scheme: str, alpha: float) -> NDArray[np.uint8]:
+    """Return the picture of a map with red, green, blue and alpha, the smallest y first."""
+    palette = _palette(scheme).copy()
+    palette[:, 3] = (palette[:, 3] * alpha).round()
+    picture: Palette = palette[np.ascontiguousarray(cells).view(np.uint8)]
+    return picture
+
+
+def _rows(data: Any, width: int, height: int) -> Cells:
+    if len(data) != width * height:
+        raise ValueError(
+            f'it has {len(data)} cells, but is {width} wide and {height} high, which needs '
+            f'{width * height}.'
+        )
+    return np.array(data, dtype=np.int8).reshape(height, width)
+
+
+@cache
+def _palette(scheme: str) -> Palette:
+    """Return the colour for each value of a cell as unsigned byte."""
+    palette = np.zeros((256, 4), dtype=np.uint8)
+    palette[:, 3] = 255
+    values = np.arange(256)
+    if scheme == 'raw':
+        palette[:, :3] = values[:, None]
+        return palette
+    part = values[:101] * 255 // 100
+    if scheme == 'costmap':
+        palette[:101, 0], palette[:101, 2] = part, 255 - part
+        palette[0] = 0
+        palette[99, :3] = (0, 255, 255)
+        palette[100, :3] = (255, 0, 255)
+    else:
+        palette[:101, :3] = (255 - part)[:, None]
+    palette[101:128, :3] = ILLEGAL
+    palette[128:255, 0] = 255
+    palette[128:255, 1] = np.arange(127) * 255 // 126
+    palette[255, :3] = UNKNOWN
+    return palette

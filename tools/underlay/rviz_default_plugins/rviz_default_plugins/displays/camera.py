@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a camera sees, in the scene."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from rviz_common.frames import FrameError
+from rviz_common.properties import Number
+from rviz_common.status import Level
+from rviz_default_plugins.decoding.images import Picture
+from rviz_default_plugins.displays.image_topic import IMAGE_TOPIC, ImageTopicDisplay
+from sensor_msgs.msg import CameraInfo
+
+__all__ = ['Camera']
+
+MOST_DISTANT = 1.0
+
+
+class Camera(ImageTopicDisplay):
+    """The newest picture of a topic, on the pyramid that the camera sees."""
+
+    CLASS = 'rviz_default_plugins/Camera'
+    PROPERTIES = (
+        *IMAGE_TOPIC,
+        Number(
+            'Far Plane Distance',
+            100.0,
+            f'Where the picture is, in metres; not farther than {MOST_DISTANT:g}.',
+            0.001,
+        ),
+    )
+    UNUSED = ('Image Rendering', 'Overlay Alpha', 'Visibility', 'Zoom Factor')
+
+    def start(self) -> None:
+        """Subscribe the picture and what is known of the camera."""
+        self._pyramid: Any = None
+        self._info: Any = None
+        super().start()
+        if topic := self.values['Topic/Value']:
+            self._info_topic = info_topic(topic)
+            if self.subscribe(CameraInfo, self._info_topic, self._take_info):
+                self._say_no_info()
+
+    def stop(self) -> None:
+        """Subscribe no longer, and remove the pyramid."""
+        super().stop()
+        self._pyramid = None
+
+    def update(self) -> None:
+        """Show the newest picture, and follow the camera."""
+        super().update()
+        if self._shown is not None:
+            self._follow(self._shown.header)
+
+    def show_picture(self, picture: Picture, header: Any) -> None:
+        """Draw the pyramid with the picture."""
+        if self._info is None:
+            self._say_no_info()
+            return
+        angle, aspect = view_of(self._info)
+        self.status.forget('Camera Info')
+        self._pyramid = self.context.scene.add_camera_frustum(
+            f'{self.root}/camera',
+            angle,
+            aspect,
+            image=picture.pixels,
+            format='jpeg',
+            jpeg_quality=self.QUALITY,
+            cast_shadow=False,
+        )
+        depth = min(self.values['Far Plane Distance'], MOST_DISTANT)
+        self._pyramid.scale = depth / self._pyramid.compute_canonical_frustum_size()[2]
+
+    def _take_info(self, message: Any) -> None:
+        if self._info is None or view_numbers(message) != view_numbers(self._info):
+            self.redraw()
+        self._info = message
+
+    def _say_no_info(self) -> None:
+        self.status.say(
+            'Camera Info',
+            Level.WARN,
+            f'No message has come on {self._info_topic} yet, which says what the camera sees.',
+        )
+
+    def _follow(self, header: Any) -> None:
+        try:
+            pose = self.context.frames.pose(header.frame_id)
+        except FrameError as error:
+            self.status.say('Transform', Level.ERROR, str(error))
+            self._frame.visible = False
+            return
+        self.status.forget('Transform')
+        self._frame.visible = True
+        self._frame.position, self._frame.wxyz = pose
+
+
+def info_topic(topic: str) -> str:
+    """Return the topic of the CameraInfo that belongs to a topic of images."""
+    image = topic.removesuffix('/compressed')
+    return f'{image.rpartition("/")[0]}/camera_info'.replace('//', '/')
+
+
+def view_numbers(info: Any) -> tuple[float, ...]:
+    """Return what says how much a camera sees."""
+    return info.width, info.height, info.k[0], info.k[4]
+
+
+def view_of(info: Any) -> tuple[float, float]:
+    """Return the vertical angle of view in radians and width over height, or raise ValueError."""
+    width, height, across, along = view_numbers(info)
+    if not (width and height):
+        raise ValueError(f'its CameraInfo says that it is {width} wide and {height} high.')
+    if not (math.isfinite(across) and math.isfinite(along) and across > 0.0 and along > 0.0):
+        raise ValueError(
+            f'its CameraInfo has no focal lengths, but {across:g} and {along:g}: the camera is '
+            'not calibrated.'
+        )
+    return 2.0 * math.atan(height / (2.0 * along)), (width / across) / (height / along)

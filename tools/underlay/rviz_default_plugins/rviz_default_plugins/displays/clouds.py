@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Points, in colours for what was measured at them."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+from rviz_common.frames import Pose
+from rviz_common.history_display import HistoryDisplay
+from rviz_common.properties import Choice, ColorOf, Flag, Number, Property, Text, Whole
+from rviz_common.status import Level
+from rviz_default_plugins.decoding.cloud import Cloud
+from rviz_default_plugins.decoding.cloud_colors import colors_rgb8, colors_rgbf32, Scale
+from rviz_default_plugins.decoding.geometry import rotated
+
+__all__ = ['CLOUD', 'CloudDisplay']
+
+STYLES = ('Points', 'Squares', 'Flat Squares', 'Spheres', 'Boxes', 'Tiles')
+INTENSITY, AXIS, FLAT, RGB8, RGBF32 = 'Intensity', 'AxisColor', 'FlatColor', 'RGB8', 'RGBF32'
+BOUNDS = 'Autocompute Value Bounds'
+PIXEL = 0.004
+"""Metres that stand for a pixel, since the browser has points of metres only."""
+
+CLOUD: tuple[Property, ...] = (
+    Choice('Style', 'Flat Squares', 'What shows a point.', STYLES),
+    Whole('Size (Pixels)', 3, 'Size of Points.', 1, 100),
+    Number('Size (m)', 0.01, 'Size of all else, in metres.', 0.0001),
+    Number('Alpha', 1.0, '0 hides the points; between, a browser makes no difference.', 0.0, 1.0),
+    Number('Decay Time', 0.0, 'Seconds for which points stay; 0 for until the next come.', 0.0),
+    Choice(
+        'Color Transformer',
+        '',
+        'Where the colours come from.',
+        ('', INTENSITY, AXIS, FLAT, RGB8, RGBF32),
+    ),
+    ColorOf('Color', (255, 255, 255), 'Colour for FlatColor.'),
+    Text('Channel Name', 'intensity', 'Field for Intensity.'),
+    Flag('Use rainbow', True, 'Whether Intensity has the colours of the rainbow.'),
+    Flag('Invert Rainbow', False, 'Whether the rainbow begins at the other end.'),
+    ColorOf('Min Color', (0, 0, 0), 'Colour of the least intensity.'),
+    ColorOf('Max Color', (255, 255, 255), 'Colour of the greatest intensity.'),
+    Flag('Autocompute Intensity Bounds', True, 'Whether the limits are those of the message.'),
+    Number('Min Intensity', 0.0, 'Least intensity.'),
+    Number('Max Intensity', 4096.0, 'Greatest intensity.'),
+    Choice('Axis', 'Z', 'Axis for AxisColor.', ('X', 'Y', 'Z')),
+    Flag('Use Fixed Frame', True, 'Whether the axis is that of the fixed frame.'),
+    Flag(f'{BOUNDS}/Value', True, 'Whether the limits are those of the message.'),
+    Number(f'{BOUNDS}/Min Value', -10.0, 'Least place on the axis, in metres.'),
+    Number(f'{BOUNDS}/Max Value', 10.0, 'Greatest place on the axis, in metres.'),
+)
+
+
+class CloudDisplay(HistoryDisplay):
+    """The last points of a topic."""
+
+    UNUSED = ('Position Transformer', 'Selectable')
+    MOST_POINTS: ClassVar[int] = 200_000
+    MOST_DECAYING: ClassVar[int] = 20_000
+
+    def decode(self, message: Any) -> Cloud:
+        """Return the points of a message, or raise ValueError."""
+        raise NotImplementedError
+
+    def decay_s(self) -> float:
+        """Return how long points stay."""
+        return float(self.values['Decay Time'])
+
+    def draw(self, place: str, message: Any, pose: Pose) -> None:
+        """Draw the points, not more of them than a browser can."""
+        cloud = self.decode(message).finite()
+        shown = cloud.thinned(self.MOST_DECAYING if self.decay_s() else self.MOST_POINTS)
+        if len(shown) < len(cloud):
+            sentence = f'{len(shown)} of {len(cloud)} points are shown.'
+            self.status.say('Points', Level.WARN, sentence)
+        else:
+            self.status.forget('Points')
+        if len(shown) and self.values['Alpha']:
+            self._add(place, shown, self._colors(shown, pose))
+
+    def _add(self, place: str, cloud: Cloud, colors: Any) -> None:
+        style = self.values['Style']
+        is_round = style == 'Spheres'
+        pixels = self.values['Size (Pixels)'] * PIXEL
+        self.context.scene.add_point_cloud(
+            f'{place}/points',
+            cloud.points,
+            colors,
+            point_size=pixels if style == 'Points' else self.values['Size (m)'],
+            point_shape='circle' if is_round else 'square',
+            point_shading='gradient' if is_round else 'flat',
+            precision='float32',
+        )
+
+    def _colors(self, cloud: Cloud, pose: Pose) -> Any:
+        """Return the colours that are asked for, or those that there are."""
+        asked = self.values['Color Transformer']
+        kinds = [asked] if asked else []
+        kinds += [kind for kind in (RGB8, RGBF32, INTENSITY, FLAT) if kind != asked]
+        for kind in kinds:
+            colors = self._transformed(kind, cloud, pose)
+            if colors is not None:
+                break
+        if asked in ('', kind):
+            self.status.forget('Color Transformer')
+        else:
+            has = ', '.join(cloud.channels) or 'none besides x, y and z'
+            sentence = f'The points have no fields for {asked}, but {has}; {kind} is used.'
+            self.status.say('Color Transformer', Level.WARN, sentence)
+        return colors
+
+    def _transformed(self, kind: str, cloud: Cloud, pose: Pose) -> Any:
+        """Return colours of a kind, or None if the points do not have what it needs."""
+        if kind == RGB8:
+            return colors_rgb8(cloud)
+        if kind == RGBF32:
+            return colors_rgbf32(cloud)
+        if kind == FLAT:
+            return self.values['Color']
+        if kind == AXIS:
+            return self._axis_scale().paint(self._heights(cloud, pose))
+        values = cloud.channels.get(self.values['Channel Name'])
+        return None if values is None else self._intensity_scale().paint(values)
+
+    def _heights(self, cloud: Cloud, pose: Pose) -> NDArray[np.float32]:
+        """Return where the points are along the axis."""
+        axis = 'XYZ'.index(self.values['Axis'])
+        if not self.values['Use Fixed Frame']:
+            return cloud.points[:, axis]
+        turned: NDArray[np.float32] = rotated(cloud.points, pose.wxyz)
+        heights: NDArray[np.float32] = turned[:, axis] + np.float32(pose.position[axis])
+        return heights
+
+    def _axis_scale(self) -> Scale:
+        if self.values[f'{BOUNDS}/Value']:
+            return Scale()
+        return Scale(self.values[f'{BOUNDS}/Min Value'], self.values[f'{BOUNDS}/Max Value'])
+
+    def _intensity_scale(self) -> Scale:
+        is_auto = self.values['Autocompute Intensity Bounds']
+        return Scale(
+            None if is_auto else self.values['Min Intensity'],
+            None if is_auto else self.values['Max Intensity'],
+            self.values['Use rainbow'],
+            self.values['Invert Rainbow'],
+            (self.values['Min Color'], self.values['Max Color']),
+        )

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How an inertial measurement unit is turned, and how it is accelerated."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from rviz_common.frames import Pose
+from rviz_common.message_display import MessageDisplay
+from rviz_common.properties import ColorOf, Flag, Number, topic_properties
+from rviz_common.status import Level
+from rviz_default_plugins.decoding.geometry import position, Quaternion, rotated, rotation
+from rviz_default_plugins.drawing.bodies import add_arrow_to, opacity_of
+from rviz_default_plugins.drawing.drawn import Drawn
+from sensor_msgs.msg import Imu as ImuMessage
+
+__all__ = ['Imu']
+
+BOX, AXES, ARROW = 'Box properties', 'Axes properties', 'Acceleration properties'
+
+
+class Imu(MessageDisplay):
+    """Box and axes with the orientation of an IMU, and an arrow for the acceleration."""
+
+    CLASS = 'rviz_imu_plugin/Imu'
+    MESSAGE = ImuMessage
+    PROPERTIES = (
+        *topic_properties('sensor_msgs/msg/Imu', '/imu'),
+        Flag(
+            'fixed_frame_orientation',
+            True,
+            'Whether the orientation is that in the fixed frame; otherwise in its own frame.',
+        ),
+        Flag(f'{BOX}/Enable box', False, 'Whether a box shows the orientation.'),
+        Number(f'{BOX}/x_scale', 1.0, 'Length of the box, in metres.', 0.001),
+        Number(f'{BOX}/y_scale', 1.0, 'Width of the box, in metres.', 0.001),
+        Number(f'{BOX}/z_scale', 1.0, 'Height of the box, in metres.', 0.001),
+        ColorOf(f'{BOX}/Box color', (255, 0, 0), 'Colour of the box.'),
+        Number(f'{BOX}/Box alpha', 1.0, '0 is transparent.', 0.0, 1.0),
+        Flag(f'{AXES}/Enable axes', True, 'Whether axes show the orientation.'),
+        Number(f'{AXES}/Axes scale', 1.0, 'Length of the axes, in metres.', 0.001),
+        Flag(f'{ARROW}/Enable acceleration', False, 'Whether an arrow shows the acceleration.'),
+        Flag(
+            f'{ARROW}/Derotate acceleration',
+            True,
+            'Whether the acceleration is turned as the orientation says.',
+        ),
+        Number(f'{ARROW}/Acc. vector scale', 1.0, 'Metres for a metre per square second.', 0.0),
+        ColorOf(f'{ARROW}/Acc. vector color', (255, 0, 0), 'Colour of the arrow.'),
+        Number(f'{ARROW}/Acc. vector alpha', 1.0, '0 is transparent.', 0.0, 1.0),
+    )
+
+    def start(self) -> None:
+        """Subscribe the topic."""
+        self._drawn = Drawn()
+        super().start()
+
+    def show(self, message: Any) -> None:
+        """Draw what is enabled."""
+        if message.orientation_covariance[0] == -1.0:
+            turn: Quaternion = (1.0, 0.0, 0.0, 0.0)
+            self.status.say('Orientation', Level.WARN, 'The IMU does not measure its orientation.')
+        else:
+            turn = rotation(message.orientation)
+            self.status.forget('Orientation')
+        handles = []
+        if self.values[f'{BOX}/Enable box']:
+            handles.append(self._add_box(turn))
+        if self.values[f'{AXES}/Enable axes']:
+            handles.append(self._add_axes(turn))
+        if self.values[f'{ARROW}/Enable acceleration']:
+            handles.append(self._add_arrow(message, turn))
+        self._drawn.replace(handle for handle in handles if handle is not None)
+
+    def placed(self, pose: Pose) -> Pose:
+        """Return the place of the IMU, with its rotation unless the orientation has it."""
+        return Pose(pose.position) if self.values['fixed_frame_orientation'] else pose
+
+    def _add_box(self, turn: Quaternion) -> Any:
+        x, y, z = (self.values[f'{BOX}/{axis}_scale'] for axis in 'xyz')
+        return self.context.scene.add_box(
+            f'{self.root}/box',
+            color=self.values[f'{BOX}/Box color'],
+            dimensions=(x, y, z),
+            opacity=opacity_of(self.values[f'{BOX}/Box alpha']),
+            wxyz=turn,
+        )
+
+    def _add_axes(self, turn: Quaternion) -> Any:
+        length = self.values[f'{AXES}/Axes scale']
+        return self.context.scene.add_frame(
+            f'{self.root}/axes',
+            axes_length=length,
+            axes_radius=0.05 * length,
+            origin_radius=0.05 * length,
+            wxyz=turn,
+        )
+
+    def _add_arrow(self, message: Any, turn: Quaternion) -> Any:
+        vector = position(message.linear_acceleration, 'linear acceleration')
+        if self.values[f'{ARROW}/Derotate acceleration']:
+            vector = tuple(rotated(np.array([vector]), turn)[0])
+        scale = self.values[f'{ARROW}/Acc. vector scale']
+        x, y, z = (float(part) * scale for part in vector)
+        paint = (
+            self.values[f'{ARROW}/Acc. vector color'],
+            self.values[f'{ARROW}/Acc. vector alpha'],
+        )
+        name = f'{self.root}/acceleration'
+        return add_arrow_to(self.context.scene, name, (x, y, z), 0.05, paint, (0.0, 0.0, 0.0))

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Markers that come one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from rviz_common.properties import Flags, topic_properties
+from rviz_common.status import Level
+from rviz_common.topic_display import TopicDisplay
+from rviz_default_plugins.markers.marker_scene import MarkerScene
+from visualization_msgs.msg import Marker as MarkerMessage
+
+__all__ = ['NAMESPACES', 'Marker']
+
+NAMESPACES = Flags('Namespaces', {}, 'Which markers are shown, by their namespace.')
+
+
+class Marker(TopicDisplay):
+    """The markers of a topic."""
+
+    CLASS = 'rviz_default_plugins/Marker'
+    MESSAGE = MarkerMessage
+    PROPERTIES = (
+        *topic_properties('visualization_msgs/msg/Marker', '/visualization_marker', depth=10),
+        NAMESPACES,
+    )
+
+    def start(self) -> None:
+        """Subscribe the topic."""
+        context = self.context
+        self._markers = MarkerScene(context.scene, context.frames, self.root, self.status)
+        super().start()
+
+    def update(self) -> None:
+        """Draw what has come."""
+        enabled = self.values['Namespaces']
+        self._markers.update(self._now_ns(), lambda namespace: enabled.get(namespace, True))
+        new = self._markers.namespaces() - set(enabled)
+        if new:
+            self.values['Namespaces'] = {**enabled, **dict.fromkeys(sorted(new), True)}
+        if self.received:
+            sentence = f'{self.received} messages have come on {self.values["Topic/Value"]}.'
+            self.status.say('Topic', Level.OK, sentence)
+
+    def take(self, message: Any) -> None:
+        """Take the markers of a message."""
+        self._markers.put(self.markers_of(message), self._now_ns())
+
+    def markers_of(self, message: Any) -> Iterable[Any]:
+        """Return the markers of a message."""
+        return (message,)
+
+    def redraw(self) -> None:
+        """Show and hide namespaces, as the next frame does."""
+
+    def _now_ns(self) -> int:
+        return int(self.context.node.get_clock().now().nanoseconds)

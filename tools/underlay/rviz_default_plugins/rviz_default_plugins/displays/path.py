@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The line of a path, and the poses on it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from nav_msgs.msg import Path as PathMessage
+import numpy as np
+from rviz_common.frames import Pose
+from rviz_common.history_display import HistoryDisplay
+from rviz_common.properties import Choice, ColorOf, Number, topic_properties, Vector, Whole
+from rviz_common.status import Level
+from rviz_default_plugins.decoding.geometry import finite_points_of, Points, rotations_of
+from rviz_default_plugins.drawing.bodies import add_copies, add_lines
+from rviz_default_plugins.drawing.surfaces import arrow
+
+__all__ = ['Path']
+
+MOST = 20000
+
+
+class Path(HistoryDisplay):
+    """The last paths of a topic."""
+
+    CLASS = 'rviz_default_plugins/Path'
+    MESSAGE = PathMessage
+    PROPERTIES = (
+        *topic_properties('nav_msgs/msg/Path', '/plan'),
+        Choice('Line Style', 'Lines', 'Billboards have a width.', ('Lines', 'Billboards')),
+        Number('Line Width', 0.03, 'Width of billboards, in metres.', 0.001),
+        ColorOf('Color', (25, 255, 0), 'Colour of the line.'),
+        Number(
+            'Alpha', 1.0, '0 hides the line; between, a browser makes no difference.', 0.0, 1.0
+        ),
+        Whole('Buffer Length', 1, 'How many paths are shown at once.', 1, 100),
+        Vector('Offset', (0.0, 0.0, 0.0), 'How far from its place the path is shown.'),
+        Choice('Pose Style', 'None', 'What shows the poses.', ('None', 'Axes', 'Arrows')),
+        Number('Length', 0.3, 'Length of the axes, in metres.', 0.0),
+        Number('Radius', 0.03, 'Radius of the axes, in metres.', 0.0),
+        ColorOf('Pose Color', (255, 85, 255), 'Colour of the arrows.'),
+        Number('Shaft Length', 0.1, 'Length of the shafts, in metres.', 0.0),
+        Number('Shaft Diameter', 0.1, 'Diameter of the shafts, in metres.', 0.0),
+        Number('Head Length', 0.2, 'Length of the heads, in metres.', 0.0),
+        Number('Head Diameter', 0.3, 'Diameter of the heads, in metres.', 0.0),
+    )
+
+    def keep(self) -> int:
+        """Return how many paths are shown at once."""
+        return int(self.values['Buffer Length'])
+
+    def draw(self, place: str, message: Any, pose: Pose) -> None:
+        """Draw the line and the poses."""
+        step = max(1, -(-len(message.poses) // MOST))
+        poses = [each.pose for each in message.poses[::step]]
+        points = finite_points_of(each.position for each in poses)
+        points = points + np.array(self.values['Offset'], dtype=np.float32)
+        if len(points) > 1 and self.values['Alpha']:
+            self._add_line(place, points)
+        if len(points) and self.values['Pose Style'] != 'None':
+            self._add_poses(place, points, poses)
+        if step > 1:
+            sentence = f'{len(points)} of the {len(message.poses)} poses of the path are shown.'
+            self.status.say('Path', Level.WARN, sentence)
+        else:
+            self.status.forget('Path')
+
+    def _add_line(self, place: str, points: Points) -> None:
+        segments = np.stack([points[:-1], points[1:]], axis=1)
+        is_wide = self.values['Line Style'] == 'Billboards'
+        width = self.values['Line Width'] if is_wide else None
+        color = self.values['Color']
+        add_lines(self.context.scene, f'{place}/line', segments, color, width)
+
+    def _add_poses(self, place: str, points: Points, poses: list[Any]) -> None:
+        scene, values = self.context.scene, self.values
+        wxyzs, valid = rotations_of(each.orientation for each in poses)
+        if not valid.all():
+            lost = len(valid) - int(valid.sum())
+            raise ValueError(f'{lost} of its {len(valid)} poses have quaternions of zeros.')
+        if values['Pose Style'] == 'Axes':
+            scene.add_batched_axes(
+                f'{place}/poses',
+                wxyzs,
+                points,
+                axes_length=values['Length'],
+                axes_radius=values['Radius'],
+            )
+            return
+        shaft = values['Shaft Length'], values['Shaft Diameter'] / 2.0
+        surface = arrow(*shaft, values['Head Length'], values['Head Diameter'] / 2.0)
+        paint = values['Pose Color'], values['Alpha']
+        add_copies(scene, f'{place}/poses', surface, paint, points, wxyzs)

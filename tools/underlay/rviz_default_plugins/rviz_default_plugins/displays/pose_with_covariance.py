@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An arrow or axes at a pose, and how uncertain it is."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from rviz_common.message_display import MessageDisplay
+from rviz_common.properties import topic_properties
+from rviz_default_plugins.drawing.drawn import Drawn
+from rviz_default_plugins.drawing.pose_shape import (
+    add_covariance,
+    add_pose,
+    COVARIANCE,
+    pose_shape_properties,
+)
+
+__all__ = ['PoseWithCovariance']
+
+
+class PoseWithCovariance(MessageDisplay):
+    """The newest pose of a topic, with an ellipsoid around where it may be."""
+
+    CLASS = 'rviz_default_plugins/PoseWithCovariance'
+    MESSAGE = PoseWithCovarianceStamped
+    PROPERTIES = (
+        *topic_properties('geometry_msgs/msg/PoseWithCovarianceStamped', '/initialpose'),
+        *pose_shape_properties('Shape'),
+        *COVARIANCE,
+    )
+
+    def start(self) -> None:
+        """Subscribe the topic."""
+        self._drawn = Drawn()
+        super().start()
+
+    def show(self, message: Any) -> None:
+        """Draw the pose and the ellipsoid."""
+        scene, pose = self.context.scene, message.pose
+        around = add_covariance(scene, self.root, pose, self.values)
+        self._drawn.replace(
+            [*around, *add_pose(scene, self.root, pose.pose, self.values, 'Shape')]
+        )

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cones in front of range sensors."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from rviz_common.frames import Pose
+from rviz_common.history_display import HistoryDisplay
+from rviz_common.properties import ColorOf, Number, topic_properties, Whole
+from rviz_default_plugins.drawing.bodies import add_surface
+from rviz_default_plugins.drawing.surfaces import cone
+from sensor_msgs.msg import Range as RangeMessage
+
+__all__ = ['Range']
+
+
+class Range(HistoryDisplay):
+    """The last ranges of a topic, as cones that are as long as they are."""
+
+    CLASS = 'rviz_default_plugins/Range'
+    MESSAGE = RangeMessage
+    PROPERTIES = (
+        *topic_properties('sensor_msgs/msg/Range', '/range'),
+        ColorOf('Color', (255, 255, 255), 'Colour of the cones.'),
+        Number('Alpha', 0.5, '0 is transparent.', 0.0, 1.0),
+        Whole('Buffer Length', 1, 'How many ranges are shown at once.', 1, 1000),
+    )
+
+    def keep(self) -> int:
+        """Return how many ranges are shown at once."""
+        return int(self.values['Buffer Length'])
+
+    def draw(self, place: str, message: Any, pose: Pose) -> None:
+        """Draw the cone."""
+        length = _length(message)
+        if length > 0.0:
+            surface = cone(length, length * math.tan(message.field_of_view / 2.0))
+            paint = self.values['Color'], self.values['Alpha']
+            add_surface(self.context.scene, f'{place}/cone', surface, paint)
+
+
+def _length(message: Any) -> float:
+    """Return how long the cone is, 0 if nothing was hit, or raise ValueError."""
+    if not 0.0 <= message.field_of_view < math.pi:
+        raise ValueError(
+            f'its field of view is {message.field_of_view:g} rad, but must be from 0 to pi.'
+        )
+    if message.min_range == message.max_range and math.isinf(message.range):
+        # A sensor of fixed distance: something is there for -inf, nothing for +inf.
+        return float(message.min_range) if message.range < 0.0 else 0.0
+    if math.isnan(message.range):
+        raise ValueError('its range is no number.')
+    return float(message.range) if message.min_range <= message.range <= message.max_range else 0.0

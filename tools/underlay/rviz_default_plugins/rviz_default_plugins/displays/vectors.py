@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A straight and a turning vector, such as force and torque."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from rviz_common.history_display import HistoryDisplay
+from rviz_default_plugins.decoding.geometry import along_x, position, Triple
+from rviz_default_plugins.drawing.bodies import add_arrow_to, add_lines, Paint
+
+__all__ = ['VectorsDisplay']
+
+ORIGIN = (0.0, 0.0, 0.0)
+
+
+class VectorsDisplay(HistoryDisplay):
+    """The last pairs of a straight vector, as arrow, and a turning one, as arrow and circle."""
+
+    def keep(self) -> int:
+        """Return how many pairs are shown at once."""
+        return int(self.values['History Length'])
+
+    def draw_pair(self, place: str, straight: Any, turning: Any, names: tuple[str, str]) -> None:
+        """Draw both; the names are those of the properties of each."""
+        for name, vector, is_turning in ((names[0], straight, False), (names[1], turning, True)):
+            scale = self.values[f'{name} Arrow Scale']
+            x, y, z = position(vector, f'{name.lower()} vector')
+            scaled = (x * scale, y * scale, z * scale)
+            if math.hypot(x, y, z) <= self.smallest():
+                continue
+            paint = self.values[f'{name} Color'], self.values['Alpha']
+            self._add_arrow(f'{place}/{name.lower()}', scaled, paint)
+            if is_turning:
+                self._add_circle(f'{place}/circle', scaled, paint)
+
+    def smallest(self) -> float:
+        """Return how long a vector is that is not drawn."""
+        return 0.0
+
+    def _add_arrow(self, name: str, vector: Triple, paint: Paint) -> None:
+        width = 0.1 * self.values['Arrow Width']
+        add_arrow_to(self.context.scene, name, vector, width, paint, ORIGIN)
+
+    def _add_circle(self, name: str, vector: Triple, paint: Paint) -> None:
+        """Draw most of a circle around the vector, with a hook at the end that it turns to."""
+        length = math.hypot(*vector)
+        if length < 1e-9:
+            return
+        turns = np.linspace(0.0, 1.75 * math.pi, 33)
+        middle, radius = np.full(33, length / 2.0), length / 4.0
+        around = np.stack([middle, radius * np.cos(turns), radius * np.sin(turns)], axis=1)
+        hook = around[-4] * (1.0, 0.7, 0.7)
+        points = np.concatenate([around, [hook]]).astype(np.float32)
+        segments = np.stack([points[:-1], points[1:]], axis=1)
+        line = add_lines(self.context.scene, name, segments, paint[0])
+        line.wxyz = along_x(vector)

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A window of the page that shows a picture."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+from weakref import WeakKeyDictionary
+
+__all__ = ['ImageWindow']
+
+WIDTH, GAP = 320, 15
+
+
+class ImageWindow:
+    """A window that can be moved; it opens below on the left, beside those that are open."""
+
+    _taken: ClassVar[WeakKeyDictionary[Any, set[int]]] = WeakKeyDictionary()
+    """Places of open windows by page."""
+
+    def __init__(self, server: Any, title: str, quality: int) -> None:
+        """Open an empty window."""
+        self._server = server
+        self._quality = quality
+        taken = self._taken.setdefault(server, set())
+        self._place = next(place for place in range(len(taken) + 1) if place not in taken)
+        taken.add(self._place)
+        self._panel = server.gui.add_panel()
+        self._tab = self._panel.add_tab(title)
+        self._panel.float(x=GAP + self._place * (WIDTH + GAP), y=-GAP, width=WIDTH)
+        self._image: Any = None
+
+    def show(self, pixels: Any) -> None:
+        """Show rows of pixels of red, green and blue."""
+        if self._image is not None:
+            self._image.image = pixels
+            return
+        with self._tab:
+            self._image = self._server.gui.add_image(
+                pixels, format='jpeg', jpeg_quality=self._quality
+            )
+
+    def close(self) -> None:
+        """Close the window."""
+        self._panel.remove()
+        self._taken[self._server].discard(self._place)

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a marker looks like, apart from where it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from rviz_default_plugins.decoding.geometry import Points, points_of, position, Triple
+from visualization_msgs.msg import Marker
+
+__all__ = ['Look', 'look_of']
+
+MOST = 200_000
+"""How many points of a marker are shown."""
+
+# How many points belong together, so that none may be left out alone.
+GROUPS = {Marker.LINE_LIST: 2, Marker.TRIANGLE_LIST: 3}
+
+Colors = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Look:
+    """
+    What a marker looks like, checked.
+
+    Colours are from 0 to 255; there is one for each point, or each triangle, or none. What is
+    worth knowing of it is said by `note`.
+    """
+
+    kind: int
+    scale: Triple
+    color: tuple[int, int, int]
+    alpha: float
+    points: Points
+    colors: Colors | None
+    alphas: NDArray[np.float32] | None
+    text: str
+    mesh: tuple[str, bool]
+    note: str = ''
+
+    def is_like(self, other: Look | None) -> bool:
+        """Tell if nothing has to be drawn anew."""
+        return other is not None and self._parts() == other._parts() and self._same_points(other)
+
+    def _parts(self) -> tuple[Any, ...]:
+        return self.kind, self.scale, self.color, self.alpha, self.text, self.mesh
+
+    def _same_points(self, other: Look) -> bool:
+        return (
+            np.array_equal(self.points, other.points)
+            and _same(self.colors, other.colors)
+            and _same(self.alphas, other.alphas)
+        )
+
+
+def look_of(marker: Any) -> Look:
+    """Return what a marker looks like, or raise ValueError with what is wrong with it."""
+    color, alpha = _color(marker.color)
+    points, colors, note = _points(marker)
+    is_colored = colors is not None
+    if not is_colored and alpha == 0.0:
+        note = 'it is transparent, since its color has a=0.'
+    return Look(
+        marker.type,
+        position(marker.scale, 'scale'),
+        color,
+        alpha,
+        points,
+        None if colors is None else _bytes(colors[:, :3]),
+        None if colors is None else np.clip(colors[:, 3], 0.0, 1.0),
+        marker.text if marker.type == Marker.TEXT_VIEW_FACING else '',
+        (marker.mesh_resource, bool(marker.mesh_use_embedded_materials)),
+        note,
+    )
+
+
+def _color(color: Any) -> tuple[tuple[int, int, int], float]:
+    parts = (color.r, color.g, color.b, color.a)
+    if not all(map(math.isfinite, parts)):
+        raise ValueError('its color has numbers that are not finite.')
+    red, green, blue, alpha = (min(1.0, max(0.0, part)) for part in parts)
+    return (round(red * 255), round(green * 255), round(blue * 255)), alpha
+
+
+def _points(marker: Any) -> tuple[Points, NDArray[np.float32] | None, str]:
+    """Return points and colours, whole groups of which may be left out, and a note on that."""
+    count, colors = len(marker.points), len(marker.colors)
+    group = GROUPS.get(marker.type, 1)
+    if count % group:
+        raise ValueError(f'it has {count} points, which is not a multiple of {group}.')
+    allowed = {0, count, count // 3} if group == 3 else {0, count}
+    if colors not in allowed:
+        raise ValueError(f'it has {count} points, but {colors} colors.')
+    step = max(1, -(-count // MOST))
+    per_color = group if colors == count else 1
+    points = points_of(_each(marker.points, group, step))
+    finite = np.isfinite(points).all(axis=1)
+    if not finite.all():
+        lost = int((~finite).sum())
+        raise ValueError(f'{lost} of its points have numbers that are not finite.')
+    note = f'{len(points)} of its {count} points are shown.' if step > 1 else ''
+    return points, _colors(_each(marker.colors, per_color, step)), note
+
+
+def _each(values: Any, group: int, step: int) -> Any:
+    """Return each n-th group of values."""
+    if step == 1:
+        return values
+    starts = range(0, len(values), group * step)
+    return [value for start in starts for value in values[slice(start, start + group)]]
+
+
+def _colors(colors: Any) -> NDArray[np.float32] | None:
+    if not colors:
+        return None
+    flat = [part for each in colors for part in (each.r, each.g, each.b, each.a)]
+    return np.nan_to_num(np.array(flat, dtype=np.float32).reshape(-1, 4))
+
+
+def _bytes(parts: NDArray[np.float32]) -> Colors:
+    colors: Colors = (np.clip(parts, 0.0, 1.0) * 255.0).round().astype(np.uint8)
+    return colors
+
+
+def _same(first: Any, second: Any) -> bool:
+    if first is None or second is None:
+        return first is second
+    return np.array_equal(first, second)

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All markers of a display."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from rviz_common.frames import FrameError, Frames, Pose
+from rviz_common.status import Level, Statuses
+from rviz_default_plugins.markers.inbox import Coming, Inbox, Key
+from rviz_default_plugins.markers.shown_marker import ShownMarker
+from visualization_msgs.msg import Marker
+
+__all__ = ['MarkerScene']
+
+MOST = 5000
+"""How many markers are shown."""
+MOST_PER_FRAME = 200
+"""How many are drawn in one frame; the others follow in the next ones."""
+
+
+class MarkerScene:
+    """All markers of a display, drawn below a path of the scene."""
+
+    def __init__(self, scene: Any, frames: Frames, root: str, status: Statuses) -> None:
+        """Begin without markers."""
+        self._scene, self._frames, self._root, self._status = scene, frames, root, status
+        self._shown: dict[Key, ShownMarker] = {}
+        self._inbox = Inbox()
+        self._left_out: set[Key] = set()
+        self._serial = 0
+        self._fixed_frame = frames.fixed_frame
+
+    def put(self, markers: Iterable[Any], now_ns: int) -> None:
+        """Take messages on markers, which are drawn in the next frames."""
+        for marker in markers:
+            self._inbox.put(marker, now_ns)
+
+    def namespaces(self) -> set[str]:
+        """Return the namespaces of the markers."""
+        return {namespace for namespace, _ in self._shown}
+
+    def update(self, now_ns: int, is_enabled: Callable[[str], bool]) -> None:
+        """Draw what is new, remove what is over, and follow frames."""
+        self._take_inbox()
+        self._end(now_ns)
+        if self._frames.fixed_frame != self._fixed_frame:
+            self._fixed_frame = self._frames.fixed_frame
+            for marker in self._shown.values():
+                marker.move_anew()
+        self._follow()
+        for (namespace, _), marker in self._shown.items():
+            marker.show(marker.is_placed and is_enabled(namespace))
+        self._say()
+
+    def _take_inbox(self) -> None:
+        inbox = self._inbox
+        if inbox.deletes_all:
+            inbox.deletes_all = False
+            self._left_out.clear()
+            for key in list(self._shown):
+                self._remove(key)
+        for key, coming in inbox.take_some(MOST_PER_FRAME):
+            if coming.marker.action == Marker.DELETE:
+                self._remove(key)
+            else:
+                self._set(key, coming)
+
+    def _set(self, key: Key, coming: Coming) -> None:
+        shown = self._shown.get(key)
+        if shown is None:
+            if len(self._shown) >= MOST:
+                self._left_out.add(key)
+                return
+            self._serial += 1
+            shown = ShownMarker(self._scene, f'{self._root}/{self._serial}')
+            self._shown[key] = shown
+            self._left_out.discard(key)
+        shown.change(coming)
+
+    def _remove(self, key: Key) -> None:
+        self._left_out.discard(key)
+        shown = self._shown.pop(key, None)
+        if shown is not None:
+            shown.remove()
+
+    def _end(self, now_ns: int) -> None:
+        for key in [key for key, shown in self._shown.items() if shown.is_over(now_ns)]:
+            self._remove(key)
+
+    def _follow(self) -> None:
+        """Place markers where their frames are; each frame is asked for once."""
+        poses: dict[tuple[str, int], Pose | FrameError] = {}
+        for marker in self._shown.values():
+            if not marker.needs_pose:
+                continue
+            asked = marker.frame_id, marker.stamp_ns
+            if asked not in poses:
+                poses[asked] = self._pose(*asked)
+            pose = poses[asked]
+            if isinstance(pose, Pose):
+                marker.place(pose)
+            elif marker.is_locked:
+                marker.move_anew()
+        errors = [each for each in poses.values() if isinstance(each, FrameError)]
+        if errors:
+            self._status.say('Transform', Level.ERROR, str(errors[0]))
+        else:
+            self._status.forget('Transform')
+
+    def _pose(self, frame_id: str, stamp_ns: int) -> Pose | FrameError:
+        try:
+            return self._frames.pose(frame_id, stamp_ns)
+        except FrameError as error:
+            return error
+
+    def _say(self) -> None:
+        """Say which markers are not shown, and why the first of them is not."""
+        self._say_first('Markers', Level.ERROR, 'not shown', lambda shown: shown.problem)
+        self._say_first('Notes', Level.WARN, 'not as meant', lambda shown: shown.note)
+        if self._inbox.refusal:
+            self._status.say('Action', Level.ERROR, self._inbox.refusal)
+        if self._left_out:
+            sentence = f'{len(self._left_out)} more than {MOST} markers are left out.'
+            self._status.say('Number', Level.WARN, sentence)
+        else:
+            self._status.forget('Number')
+
+    def _say_first(
+        self, subject: str, level: Level, what: str, of: Callable[[ShownMarker], str]
+    ) -> None:
+        said = [(key, of(shown)) for key, shown in self._shown.items() if of(shown)]
+        if not said:
+            self._status.forget(subject)
+            return
+        (namespace, number), reason = said[0]
+        markers = '1 marker is' if len(said) == 1 else f'{len(said)} markers are'
+        sentence = f'{markers} perhaps {what}' if level is Level.WARN else f'{markers} {what}'
+        self._status.say(subject, level, f"{sentence}; '{namespace}/{number}': {reason}")

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Draw the mesh that a marker names."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from rviz_default_plugins.drawing.bodies import opacity_of
+from rviz_default_plugins.markers.look import Look
+from rviz_default_plugins.robot.mesh import DrawnMesh
+from rviz_default_plugins.robot.mesh_file import find_mesh
+from rviz_default_plugins.robot.mesh_loading import load_mesh
+
+__all__ = ['draw_mesh']
+
+WHITE = (1.0, 1.0, 1.0, 1.0)
+
+
+def draw_mesh(scene: Any, name: str, look: Look) -> None:
+    """Draw a mesh, in the colours of its file if the marker wants that, or raise ValueError."""
+    resource, has_own_colors = look.mesh
+    if not resource:
+        raise ValueError('its mesh_resource is empty.')
+    mesh = _mesh(resource)
+    for index, surface in enumerate(mesh.surfaces):
+        path = f'{name}_{index}'
+        if has_own_colors and surface.glb is not None:
+            scene.add_glb(path, surface.glb, scale=look.scale)
+            continue
+        color, alpha = look.color, look.alpha
+        if has_own_colors:
+            red, green, blue, alpha = surface.color or WHITE
+            color = round(red * 255), round(green * 255), round(blue * 255)
+        scene.add_mesh_simple(
+            path,
+            surface.vertices,
+            surface.faces,
+            color=color,
+            opacity=opacity_of(alpha),
+            scale=look.scale,
+            flat_shading=mesh.is_flat,
+            side='double',
+        )
+
+
+def _mesh(resource: str) -> DrawnMesh:
+    """Return a mesh, or raise ValueError; MeshError is one."""
+    path = find_mesh(resource)
+    try:
+        return _loaded(path, resource, path.stat().st_mtime_ns)
+    except OSError as error:
+        raise ValueError(f"'{resource}' cannot be read: {error.strerror}.") from None
+
+
+@lru_cache(maxsize=32)
+def _loaded(path: Path, resource: str, changed_ns: int) -> DrawnMesh:
+    return load_mesh(path, resource)
