@@ -113,10 +113,11 @@ def test_write_back() -> None:
 
 
 def test_wrong_shape_of_file() -> None:
-    """A file with a text where others nest gets defaults, and is written in the right shape."""
-    values = Values((STYLE,), {'Line Style': 'Lines'})
+    """A text where others nest gives defaults; a change is written in the right shape."""
+    values = Values((STYLE,), {'Line Style': 'Billboards'})
     assert values['Line Style/Value'] == 'Lines'
-    assert values.to_file() == {'Line Style': {'Value': 'Lines'}}
+    values['Line Style/Value'] = 'Billboards'
+    assert values.to_file() == {'Line Style': {'Value': 'Billboards'}}
 
 
 def test_unknown() -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from rviz_common.context import Context
 from rviz_common.display import Display
-from stage import NotingNode, sentence, Stage
+from stage import NotingNode, page_of, sentence, Stage
 import viser
 
 __all__ = ['MessageStage', 'all_sentences', 'message_stage', 'near', 'sentence', 'vector']
@@ -59,7 +59,7 @@ class MessageStage(Stage):
         super().__init__(server)
         self.node = ClockedNode()
         self.visited = VisitedServer(server)
-        self.context = Context(self.node, self.visited, self.frames, self.context.queue)
+        self.context = Context(self.node, page_of(self.visited), self.frames, self.context.queue)
 
     def listen(self, kind: type[Display], given: Mapping[str, Any] | None = None) -> Any:
         """Start a display that listens to the topic."""

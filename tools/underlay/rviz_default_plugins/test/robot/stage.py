@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 import time
+from types import SimpleNamespace
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
@@ -46,6 +47,11 @@ class NotingNode:
                 callback(message)
 
 
+def page_of(server: Any) -> Any:
+    """Return what displays use of a page with a server."""
+    return SimpleNamespace(viser=server)
+
+
 class Stage:
     """What a display is shown on."""
 
@@ -54,7 +60,7 @@ class Stage:
         self.node = NotingNode()
         self.buffer = Buffer()
         self.frames = Frames(self.buffer, fixed_frame)
-        self.context = Context(self.node, server, self.frames, WorkQueue())
+        self.context = Context(self.node, page_of(server), self.frames, WorkQueue())
         self.displays: list[Display] = []
         self._stamp = 0
 
