@@ -3,9 +3,7 @@
 
 from __future__ import annotations
 
-import threading
 import time
-from typing import Any
 from weakref import WeakKeyDictionary
 
 from rclpy.event_handler import SubscriptionEventCallbacks
@@ -35,7 +33,8 @@ class RobotLink:
     """
     The emergency stop of a robot, and the heartbeat of the console for it.
 
-    What is published goes out at once, from the thread that asks for it.
+    What is published goes out at once, from the thread that asks for it. The link stays as long
+    as the node, so that a stop is heard also by those who join late.
     """
 
     def __init__(self, node: Node, namespace: str) -> None:
@@ -44,9 +43,6 @@ class RobotLink:
         self.stop = EmergencyStop()
         self.people = People()
         self.stop_topic = below(namespace, 'emergency_stop')
-        self._lock = threading.Lock()
-        self._open = True
-        self._last_words: dict[Any, Any] = {}
         self._beat_s = -1.0
         self._stop_publisher = node.create_publisher(Bool, self.stop_topic, LATCHED)
         self._beat_publisher = node.create_publisher(
@@ -59,34 +55,14 @@ class RobotLink:
     def say_stop(self, pressed: bool, by: str) -> None:
         """Press or release the emergency stop."""
         self.stop.say(pressed, by)
-        self.publish(self._stop_publisher, Bool(data=pressed))
+        self._stop_publisher.publish(Bool(data=pressed))
 
     def beat(self, in_control: bool) -> None:
         """Give the robot a sign of life; those that follow too soon are left out."""
         now_s = time.monotonic()
         if not in_control or now_s - self._beat_s >= BEAT_PERIOD_S:
             self._beat_s = now_s
-            self.publish(self._beat_publisher, Bool(data=in_control))
-
-    def publish(self, publisher: Any, message: Any) -> None:
-        """Publish something, unless the page is about to end."""
-        with self._lock:
-            if self._open:
-                publisher.publish(message)
-
-    def say_at_end(self, publisher: Any, message: Any) -> None:
-        """Have something published when the page ends; None if that is not needed any more."""
-        with self._lock:
-            self._last_words[publisher] = message
-
-    def close(self) -> None:
-        """Say the last words, and nothing any longer."""
-        with self._lock:
-            self._open = False
-            for publisher, message in self._last_words.items():
-                if message is not None:
-                    publisher.publish(message)
-            self._last_words.clear()
+            self._beat_publisher.publish(Bool(data=in_control))
 
     def _hear(self, message: Bool) -> None:
         self.stop.hear(message.data)

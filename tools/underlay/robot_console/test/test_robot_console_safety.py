@@ -24,12 +24,12 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from robot_console.panels.drive import Drive
 from robot_console.panels.safety import Safety
 from robot_console.robot_link import LATCHED
-from robot_console.small_page import small_page
+from robot_console.small_page import page_text
 from rviz_common.context import Context
 from rviz_common.page import Page
 from rviz_common.work_queue import WorkQueue
 from std_msgs.msg import Bool, String
-from websockets.exceptions import ConnectionClosedError
+from websockets.exceptions import ConnectionClosed, ConnectionClosedError
 from websockets.sync.client import ClientConnection, connect
 
 MANY = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -242,6 +242,23 @@ def test_end_of_the_page(world: World) -> None:
     world.wait_until(lambda: world.twists()[-1:] == [(0.0, 0.0)], 'no zero')
 
 
+def test_other_file(world: World) -> None:
+    """When the panels are closed and started anew, open pages come back to the new ones."""
+    old, drive = world.open('safety'), world.open('drive')
+    old.say({'do': 'stop'})
+    for panel in world.panels:
+        panel.close()
+    for page in (old, drive):
+        with pytest.raises(ConnectionClosed):
+            page.connection.recv(timeout=20)
+    for panel in world.panels:
+        panel.start()
+    new = world.open('safety')
+    assert new.say({'do': 'beat'})['stop']['pressed'], 'the stop is not forgotten'
+    new.say({'do': 'release'})
+    world.wait_until(lambda: world.stops()[-1:] == [False], 'no release')
+
+
 def test_many_clients(world: World) -> None:
     """Twenty browsers that press at once are all answered."""
     pages = [world.open('safety', str(number)) for number in range(20)]
@@ -279,7 +296,7 @@ def test_small_page(world: World, name: str) -> None:
 
 def test_settings_cannot_end_the_script() -> None:
     """A setting is data, whatever is in it."""
-    assert '</script><b>' not in small_page('drive', {'topic': '</script><b>'})
+    assert '</script><b>' not in page_text('drive', {'topic': '</script><b>'})
 
 
 def test_files_are_installed() -> None:

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from geometry_msgs.msg import Twist, Vector3
-from robot_console.connection import talker
+from rclpy.duration import Duration
+from robot_console.connections import Connections
 from robot_console.drive_session import DriveSession
 from robot_console.namespaces import below, NAMESPACE
 from robot_console.robot_link import COMMAND, link_of
-from robot_console.small_page import add_small_page
-from robot_console.speed_limits import SpeedLimits, STILL, Velocity
+from robot_console.small_page import SmallPage
+from robot_console.speed_limits import SpeedLimits, Velocity
 from rviz_common.panel import Panel
 from rviz_common.properties import Number, Topic
 
@@ -45,12 +46,14 @@ class Drive(Panel):
             'sideways': self._limits.sideways_m_s,
             'turn': self._limits.turn_rad_s,
         }
-        talk = talker(self._link.people, self._session)
-        add_small_page(self.context, 'drive', namespace, settings, talk, 330)
+        talks = Connections(self._link.people, self._session)
+        self._page = SmallPage(self.context, 'drive', namespace, settings, talks)
 
     def close(self) -> None:
         """Stop a robot that is being driven."""
-        self._link.close()
+        self._page.close()
+        self._publisher.wait_for_all_acked(Duration(seconds=0.2))
+        self.context.node.destroy_publisher(self._publisher)
 
     def _session(self, person: str) -> DriveSession:
         return DriveSession(self._link, person, self._limits, self._say)
@@ -61,5 +64,4 @@ class Drive(Panel):
             linear=Vector3(x=velocity.forward_m_s, y=velocity.left_m_s),
             angular=Vector3(z=velocity.turn_rad_s),
         )
-        self._link.say_at_end(self._publisher, None if velocity == STILL else Twist())
-        self._link.publish(self._publisher, twist)
+        self._publisher.publish(twist)

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import time
 
-from robot_console.connection import talker
+from robot_console.connections import Connections
 from robot_console.namespaces import below, NAMESPACE
 from robot_console.robot_kind import AUTO, KINDS, robot_kind
 from robot_console.robot_link import LATCHED, link_of
 from robot_console.safety_session import Facts, SafetySession
-from robot_console.small_page import add_small_page
+from robot_console.small_page import SmallPage
 from rviz_common.panel import Panel
 from rviz_common.properties import Choice
 from std_msgs.msg import String
@@ -18,6 +18,7 @@ from std_msgs.msg import String
 __all__ = ['Safety']
 
 PERIOD_S = 0.5
+FIRST = -1.0
 
 
 class Safety(Panel):
@@ -28,6 +29,7 @@ class Safety(Panel):
     """
 
     CLASS = 'robot_console/Safety'
+    IS_ALWAYS_VISIBLE = True
     PROPERTIES = (
         NAMESPACE,
         Choice(
@@ -46,14 +48,14 @@ class Safety(Panel):
         self._facts = Facts()
         self._says = ''
         self._looked_s = -PERIOD_S
-        node.create_subscription(String, self._state_topic, self._hear, LATCHED)
+        self._ear = node.create_subscription(String, self._state_topic, self._hear, LATCHED)
         settings = {
             'domain': node.context.get_domain_id(),
             'topic': node.resolve_topic_name(self._link.stop_topic),
             'namespace': namespace,
         }
-        talk = talker(self._link.people, self._session)
-        add_small_page(self.context, 'safety', namespace, settings, talk, 210)
+        talks = Connections(self._link.people, self._session)
+        self._page = SmallPage(self.context, 'safety', namespace, settings, talks, FIRST)
 
     def update(self) -> None:
         """Look who is there, now and then."""
@@ -63,8 +65,9 @@ class Safety(Panel):
             self._facts = self._look()
 
     def close(self) -> None:
-        """Say nothing any longer: the robot notices if this console was in control."""
-        self._link.close()
+        """End the page: the robot notices if this console was in control."""
+        self._page.close()
+        self.context.node.destroy_subscription(self._ear)
 
     def _session(self, person: str) -> SafetySession:
         return SafetySession(self._link, person, lambda: self._facts)
