@@ -92,8 +92,7 @@ class DisplayEntry(Entry):
         self._is_running = False
         with suppress(Exception):  # what has failed may not be able to stop either
             self.display.stop()
-        with suppress(KeyError):
-            self.display.context.scene.remove_by_name(self.display.root)
+        self.display.context.scene.remove_by_name(self.display.root)
         reason = f'{type(error).__name__}: {error}'
         self.status.say(
             'Display',

@@ -178,7 +178,7 @@ class Visualizer:
     def _sections(self) -> dict[Place, Any]:
         """Return the sections of the file that may have been changed."""
         return {
-            DISPLAYS: self.displays.to_file()['Displays'],
+            DISPLAYS: [each.to_file() for each in self.displays.children],
             OPTIONS_PLACE: self.options.to_file(),
             PANELS: self.panels.to_file(),
             SAVED_VIEWS: [view.to_file() for view in self.saved_views],
