@@ -5,17 +5,16 @@ from __future__ import annotations
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription
+from launch.conditions import IfCondition
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import SetParameter
 from launch_ros.substitutions import FindPackageShare
 
-VIEW = 'view.launch.py'
-
 
 def generate_launch_description() -> LaunchDescription:
-    """Compose the launch files of the other packages."""
-    use_sim_time = LaunchConfiguration('use_sim_time')
+    """Compose the launch files of the packages."""
+    gui, use_sim_time = LaunchConfiguration('gui'), LaunchConfiguration('use_sim_time')
     return LaunchDescription(
         [
             DeclareLaunchArgument(
@@ -30,29 +29,31 @@ def generate_launch_description() -> LaunchDescription:
                 choices=['true', 'false'],
                 description='Take the time from the topic /clock instead of the computer.',
             ),
-            IncludeLaunchDescription(
-                PythonLaunchDescriptionSource(
-                    PathJoinSubstitution(
-                        [FindPackageShare('humanoid_control'), 'launch', 'robot_bringup.launch.py']
-                    )
-                ),
-                launch_arguments={
-                    'use_controller': LaunchConfiguration('use_controller'),
-                    'use_sim_time': use_sim_time,
-                }.items(),
+            DeclareLaunchArgument(
+                'gui',
+                default_value='true',
+                choices=['true', 'false'],
+                description='Show the robot in RViz, with what one drives and watches it with.',
             ),
-            GroupAction(
-                [
-                    SetParameter(name='use_sim_time', value=use_sim_time),
-                    IncludeLaunchDescription(
-                        PythonLaunchDescriptionSource(
-                            PathJoinSubstitution(
-                                [FindPackageShare('humanoid_description'), 'launch', VIEW]
-                            )
-                        ),
-                        launch_arguments={'gui': 'false'}.items(),
-                    ),
-                ]
+            SetParameter(name='use_sim_time', value=use_sim_time),
+            GroupAction([_include('humanoid_bringup', 'console')], condition=IfCondition(gui)),
+            _include(
+                'humanoid_control',
+                'robot_bringup',
+                use_controller=LaunchConfiguration('use_controller'),
+                use_sim_time=use_sim_time,
             ),
+            GroupAction([_include('humanoid_description', 'view', gui='false')]),
         ]
+    )
+
+
+def _include(
+    package: str, name: str, **arguments: str | LaunchConfiguration
+) -> IncludeLaunchDescription:
+    """Include a launch file of a package."""
+    path = [FindPackageShare(package), 'launch', f'{name}.launch.py']
+    return IncludeLaunchDescription(
+        PythonLaunchDescriptionSource(PathJoinSubstitution(path)),
+        launch_arguments=arguments.items(),
     )

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Show the humanoid in RViz, with what one drives and watches it with."""
+
+from __future__ import annotations
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description() -> LaunchDescription:
+    """Describe the node; an RViz with a window of its own leaves the arguments aside."""
+    config = PathJoinSubstitution([FindPackageShare('humanoid_bringup'), 'config', 'console.rviz'])
+    page = {
+        'host': ParameterValue(LaunchConfiguration('host'), value_type=str),
+        'port': ParameterValue(LaunchConfiguration('port'), value_type=int),
+        'token': ParameterValue(LaunchConfiguration('token'), value_type=str),
+    }
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument(
+                'host',
+                default_value='127.0.0.1',
+                description='The address at which the page is served; 0.0.0.0 shows it to others.',
+            ),
+            DeclareLaunchArgument(
+                'port',
+                default_value='0',
+                description='The port of the page; 0 takes the first free one from 8080 on.',
+            ),
+            DeclareLaunchArgument(
+                'token',
+                default_value='',
+                description='What one must know to see the page; made up if others can reach it.',
+            ),
+            Node(
+                package='rviz2',
+                executable='rviz2',
+                output='screen',
+                arguments=['-d', config],
+                parameters=[page],
+            ),
+        ]
+    )
