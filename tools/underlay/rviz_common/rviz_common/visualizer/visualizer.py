@@ -20,9 +20,11 @@ from rviz_common.config.configuration import (
 )
 from rviz_common.config.document import Place
 from rviz_common.context import Context
+from rviz_common.described_error import described_error
 from rviz_common.frames import Frames
+from rviz_common.pace import Pace
+from rviz_common.panels.file_folder import FileFolder
 from rviz_common.panels.head import Head
-from rviz_common.panels.pace import Pace
 from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.properties import topic_path, Values
 from rviz_common.status import Statuses
@@ -75,6 +77,7 @@ class Visualizer:
         self._pace = Pace()
         self._maker = Maker(self.context, f'{WORLD}/displays')
         self._open(configuration, path)
+        self._files = FileFolder(self.context)
         self._loop = FrameLoop(node, self.frame, self.options[FRAME_RATE])
 
     def load(self, configuration: Configuration, path: str = '') -> None:
@@ -90,7 +93,6 @@ class Visualizer:
             raise ConfigError(path or 'The file', None, 'Its name must end with .rviz.')
         self.configuration.save(path, self._sections())
         self.path = path
-        self._logger.info(f'Saved to {path}.')
 
     def text(self) -> str:
         """Return what a file of what is shown would have."""
@@ -136,6 +138,7 @@ class Visualizer:
         """Show nothing any longer."""
         self._loop.close()
         self._close()
+        self._files.close()
         self._listener.unregister()
         self.context.node.destroy_guard_condition(self._wake)
 
@@ -203,7 +206,7 @@ class Visualizer:
         try:
             self.context.queue.run()
         except Exception as error:  # whatever a widget does, all else goes on
-            self._logger.error(f'What was entered failed: {type(error).__name__}: {error}')
+            self._logger.error(f'What was entered failed: {described_error(error)}')
             self._wake.trigger()  # for what still waits
 
 
