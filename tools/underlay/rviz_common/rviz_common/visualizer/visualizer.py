@@ -199,7 +199,10 @@ class Visualizer:
             yield from sentences_about_classes('views', source, [view.class_name])
         for name in self.options.unknown(UNUSED_OPTIONS):
             yield f"{source}: The global option '{name}' is not known. The file keeps it."
-        yield from (f'{source}: The global option {each}' for each in self.options.refusals)
+        yield from (f'{source}: Of the global options, {each}' for each in self.options.refusals)
+        yield from (f'{source}: Of the view, {each}' for each in view.values.refusals)
+        for tool in self.tools.tools:
+            yield from (f'{source}: Of {tool.CLASS}, {each}' for each in tool.values.refusals)
 
     def _work(self) -> None:
         """Do what widgets have posted."""
