@@ -63,12 +63,15 @@ def _show(job: Job) -> int:
 def _visualize(
     node: Node, page: Page, arguments: argparse.Namespace, configuration: Configuration
 ) -> None:
+    from rviz2.page_parameters import unknown_parameters
     from rviz_common.visualizer import Visualizer
     from rviz_common.visualizer.options import FIXED_FRAME
 
     visualizer = Visualizer(node, page.viser, configuration, arguments.display_config or '')
     if arguments.fixed_frame is not None:
         visualizer.set_option(FIXED_FRAME, arguments.fixed_frame)
+    for sentence in unknown_parameters(node):
+        node.get_logger().warning(sentence)
     spin(node)
     visualizer.close()
 

@@ -131,7 +131,7 @@ def _unreadable(error: yaml.MarkedYAMLError, text: str, source: str) -> ConfigEr
     if mark is None:
         return ConfigError(source, None, f'This is not YAML: {error}.')
     lines = text.splitlines()
-    if mark.line < len(lines) and lines[mark.line][mark.column :].startswith('\t'):
+    if mark.line < len(lines) and lines[mark.line].startswith('\t', mark.column):
         return ConfigError(source, mark.line + 1, 'There is a tab. Indent with spaces only.')
     said = ', '.join(each for each in (error.context, error.problem) if each)
     return ConfigError(source, mark.line + 1, f'This is not YAML: {said}.')

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 import os
 from typing import Any, TYPE_CHECKING
 
@@ -29,6 +28,7 @@ from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.properties import topic_path, Values
 from rviz_common.status import Statuses
 from rviz_common.views import View
+from rviz_common.visualizer.background import paint
 from rviz_common.visualizer.cameras import Cameras, WORLD
 from rviz_common.visualizer.entry import Entry
 from rviz_common.visualizer.frame_loop import FrameLoop
@@ -40,9 +40,8 @@ from rviz_common.visualizer.options import (
     FIXED_FRAME,
     FRAME_RATE,
     OPTIONS,
-    UNUSED_OPTIONS,
 )
-from rviz_common.visualizer.reports import sentences_about_classes, sentences_about_displays
+from rviz_common.visualizer.reports import surprises
 from rviz_common.visualizer.tool_box import ToolBox
 from rviz_common.work_queue import WorkQueue
 from tf2_ros import Buffer, TransformListener
@@ -156,7 +155,7 @@ class Visualizer:
         self.watch.update()
         self.head = Head(self.context, self)
         self.panels = PanelTabs(self.context, configuration.panels)
-        for sentence in self._surprises():
+        for sentence in surprises(self):
             self._logger.warning(sentence)
 
     def _close(self) -> None:
@@ -175,7 +174,7 @@ class Visualizer:
         elif option == FRAME_RATE:
             self._loop.set_rate(value)
         else:
-            _paint(self.context.server, value)
+            paint(self.context.server, value)
 
     def _sections(self) -> dict[Place, Any]:
         """Return the sections of the file that may have been changed."""
@@ -188,22 +187,6 @@ class Visualizer:
             VIEW: self.cameras.view.to_file(),
         }
 
-    def _surprises(self) -> Iterator[str]:
-        """Return a sentence for all of the file that is not known."""
-        source = self.configuration.document.source
-        yield from sentences_about_displays(self.configuration, self.displays.children)
-        yield from sentences_about_classes('tools', source, self.tools.unknown)
-        yield from sentences_about_classes('panels', source, self.panels.unknown)
-        view = self.cameras.view
-        if not view.is_known:
-            yield from sentences_about_classes('views', source, [view.class_name])
-        for name in self.options.unknown(UNUSED_OPTIONS):
-            yield f"{source}: The global option '{name}' is not known. The file keeps it."
-        yield from (f'{source}: Of the global options, {each}' for each in self.options.refusals)
-        yield from (f'{source}: Of the view, {each}' for each in view.values.refusals)
-        for tool in self.tools.tools:
-            yield from (f'{source}: Of {tool.CLASS}, {each}' for each in tool.values.refusals)
-
     def _work(self) -> None:
         """Do what widgets have posted."""
         try:
@@ -211,10 +194,3 @@ class Visualizer:
         except Exception as error:  # whatever a widget does, all else goes on
             self._logger.error(f'What was entered failed: {described_error(error)}')
             self._wake.trigger()  # for what still waits
-
-
-def _paint(server: ViserServer, color: tuple[int, int, int]) -> None:
-    """Give the scene a background of one color."""
-    import numpy as np
-
-    server.scene.set_background_image(np.full((1, 1, 3), color, np.uint8), format='png')
