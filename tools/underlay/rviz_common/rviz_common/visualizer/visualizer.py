@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 import os
 from typing import Any, TYPE_CHECKING
 
+from rclpy.exceptions import InvalidHandle
 from rviz_common.config import ConfigError, Configuration
 from rviz_common.config.configuration import (
     DISPLAYS,
@@ -64,14 +66,13 @@ class Visualizer:
         self, node: Node, server: ViserServer, configuration: Configuration, path: str = ''
     ) -> None:
         """Show what a configuration says; `path` is the file that it is from."""
-        wake = node.create_guard_condition(self._work)
         self._buffer = Buffer()
         self._listener = TransformListener(self._buffer, node)
         frames = Frames(self._buffer)
-        self.context = Context(node, server, frames, WorkQueue(wake.trigger), self)
+        self.context = Context(node, server, frames, WorkQueue(self._rouse), self)
         self.status = Statuses()
         self.watch = FrameWatch(node, frames, self.status)
-        self._wake = wake
+        self._wake = node.create_guard_condition(self._work)
         self._logger = node.get_logger()
         self._pace = Pace()
         self._maker = Maker(self.context, f'{WORLD}/displays')
@@ -193,4 +194,9 @@ class Visualizer:
             self.context.queue.run()
         except Exception as error:  # whatever a widget does, all else goes on
             self._logger.error(f'What was entered failed: {described_error(error)}')
-            self._wake.trigger()  # for what still waits
+            self._rouse()  # for what still waits
+
+    def _rouse(self) -> None:
+        """Have posted work done soon; a browser may post some until the page is closed."""
+        with suppress(InvalidHandle):
+            self._wake.trigger()
