@@ -15,6 +15,7 @@ from rclpy.context import Context as RosContext
 from rclpy.node import Node
 from rviz_common.context import Context
 from rviz_common.page import Page
+from rviz_common.panels.order import ALWAYS_ORDER
 from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.work_queue import WorkQueue
 
@@ -45,7 +46,7 @@ def test_stop_button_is_outside_of_the_tabs(context: Context) -> None:
         mock.patch.object(context.gui, 'add_tab_group', wraps=context.gui.add_tab_group) as tabs,
     ):
         panels = PanelTabs(context, FILE)
-        assert [call.kwargs['order'] for call in html.call_args_list] == [-1.0, None]
+        assert [call.kwargs['order'] for call in html.call_args_list] == [ALWAYS_ORDER, None]
         assert tabs.call_count == 1
         panels.close()
         PanelTabs(context, FILE[:1]).close()
