@@ -67,7 +67,7 @@ class World:
         below = f'/{self.namespace}' if self.namespace else ''
         return f'127.0.0.1:{self.page.port}/{name}{below}'
 
-    def open(self, name: str, me: str = 'ann') -> Client:
+    def visit(self, name: str, me: str = 'ann') -> Client:
         """Connect to a small page."""
         return Client(self, f'ws://{self.url(name)}?me={me}')
 
@@ -142,7 +142,7 @@ def _is_heard(world: World, topic: str) -> bool:
 
 def test_stop_at_once(world: World) -> None:
     """A stop is published by the connection, while the thread of the node does nothing."""
-    page = world.open('safety')
+    page = world.visit('safety')
     state = page.say({'do': 'stop'})
     assert state['stop']['pressed'] and state['stop']['by'] == state['you']
     world.wait_until(lambda: world.stops() == [True], 'no stop')
@@ -152,11 +152,11 @@ def test_stop_at_once(world: World) -> None:
 
 def test_nothing_is_released_by_opening(world: World) -> None:
     """A page that is opened and closed says nothing about the stop and nothing about control."""
-    page = world.open('safety')
+    page = world.visit('safety')
     page.say({'do': 'beat'})
     page.close()
-    world.open('drive').close()
-    other = world.open('safety')
+    world.visit('drive').close()
+    other = world.visit('safety')
     other.say({'do': 'stop'})
     world.wait_until(lambda: bool(world.stops()), 'no stop')
     assert world.stops() == [True] and world.beats() == [] and world.twists() == []
@@ -164,7 +164,7 @@ def test_nothing_is_released_by_opening(world: World) -> None:
 
 def test_stop_of_others(world: World) -> None:
     """What others publish is shown, with who may have been it; it ends driving too."""
-    page, drive = world.open('safety'), world.open('drive')
+    page, drive = world.visit('safety'), world.visit('drive')
     drive.say(PUSH)
     publisher = world.robot.create_publisher(Bool, 'emergency_stop', 1)
     world.wait_until(lambda: publisher.get_subscription_count() > 0, 'no subscription')
@@ -178,7 +178,7 @@ def test_stop_of_others(world: World) -> None:
 
 def test_facts(world: World) -> None:
     """The page says who hears it, what the robot answers, and whether it is simulated."""
-    page = world.open('safety')
+    page = world.visit('safety')
     name = world.robot.get_fully_qualified_name()
     world.wait_until(lambda: page.say({'do': 'beat'})['listeners'] == [name], 'no listener')
     state = page.say({'do': 'beat'})
@@ -194,7 +194,7 @@ def test_facts(world: World) -> None:
 
 def test_drive(world: World) -> None:
     """The robot gets velocities and heartbeats while a page is held, and a zero at the end."""
-    page = world.open('drive')
+    page = world.visit('drive')
     for _ in range(6):
         page.say(PUSH)
         time.sleep(0.05)
@@ -208,7 +208,7 @@ def test_drive(world: World) -> None:
 @pytest.mark.parametrize('way', ['silent', 'closed', 'cut', 'wrong'])
 def test_lost(world: World, way: str) -> None:
     """A page that falls silent or goes while it drives leaves a zero, and no farewell."""
-    page = world.open('drive')
+    page = world.visit('drive')
     page.say(PUSH)
     if way == 'closed':
         page.close()
@@ -218,15 +218,15 @@ def test_lost(world: World, way: str) -> None:
         with pytest.raises(ConnectionClosedError, match='a page cannot do|1008'):
             page.say('nonsense')
     world.wait_until(lambda: world.twists() == [(0.5, 0.0), (0.0, 0.0)], 'no zero')
-    other = world.open('safety', 'bob')
+    other = world.visit('safety', 'bob')
     assert other.say({'do': 'beat'})['control']['lost'].startswith('browser 1 (127.0.0.1)')
     assert False not in world.beats()
 
 
 def test_one_driver(world: World) -> None:
     """A second browser is refused; two pages of one browser are one person."""
-    first, second = world.open('drive', 'ann'), world.open('drive', 'bob')
-    safety = world.open('safety', 'ann')
+    first, second = world.visit('drive', 'ann'), world.visit('drive', 'bob')
+    safety = world.visit('safety', 'ann')
     assert first.say(PUSH)['velocity']
     assert 'browser 1 (127.0.0.1) is in control' in second.say(PUSH)['refusal']
     assert safety.say({'do': 'beat'})['control']['mine']
@@ -234,7 +234,7 @@ def test_one_driver(world: World) -> None:
 
 def test_end_of_the_page(world: World) -> None:
     """A page that ends while somebody drives leaves a zero."""
-    page = world.open('drive')
+    page = world.visit('drive')
     page.say(PUSH)
     for panel in world.panels:
         panel.close()
@@ -244,7 +244,7 @@ def test_end_of_the_page(world: World) -> None:
 
 def test_other_file(world: World) -> None:
     """When the panels are closed and started anew, open pages come back to the new ones."""
-    old, drive = world.open('safety'), world.open('drive')
+    old, drive = world.visit('safety'), world.visit('drive')
     old.say({'do': 'stop'})
     for panel in world.panels:
         panel.close()
@@ -253,7 +253,7 @@ def test_other_file(world: World) -> None:
             page.connection.recv(timeout=20)
     for panel in world.panels:
         panel.start()
-    new = world.open('safety')
+    new = world.visit('safety')
     assert new.say({'do': 'beat'})['stop']['pressed'], 'the stop is not forgotten'
     new.say({'do': 'release'})
     world.wait_until(lambda: world.stops()[-1:] == [False], 'no release')
@@ -261,7 +261,7 @@ def test_other_file(world: World) -> None:
 
 def test_many_clients(world: World) -> None:
     """Twenty browsers that press at once are all answered."""
-    pages = [world.open('safety', str(number)) for number in range(20)]
+    pages = [world.visit('safety', str(number)) for number in range(20)]
     threads = [threading.Thread(target=page.say, args=[{'do': 'stop'}]) for page in pages]
     for thread in threads:
         thread.start()
@@ -275,11 +275,11 @@ def test_many_clients(world: World) -> None:
 @pytest.mark.parametrize('text', ['', '{', '[' * 100000, '{"do": "drive", "stick": [1e999]}'])
 def test_wrong_text(world: World, text: str) -> None:
     """What no page would send ends the connection, and nothing else."""
-    page = world.open('drive')
+    page = world.visit('drive')
     page.connection.send(text)
     with pytest.raises(ConnectionClosedError):
         page.connection.recv(timeout=20)
-    assert world.open('drive').say({'do': 'beat'})['velocity'] is None
+    assert world.visit('drive').say({'do': 'beat'})['velocity'] is None
     assert world.twists() == []
 
 
