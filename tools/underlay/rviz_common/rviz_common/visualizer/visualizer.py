@@ -20,6 +20,7 @@ from rviz_common.config.configuration import (
 )
 from rviz_common.config.document import Place
 from rviz_common.context import Context
+from rviz_common.frame_listener import FrameListener
 from rviz_common.frames import Frames
 from rviz_common.panels.head import Head
 from rviz_common.panels.pace import Pace
@@ -43,7 +44,7 @@ from rviz_common.visualizer.options import (
 from rviz_common.visualizer.reports import sentences_about_classes, sentences_about_displays
 from rviz_common.visualizer.tool_box import ToolBox
 from rviz_common.work_queue import WorkQueue
-from tf2_ros import Buffer, TransformListener
+from tf2_ros import Buffer
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -65,7 +66,7 @@ class Visualizer:
         """Show what a configuration says; `path` is the file that it is from."""
         wake = node.create_guard_condition(self._work)
         self._buffer = Buffer()
-        self._listener = TransformListener(self._buffer, node)
+        self._listener = FrameListener(self._buffer, node)
         frames = Frames(self._buffer)
         self.context = Context(node, server, frames, WorkQueue(wake.trigger), self)
         self.status = Statuses()
@@ -118,6 +119,7 @@ class Visualizer:
 
     def frame(self) -> None:
         """Draw the next frame."""
+        self._listener.take_all()
         if self._pace.is_due():
             self.watch.update()
         with self.context.server.atomic():
