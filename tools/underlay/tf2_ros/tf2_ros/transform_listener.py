@@ -45,7 +45,7 @@ class TransformListener:
         """
         self.buffer = buffer
         self.node = node
-        self.group = ReentrantCallbackGroup()
+        self.group = self._group()
         self._reader = TfReader() if self._is_plain() else None
         self.tf_sub: Any = None
         if not static_only:
@@ -75,6 +75,10 @@ class TransformListener:
             if subscription is not None:
                 self.node.destroy_subscription(subscription)
         self.tf_sub = self.tf_static_sub = None
+
+    def _group(self) -> ReentrantCallbackGroup:
+        """Return the group of the subscriptions."""
+        return ReentrantCallbackGroup()
 
     def _is_plain(self) -> bool:
         """Tell if nobody wants to see the messages on their way to the buffer."""

@@ -22,6 +22,7 @@ from rviz_common.config.configuration import (
 from rviz_common.config.document import Place
 from rviz_common.context import Context
 from rviz_common.described_error import described_error
+from rviz_common.frame_listener import FrameListener
 from rviz_common.frames import Frames
 from rviz_common.pace import Pace
 from rviz_common.panels.file_folder import FileFolder
@@ -46,7 +47,7 @@ from rviz_common.visualizer.options import (
 from rviz_common.visualizer.reports import surprises
 from rviz_common.visualizer.tool_box import ToolBox
 from rviz_common.work_queue import WorkQueue
-from tf2_ros import Buffer, TransformListener
+from tf2_ros import Buffer
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -68,7 +69,7 @@ class Visualizer:
     ) -> None:
         """Show what a configuration says; `path` is the file that it is from."""
         self._buffer = Buffer()
-        self._listener = TransformListener(self._buffer, node)
+        self._listener = FrameListener(self._buffer, node)
         frames = Frames(self._buffer)
         self.context = Context(node, page, frames, WorkQueue(self._rouse), self)
         self.status = Statuses()
@@ -121,6 +122,7 @@ class Visualizer:
 
     def frame(self) -> None:
         """Draw the next frame."""
+        self._listener.take_all()
         if self._pace.is_due():
             self.watch.update()
         with self.context.server.atomic():

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import pytest
@@ -150,6 +151,18 @@ def test_malformed_descriptions(stage: Stage, text: str) -> None:
     stage.describe(text)
     display.update()
     assert sentence(display, 'URDF').startswith('/robot_description')
+
+
+def test_random_descriptions(stage: Stage) -> None:
+    """Whatever is wrong with a description, there is a sentence, and the page goes on."""
+    random = Random(6)
+    display = stage.show(RobotModel)
+    words = ['', 'nan', '1e400', '-1', '1e308', '<', '"', '\ud800', '\x00', 'base', '/', '&a;']
+    for _ in range(300):
+        at, size = random.randrange(len(URDF)), random.choice([0, 1, 5, 50])
+        stage.describe(URDF[:at] + random.choice(words) + URDF[at + size :])
+        display.update()
+        assert sentence(display, 'URDF')
 
 
 def test_new_description(stage: Stage, robot: Any) -> None:
