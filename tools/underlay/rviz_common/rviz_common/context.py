@@ -30,6 +30,8 @@ class Context:
     server: ViserServer
     frames: Frames
     queue: WorkQueue
+    visualizer: Any = None
+    """The `Visualizer` that owns all this; a test may do without."""
 
     @property
     def scene(self) -> SceneApi:
