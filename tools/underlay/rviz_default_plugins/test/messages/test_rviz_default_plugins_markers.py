@@ -309,7 +309,7 @@ def changed(**fields):
         (changed(kind=Message.LINE_STRIP, points=[(0, 0, 0)]), 'less than 2 points'),
         (changed(kind=Message.LINE_LIST, points=[(0, 0, 0)]), '1 points, which is not a multiple'),
         (changed(kind=Message.TRIANGLE_LIST), 'has no points'),
-        (changed(kind=Message.POINTS, points=[(NAN, 0, 0)]), '1 of its points'),
+        (changed(kind=Message.POINTS, points=[(NAN, 0, 0)]), '1 of its 1 points are nowhere'),
         (changed(kind=Message.POINTS, points=[(0, 0, 0)], colors=[ColorRGBA()] * 2), '2 colors'),
         (changed(kind=Message.ARROW, points=[(0, 0, 0)]), 'an arrow with 1 points'),
     ],
