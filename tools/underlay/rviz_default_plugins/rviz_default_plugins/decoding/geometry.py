@@ -19,6 +19,7 @@ __all__ = [
     'finite_points_of',
     'from_axes',
     'joined',
+    'matrices_of',
     'points_of',
     'position',
     'rotated',
@@ -87,10 +88,26 @@ def rotations_of(quaternions: Iterable[Any]) -> tuple[Points, NDArray[np.bool_]]
 
 def rotated(points: NDArray[Any], by: Sequence[float]) -> NDArray[Any]:
     """Return rows of points turned by one quaternion w, x, y, z."""
-    w, axis = by[0], np.asarray(by[1:], dtype=points.dtype)
-    across = 2.0 * np.cross(axis, points)
-    turned: NDArray[Any] = points + w * across + np.cross(axis, across)
-    return turned.astype(points.dtype)
+    matrix = matrices_of(np.array([by]))[0].astype(points.dtype)
+    turned: NDArray[Any] = points @ matrix.T
+    return turned
+
+
+def matrices_of(wxyzs: NDArray[Any]) -> NDArray[Any]:
+    """Return the matrices of rotations: N x 3 x 3, which have the axes as columns."""
+    w, x, y, z = wxyzs.T
+    parts = [
+        1.0 - 2.0 * (y * y + z * z),
+        2.0 * (x * y - w * z),
+        2.0 * (x * z + w * y),
+        2.0 * (x * y + w * z),
+        1.0 - 2.0 * (x * x + z * z),
+        2.0 * (y * z - w * x),
+        2.0 * (x * z - w * y),
+        2.0 * (y * z + w * x),
+        1.0 - 2.0 * (x * x + y * y),
+    ]
+    return np.stack(parts, axis=1).reshape(-1, 3, 3)
 
 
 def joined(first: Sequence[float], then: Sequence[float]) -> Quaternion:
