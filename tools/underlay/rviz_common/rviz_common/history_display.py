@@ -98,7 +98,8 @@ class HistoryDisplay(TopicDisplay):
             except FrameError as error:
                 still.append(waiting)
                 reason = str(error)
-        self._waiting = deque(still, maxlen=self.PATIENCE)
+        last = -self.PATIENCE
+        self._waiting = deque(still[last:])
         if reason:
             self.status.say('Transform', Level.ERROR, reason)
         else:

@@ -9,8 +9,9 @@ import time
 from typing import Any
 
 from rviz_common.context import Context
+from rviz_common.panels.flags_folder import FlagsFolder
 from rviz_common.panels.widgets import add_widget
-from rviz_common.properties import Choice, Flag, Property, Values
+from rviz_common.properties import Choice, Flag, Flags, Property, Values
 
 __all__ = ['PropertyEditor']
 
@@ -35,8 +36,11 @@ class PropertyEditor:
         self._waiting: dict[str, tuple[float, Any]] = {}
         self._folders: dict[str, Any] = {}
         shown = [each for each in values.properties.values() if each.path not in set(without)]
+        flags = [each for each in shown if isinstance(each, Flags)]
+        shown = [each for each in shown if not isinstance(each, Flags)]
         self._widgets = {each.path: self._add(each) for each in shown}
         self._said = {each.path: values[each.path] for each in shown}
+        self._flags = [FlagsFolder(context, each, values, change) for each in flags]
 
     def update(self) -> None:
         """Have what has been typed take effect, and show what a program has changed."""
@@ -50,6 +54,8 @@ class PropertyEditor:
             if value != said and path not in self._waiting:
                 self._said[path] = value
                 self._widgets[path].value = value
+        for folder in self._flags:
+            folder.update()
 
     def _add(self, of: Property) -> Any:
         with ExitStack() as above:

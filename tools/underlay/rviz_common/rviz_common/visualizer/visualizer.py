@@ -52,7 +52,6 @@ from tf2_ros import Buffer
 if TYPE_CHECKING:
     from rclpy.node import Node
     from rviz_common.page import Page
-    from viser import ViserServer
 
 __all__ = ['Visualizer']
 

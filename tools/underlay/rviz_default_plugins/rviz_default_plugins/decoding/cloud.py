@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from rviz_default_plugins.decoding.geometry import Points
+from rviz_default_plugins.decoding.geometry import FARTHEST, Points
 
 __all__ = ['Cloud']
 
@@ -31,7 +31,7 @@ class Cloud:
 
     def finite(self) -> Cloud:
         """Return the points that are somewhere."""
-        somewhere = np.isfinite(self.points).all(axis=1)
+        somewhere = (np.abs(self.points) <= FARTHEST).all(axis=1)
         return self if somewhere.all() else self[somewhere]
 
     def thinned(self, most: int) -> Cloud:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    'FARTHEST',
     'Points',
     'Quaternion',
     'Triple',
@@ -18,6 +19,7 @@ __all__ = [
     'finite_points_of',
     'from_axes',
     'joined',
+    'matrices_of',
     'points_of',
     'position',
     'rotated',
@@ -25,15 +27,18 @@ __all__ = [
     'rotations_of',
 ]
 
+FARTHEST = 1e9
+"""Metres beyond which nothing is drawn; a browser reckons with 32 bits."""
+
 Points = NDArray[np.float32]
 Quaternion = tuple[float, float, float, float]
 Triple = tuple[float, float, float]
 
 
 def position(vector: Any, what: str = 'position') -> Triple:
-    """Return x, y and z of a point or vector, or raise ValueError if they are not finite."""
+    """Return x, y and z of a point or vector, or raise ValueError if they are nowhere."""
     triple = (float(vector.x), float(vector.y), float(vector.z))
-    if not all(map(math.isfinite, triple)):
+    if not all(abs(part) <= FARTHEST for part in triple):
         raise ValueError(f'its {what} is {_listed(triple)}, which is nowhere.')
     return triple
 
@@ -51,16 +56,21 @@ def rotation(quaternion: Any, what: str = 'orientation') -> Quaternion:
 
 
 def points_of(points: Iterable[Any]) -> Points:
-    """Return the points of a message as rows, those which are not finite too."""
+    """Return the points of a message as rows; what is too far away is infinite."""
     flat = [part for point in points for part in (point.x, point.y, point.z)]
-    return np.array(flat, dtype=np.float32).reshape(-1, 3)
+    rows = np.array(flat, dtype=np.float64).reshape(-1, 3)
+    rows[np.abs(rows) > FARTHEST] = np.inf
+    return rows.astype(np.float32)
 
 
 def finite_points_of(points: Iterable[Any]) -> Points:
     """Return the points of a message as rows, or raise ValueError if any is nowhere."""
     rows = points_of(points)
     if lost := int((~np.isfinite(rows).all(axis=1)).sum()):
-        raise ValueError(f'{lost} of its {len(rows)} points have numbers that are not finite.')
+        raise ValueError(
+            f'{lost} of its {len(rows)} points are nowhere: their numbers are not finite, or too '
+            'great.'
+        )
     return rows
 
 
@@ -68,7 +78,8 @@ def rotations_of(quaternions: Iterable[Any]) -> tuple[Points, NDArray[np.bool_]]
     """Return quaternions as rows w, x, y and z at length 1, and which of them are rotations."""
     flat = [part for each in quaternions for part in (each.w, each.x, each.y, each.z)]
     rows = np.array(flat, dtype=np.float64).reshape(-1, 4)
-    lengths = np.linalg.norm(rows, axis=1)
+    with np.errstate(over='ignore'):
+        lengths = np.linalg.norm(rows, axis=1)
     valid = np.isfinite(lengths) & (lengths >= 1e-6)
     rows[~valid] = (1.0, 0.0, 0.0, 0.0)
     lengths[~valid] = 1.0
@@ -77,10 +88,26 @@ def rotations_of(quaternions: Iterable[Any]) -> tuple[Points, NDArray[np.bool_]]
 
 def rotated(points: NDArray[Any], by: Sequence[float]) -> NDArray[Any]:
     """Return rows of points turned by one quaternion w, x, y, z."""
-    w, axis = by[0], np.asarray(by[1:], dtype=points.dtype)
-    across = 2.0 * np.cross(axis, points)
-    turned: NDArray[Any] = points + w * across + np.cross(axis, across)
-    return turned.astype(points.dtype)
+    matrix = matrices_of(np.array([by]))[0].astype(points.dtype)
+    turned: NDArray[Any] = points @ matrix.T
+    return turned
+
+
+def matrices_of(wxyzs: NDArray[Any]) -> NDArray[Any]:
+    """Return the matrices of rotations: N x 3 x 3, which have the axes as columns."""
+    w, x, y, z = wxyzs.T
+    parts = [
+        1.0 - 2.0 * (y * y + z * z),
+        2.0 * (x * y - w * z),
+        2.0 * (x * z + w * y),
+        2.0 * (x * y + w * z),
+        1.0 - 2.0 * (x * x + z * z),
+        2.0 * (y * z - w * x),
+        2.0 * (x * z - w * y),
+        2.0 * (y * z + w * x),
+        1.0 - 2.0 * (x * x + y * y),
+    ]
+    return np.stack(parts, axis=1).reshape(-1, 3, 3)
 
 
 def joined(first: Sequence[float], then: Sequence[float]) -> Quaternion:

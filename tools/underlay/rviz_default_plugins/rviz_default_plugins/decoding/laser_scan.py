@@ -16,7 +16,7 @@ def decode_scan(message: Any) -> Cloud:
     """Return the points of a scan that hit something, or raise ValueError."""
     if not (math.isfinite(message.angle_min) and math.isfinite(message.angle_increment)):
         raise ValueError('its angles are not finite.')
-    ranges = np.asarray(message.ranges, dtype=np.float32)
+    ranges = np.asarray(message.ranges, dtype=np.float64)
     angles = message.angle_min + np.arange(len(ranges)) * message.angle_increment
     hit = np.isfinite(ranges) & (ranges >= message.range_min) & (ranges <= message.range_max)
     reach, angles = ranges[hit], angles[hit]

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from functools import cache
-import math
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from rviz_default_plugins.decoding.geometry import FARTHEST
 
 __all__ = ['Cells', 'apply_update', 'binary', 'cells_of', 'paint', 'thinned']
 
@@ -25,7 +25,7 @@ def cells_of(message: Any) -> Cells:
     if not width or not height:
         raise ValueError(f'it has no cells: it is {width} wide and {height} high.')
     resolution = message.info.resolution
-    if not (math.isfinite(resolution) and resolution > 0.0):
+    if not 0.0 < resolution * max(width, height) <= FARTHEST:
         raise ValueError(f'its cells are {resolution:g} m long.')
     return _rows(message.data, width, height)
 

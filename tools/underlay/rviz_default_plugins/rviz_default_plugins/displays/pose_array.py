@@ -10,7 +10,7 @@ import numpy as np
 from rviz_common.message_display import MessageDisplay
 from rviz_common.properties import Choice, ColorOf, Number, topic_properties
 from rviz_common.status import Level
-from rviz_default_plugins.decoding.geometry import Points, points_of, rotated, rotations_of
+from rviz_default_plugins.decoding.geometry import matrices_of, Points, points_of, rotations_of
 from rviz_default_plugins.drawing.bodies import add_copies, add_lines
 from rviz_default_plugins.drawing.drawn import Drawn
 from rviz_default_plugins.drawing.surfaces import arrow
@@ -82,7 +82,8 @@ class PoseArray(MessageDisplay):
         tip, back, side = (length, 0, 0), 0.8 * length, 0.1 * length
         lines = [((0, 0, 0), tip), (tip, (back, side, 0)), (tip, (back, -side, 0))]
         ends = np.array(lines, dtype=np.float32)
-        segments = rotated_each(ends.reshape(-1, 3), wxyzs) + positions[:, None]
+        turned = ends.reshape(-1, 3) @ matrices_of(wxyzs).transpose(0, 2, 1)
+        segments = turned + positions[:, None]
         scene, color = self.context.scene, self.values['Color']
         return add_lines(scene, f'{self.root}/lines', segments.reshape(-1, 2, 3), color)
 
@@ -101,10 +102,3 @@ class PoseArray(MessageDisplay):
             axes_length=self.values['Axes Length'],
             axes_radius=self.values['Axes Radius'],
         )
-
-
-def rotated_each(points: Points, wxyzs: Points) -> Points:
-    """Return the same points turned by each of some quaternions: N x points x 3."""
-    matrices = np.stack([rotated(np.eye(3, dtype=np.float32), each) for each in wxyzs])
-    turned: Points = points @ matrices
-    return turned

@@ -9,6 +9,7 @@ from typing import Any
 from rviz_common.frames import Pose
 from rviz_common.history_display import HistoryDisplay
 from rviz_common.properties import ColorOf, Number, topic_properties, Whole
+from rviz_default_plugins.decoding.geometry import FARTHEST
 from rviz_default_plugins.drawing.bodies import add_surface
 from rviz_default_plugins.drawing.surfaces import cone
 from sensor_msgs.msg import Range as RangeMessage
@@ -35,8 +36,11 @@ class Range(HistoryDisplay):
     def draw(self, place: str, message: Any, pose: Pose) -> None:
         """Draw the cone."""
         length = _length(message)
+        radius = length * math.tan(message.field_of_view / 2.0)
+        if not max(length, radius) <= FARTHEST:
+            raise ValueError(f'its cone is {length:g} m long and {radius:g} m wide.')
         if length > 0.0:
-            surface = cone(length, length * math.tan(message.field_of_view / 2.0))
+            surface = cone(length, radius)
             paint = self.values['Color'], self.values['Alpha']
             add_surface(self.context.scene, f'{place}/cone', surface, paint)
 

@@ -15,6 +15,7 @@ from rviz_default_plugins.drawing.bodies import (
     opacity_of,
     Paint,
 )
+from rviz_default_plugins.drawing.glb import glb_of
 from rviz_default_plugins.drawing.surfaces import arrow, cube, sphere, Surface
 from rviz_default_plugins.markers.look import Look
 from rviz_default_plugins.markers.mesh import draw_mesh
@@ -165,19 +166,15 @@ def _draw_text(scene: Any, name: str, look: Look) -> None:
 def _draw_triangles(scene: Any, name: str, look: Look) -> None:
     if not len(look.points):
         raise ValueError('it has no points.')
-    faces = np.arange(len(look.points), dtype=np.uint32).reshape(-1, 3)
     if look.colors is None or look.alphas is None:
+        faces = np.arange(len(look.points), dtype=np.uint32).reshape(-1, 3)
         surface = Surface(look.points, faces)
         add_surface(scene, name, surface, _paint(look), scale=look.scale, side='double')
         return
-    import trimesh
-
     colors = np.column_stack([look.colors, (look.alphas * 255.0).astype(np.uint8)])
     if len(colors) != len(look.points):
         colors = np.repeat(colors, 3, axis=0)
-    both_sides = np.concatenate([faces, faces[:, ::-1]])
-    mesh = trimesh.Trimesh(look.points, both_sides, vertex_colors=colors, process=False)
-    scene.add_mesh_trimesh(name, mesh, scale=look.scale)
+    scene.add_glb(name, glb_of(look.points, colors), scale=look.scale)
 
 
 DRAWINGS: dict[int, Callable[[Any, str, Look], None]] = {

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from rviz_default_plugins.decoding.geometry import Points, points_of, position, Triple
+from rviz_default_plugins.decoding.geometry import finite_points_of, Points, position, Triple
 from visualization_msgs.msg import Marker
 
 __all__ = ['Look', 'look_of']
@@ -72,7 +72,7 @@ def look_of(marker: Any) -> Look:
         alpha,
         points,
         None if colors is None else _bytes(colors[:, :3]),
-        None if colors is None else np.clip(colors[:, 3], 0.0, 1.0),
+        None if colors is None else colors[:, 3],
         marker.text if marker.type == Marker.TEXT_VIEW_FACING else '',
         (marker.mesh_resource, bool(marker.mesh_use_embedded_materials)),
         note,
@@ -98,11 +98,7 @@ def _points(marker: Any) -> tuple[Points, NDArray[np.float32] | None, str]:
         raise ValueError(f'it has {count} points, but {colors} colors.')
     step = max(1, -(-count // MOST))
     per_color = group if colors == count else 1
-    points = points_of(_each(marker.points, group, step))
-    finite = np.isfinite(points).all(axis=1)
-    if not finite.all():
-        lost = int((~finite).sum())
-        raise ValueError(f'{lost} of its points have numbers that are not finite.')
+    points = finite_points_of(_each(marker.points, group, step))
     note = f'{len(points)} of its {count} points are shown.' if step > 1 else ''
     return points, _colors(_each(marker.colors, per_color, step)), note
 
@@ -119,11 +115,12 @@ def _colors(colors: Any) -> NDArray[np.float32] | None:
     if not colors:
         return None
     flat = [part for each in colors for part in (each.r, each.g, each.b, each.a)]
-    return np.nan_to_num(np.array(flat, dtype=np.float32).reshape(-1, 4))
+    parts = np.nan_to_num(np.array(flat, dtype=np.float64).reshape(-1, 4))
+    return np.clip(parts, 0.0, 1.0).astype(np.float32)
 
 
 def _bytes(parts: NDArray[np.float32]) -> Colors:
-    colors: Colors = (np.clip(parts, 0.0, 1.0) * 255.0).round().astype(np.uint8)
+    colors: Colors = (parts * 255.0).round().astype(np.uint8)
     return colors
 
 

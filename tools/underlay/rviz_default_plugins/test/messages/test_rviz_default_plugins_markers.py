@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Displays of markers."""
 
+import io
+
 from builtin_interfaces.msg import Duration
 from geometry_msgs.msg import Point
 from message_stage import all_sentences, near, sentence
@@ -11,6 +13,7 @@ from rviz_default_plugins.displays.marker_array import MarkerArray
 from rviz_default_plugins.markers import marker_scene
 from rviz_default_plugins.markers.look import look_of, MOST
 from std_msgs.msg import ColorRGBA
+import trimesh
 from visualization_msgs.msg import Marker as Message
 from visualization_msgs.msg import MarkerArray as ArrayMessage
 
@@ -142,7 +145,10 @@ def test_triangles(message_stage):
     assert plain.color == (255, 128, 0)
     assert plain.scale == (1, 2, 3)
     for number in (2, 3):
-        assert message_stage.at(display, f'{number}/marker').glb_data.startswith(b'glTF')
+        glb = message_stage.at(display, f'{number}/marker').glb_data
+        mesh = trimesh.load_scene(io.BytesIO(glb), file_type='glb').to_mesh()
+        assert np.sort(mesh.vertices, axis=0).tolist() == np.sort(points, axis=0).tolist()
+        assert glb.endswith(bytes([255, 0, 0, 255]) * 3)
 
 
 def test_mesh(message_stage, tmp_path):
@@ -309,7 +315,7 @@ def changed(**fields):
         (changed(kind=Message.LINE_STRIP, points=[(0, 0, 0)]), 'less than 2 points'),
         (changed(kind=Message.LINE_LIST, points=[(0, 0, 0)]), '1 points, which is not a multiple'),
         (changed(kind=Message.TRIANGLE_LIST), 'has no points'),
-        (changed(kind=Message.POINTS, points=[(NAN, 0, 0)]), '1 of its points'),
+        (changed(kind=Message.POINTS, points=[(NAN, 0, 0)]), '1 of its 1 points are nowhere'),
         (changed(kind=Message.POINTS, points=[(0, 0, 0)], colors=[ColorRGBA()] * 2), '2 colors'),
         (changed(kind=Message.ARROW, points=[(0, 0, 0)]), 'an arrow with 1 points'),
     ],

@@ -245,7 +245,7 @@ def test_broken_maps_are_refused():
     wrong.data = [0]
     with pytest.raises(ValueError, match='1 cells, but is 2 wide and 1 high, which needs 2'):
         cells_of(wrong)
-    for resolution in (0.0, -1.0, float('nan')):
+    for resolution in (0.0, -1.0, float('nan'), float('inf')):
         with pytest.raises(ValueError, match='m long'):
             cells_of(grid([[0]], resolution))
 

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Boxes for names that only turn up later."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import islice
+from typing import Any
+
+from rviz_common.context import Context
+from rviz_common.properties import Flags, Values
+
+__all__ = ['FlagsFolder']
+
+MOST = 200
+"""How many names have a box."""
+
+
+class FlagsFolder:
+    """A folder with a box for each name of a property."""
+
+    def __init__(
+        self, context: Context, of: Flags, values: Values, change: Callable[[str, Any], None]
+    ) -> None:
+        """Add the folder; `change` takes the path and the value that a person gives."""
+        self._context = context
+        self._path = of.path
+        self._values = values
+        self._change = change
+        label = of.path.rpartition('/')[2]
+        self._folder = context.gui.add_folder(label, expand_by_default=False)
+        self._boxes: dict[str, Any] = {}
+        self.update()
+
+    def update(self) -> None:
+        """Add boxes for new names, and show what a program has changed."""
+        for name, is_on in islice(self._values[self._path].items(), MOST):
+            box = self._boxes.get(name)
+            if box is None:
+                self._add(name, is_on)
+            elif box.value != is_on:
+                box.value = is_on
+
+    def _add(self, name: str, is_on: bool) -> None:
+        with self._folder:
+            box = self._context.gui.add_checkbox(name or '(no name)', is_on)
+        self._boxes[name] = box
+        self._context.on_input(box, lambda value: self._set(name, value))
+
+    def _set(self, name: str, is_on: bool) -> None:
+        self._change(self._path, {**self._values[self._path], name: is_on})
