@@ -40,7 +40,7 @@ class TfReader:
 
     def _read(self, data: bytes) -> list[Reading]:
         order = _ORDERS[data[:2]]
-        key = len(data), data[_BEGIN : _end_of_names(data, order)]
+        key = len(data), data[slice(_BEGIN, _end_of_names(data, order))]
         layout = self._layouts.get(key)
         readings = layout.read(data) if layout is not None else None
         if readings is not None:
@@ -53,11 +53,10 @@ class TfReader:
 
 def _end_of_names(data: bytes, order: str) -> int:
     """Return where the names of the first transform end; they tell robots apart."""
-    kind = 'little' if order == '<' else 'big'
-    parent = int.from_bytes(data[_BEGIN : _BEGIN + 4], kind)  # type: ignore[arg-type]
+    (parent,) = struct.unpack_from(f'{order}I', data, _BEGIN)
     child_at = _BEGIN + _aligned(4 + parent, 4)
-    child = int.from_bytes(data[child_at : child_at + 4], kind)  # type: ignore[arg-type]
-    return child_at + 4 + child
+    (child,) = struct.unpack_from(f'{order}I', data, child_at)
+    return int(child_at + 4 + child)
 
 
 class _Layout:
@@ -76,7 +75,7 @@ class _Layout:
                 (length,) = struct.unpack_from(f'{order}I', data, 4 + begin)
                 parts.append(f'{begin - at}xI{length}s')
                 at = begin + 4 + length
-                texts.append(data[4 + at - length : 4 + at])
+                texts.append(data[slice(4 + at - length, 4 + at)])
             parts.append(f'{_aligned(at, 8) - at}x7d')
             at = _aligned(at, 8) + 56
         self._unpack = struct.Struct(''.join(parts)).unpack_from
@@ -97,7 +96,7 @@ class _Layout:
                 parent,
                 child,
                 values[at] * _NS_PER_S + values[at + 1],
-                values[at + 6 : at + _FIELDS],
+                values[slice(at + 6, at + _FIELDS)],
             )
             for at, (parent, child) in zip(range(1, len(values), _FIELDS), self._names)
         ]

@@ -160,7 +160,8 @@ def test_random_descriptions(stage: Stage) -> None:
     words = ['', 'nan', '1e400', '-1', '1e308', '<', '"', '\ud800', '\x00', 'base', '/', '&a;']
     for _ in range(300):
         at, size = random.randrange(len(URDF)), random.choice([0, 1, 5, 50])
-        stage.describe(URDF[:at] + random.choice(words) + URDF[at + size :])
+        end = at + size
+        stage.describe(URDF[:at] + random.choice(words) + URDF[end:])
         display.update()
         assert sentence(display, 'URDF')
 
