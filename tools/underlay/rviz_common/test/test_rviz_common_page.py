@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+import gzip
 from http.client import HTTPConnection, HTTPResponse
 import socket
 
@@ -39,6 +40,17 @@ def test_page(page: Page) -> None:
     assert b'<html' in answer.read(1000).lower()
     assert answer.getheader('Content-Security-Policy') == "frame-ancestors 'self'"
     assert page.url == f'http://127.0.0.1:{page.port}/'
+
+
+def test_title() -> None:
+    """The tab of the browser has the title of the page, packed or not."""
+    with Page('Left & right') as page:
+        assert b'<title>Left &amp; right</title>' in ask(page).read()
+        answer = ask(page, **{'Accept-Encoding': 'gzip'})
+        body = answer.read()
+        assert answer.getheader('Content-Encoding') == 'gzip'
+        assert b'<title>Left &amp; right</title>' in gzip.decompress(body)
+        assert b'<title>Viser' not in gzip.decompress(body)
 
 
 def test_listens_here_only(page: Page) -> None:

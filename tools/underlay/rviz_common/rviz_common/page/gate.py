@@ -12,6 +12,7 @@ from typing import Any
 
 from rviz_common.page.admission import Admission, Refusal
 from rviz_common.page.routes import Route, Routes
+from rviz_common.page.title import entitle
 import websockets.asyncio.server
 from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
@@ -24,8 +25,10 @@ POLICY = "frame-ancestors 'self'"
 
 
 @contextmanager
-def gated(bound: socket.socket, admission: Admission, routes: Routes) -> Iterator[None]:
-    """Give the server that is started meanwhile a bound socket, an admission and routes."""
+def gated(
+    bound: socket.socket, title: str, admission: Admission, routes: Routes
+) -> Iterator[None]:
+    """Give the server that is started meanwhile a socket, a title, an admission and routes."""
     serve = websockets.asyncio.server.serve
     used: list[bool] = []
 
@@ -34,7 +37,7 @@ def gated(bound: socket.socket, admission: Admission, routes: Routes) -> Iterato
         if used:
             raise RuntimeError('The page has been started already.')
         used.append(True)
-        answer = _gate(options.pop('process_request'), admission, routes)
+        answer = _gate(options.pop('process_request'), title, admission, routes)
         return serve(_routed(handler, routes), sock=bound, process_request=answer, **options)
 
     websockets.asyncio.server.serve = serve_gated  # type: ignore[assignment, misc]
@@ -57,7 +60,7 @@ def _routed(handler: Any, routes: Routes) -> Any:
     return talk
 
 
-def _gate(answer: Any, admission: Admission, routes: Routes) -> Any:
+def _gate(answer: Any, title: str, admission: Admission, routes: Routes) -> Any:
     """Return what answers requests that are admitted, and refuses the others."""
 
     def process_request(connection: ServerConnection, request: Request) -> Response | None:
@@ -78,6 +81,7 @@ def _gate(answer: Any, admission: Admission, routes: Routes) -> Any:
         response: Response | None = answer(connection, request)
         if response is not None:
             response.headers['Content-Security-Policy'] = POLICY
+            entitle(response, title)
         return response
 
     return process_request

@@ -34,7 +34,8 @@ class Page:
         self.settings = settings
         self.port: int = bound.getsockname()[1]
         self.routes = Routes()
-        with gated(bound, Admission(self.port, settings.token), self.routes):
+        admission = Admission(self.port, settings.token)
+        with gated(bound, title, admission, self.routes):
             self.viser = viser.ViserServer(
                 host=settings.host, port=self.port, label=title, verbose=False
             )
