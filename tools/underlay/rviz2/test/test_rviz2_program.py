@@ -100,11 +100,14 @@ def test_it_serves_a_page_and_ends_well(start, tmp_path: Path, number: int) -> N
     """The address that is logged has the page; a signal ends it with status 0."""
     path = tmp_path / 'a.rviz'
     path.write_text(FILE)
-    program = start('-d', str(path), '-f', 'odom', '--splash-screen', 'x.png')
+    program = start('-d', str(path), '-f', 'odom', '--ros-args', '-p', 'hots:=x')
     with urllib.request.urlopen(program.url()) as answer:
         assert answer.status == 200
     end_s = time.monotonic() + PATIENCE_S
     while f"'Unknown' ({path}:3)" not in program.said:
+        assert time.monotonic() < end_s, program.said
+        time.sleep(0.05)
+    while "There is no parameter 'hots'. Did you mean 'host'?" not in program.said:
         assert time.monotonic() < end_s, program.said
         time.sleep(0.05)
     assert program.end(number) == 0

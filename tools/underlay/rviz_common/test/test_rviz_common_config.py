@@ -36,10 +36,9 @@ DISPLAY = 'Visualization Manager:\n  Displays:\n    '
         ('a: [1, 2\n', r'^f:2: This is not YAML'),
         ("a: 'b\n", r'^f:\d: This is not YAML'),
         ('a: \x01\n', r'^f: This is not YAML'),
-        ('a: 1\n---\nb: 1\n', r'^f:2: This is not YAML'),
-        ('a: &x [*x]\n', r'^f:1: The file is nested too deeply'),
+        ('a: 1\n---\nb: 1\n', r'^f:2: A second document'),
+        ('a: &x [*x]\n', r"^f:1: '\*x' refers to another place"),
         ('? [a]\n: b\n', r'^f:1: A key must be a text'),
-        ('a: ' + '[' * 5000, r'^f'),
         ('Visualization Manager:\n  Global Options: 5\n', r"^f:2: 'Global Options' must be a map"),
         ('Visualization Manager:\n  Views: []\n', r"^f:2: 'Views' must be a mapping"),
     ],
@@ -51,12 +50,16 @@ def test_what_is_wrong_is_said_with_its_place(text: str, sentence: str) -> None:
     assert re.search(sentence, str(error.value)), str(error.value)
 
 
-def test_references_do_not_multiply() -> None:
-    """A small file that stands for billions of values is refused."""
-    lines = ['a0: &a0 [x, x, x, x, x, x, x, x, x, x]']
-    lines += [f'a{i}: &a{i} [{", ".join([f"*a{i - 1}"] * 10)}]' for i in range(1, 12)]
-    with pytest.raises(ConfigError, match='too large'):
-        Configuration.parse('\n'.join(lines), 'f')
+@pytest.mark.parametrize(
+    'text',
+    ['[' * 10**6, '- ' * 10**5, ''.join(f'{" " * i}a:\n' for i in range(500))],
+    ids=['brackets', 'dashes', 'names'],
+)
+def test_deep_files_are_refused(text: str) -> None:
+    """However deep a file is, reading it ends with a sentence."""
+    with pytest.raises(ConfigError, match=r'The file is nested too deeply') as error:
+        Configuration.parse(text, 'f')
+    assert len(str(error.value)) < 100
 
 
 @pytest.mark.parametrize(

@@ -175,6 +175,32 @@ def test_a_panel_that_fails_harms_no_other(context: Context, show: Show, capfd: 
     assert shown.panels.to_file() == [{'Class': 'rviz_common/Time'}, {'Class': 'a/B', 'X': 1}]
 
 
+def test_another_topic_of_a_tool_is_used_at_once(show: Show, node: Any) -> None:
+    """Who changes the topic of a tool need not start anew."""
+    tools = 'Visualization Manager:\n  Tools:\n    - Class: rviz_default_plugins/SetGoal\n'
+    shown = show('Panels:\n  - Class: rviz_common/Tool Properties\n' + tools)
+    (panel,) = shown.panels.panels
+    (editor,) = panel._editors  # type: ignore[attr-defined]
+    editor._take('Topic/Value', '/other_goal', 0.0)
+    shown.frame()
+    topics = [name for name, _ in node.get_publisher_names_and_types_by_node('rviz2', '/')]
+    assert '/other_goal' in topics and '/goal_pose' not in topics
+    assert shown.tools.to_file()[0]['Topic'] == {'Value': '/other_goal'}
+
+
+def test_a_file_that_is_uploaded_replaces_what_is_shown(show: Show, tmp_path: Any) -> None:
+    """It is saved under its own name, beside the last one; a broken one changes nothing."""
+    shown = show(GROUP, str(tmp_path / 'first.rviz'))
+    shown._files._load('b.rviz', b'Panels: 3')
+    shown._files._load('c.rviz', b'\xff\xff')
+    assert [each.name for each in shown.displays.children] == ['Group', 'Outer']
+    shown._files._load('../../b.rviz', b'Panels: ~')
+    assert shown.displays.children == []
+    assert shown.path == str(tmp_path / 'b.rviz')
+    shown._files._save()
+    assert (tmp_path / 'b.rviz').read_text() == 'Panels: ~\n'
+
+
 def test_views_can_be_changed(show: Show, tmp_path: Any) -> None:
     """Another kind of view, and saved ones, get into the file."""
     shown = show('Panels:\n  - Class: rviz_common/Views\n')

@@ -110,7 +110,7 @@ def test_a_tool_that_fails_is_laid_down(shown: Visualizer, capfd: Any) -> None:
     asyncio.run(shown.tools._ground._on_drag(event))
     shown.context.queue.run()
     assert shown.tools.in_use is None
-    assert "Tool 'Probe' failed: RuntimeError: no drag" in capfd.readouterr().err
+    assert "Tool 'Probe' failed: " in capfd.readouterr().err
 
 
 @pytest.mark.parametrize(
