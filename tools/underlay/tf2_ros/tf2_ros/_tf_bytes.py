@@ -40,7 +40,8 @@ class TfReader:
 
     def _read(self, data: bytes) -> list[Reading]:
         order = _ORDERS[data[:2]]
-        key = len(data), data[slice(_BEGIN, _end_of_names(data, order))]
+        end = _end_of_names(data, order)
+        key = len(data), data[_BEGIN:end]
         layout = self._layouts.get(key)
         readings = layout.read(data) if layout is not None else None
         if readings is not None:
@@ -56,7 +57,7 @@ def _end_of_names(data: bytes, order: str) -> int:
     (parent,) = struct.unpack_from(f'{order}I', data, _BEGIN)
     child_at = _BEGIN + _aligned(4 + parent, 4)
     (child,) = struct.unpack_from(f'{order}I', data, child_at)
-    return int(child_at + 4 + child)
+    return child_at + 4 + int(child)
 
 
 class _Layout:
@@ -74,8 +75,9 @@ class _Layout:
                 begin = _aligned(at, 4)
                 (length,) = struct.unpack_from(f'{order}I', data, 4 + begin)
                 parts.append(f'{begin - at}xI{length}s')
+                (text,) = struct.unpack_from(f'{length}s', data, 8 + begin)
                 at = begin + 4 + length
-                texts.append(data[slice(4 + at - length, 4 + at)])
+                texts.append(text)
             parts.append(f'{_aligned(at, 8) - at}x7d')
             at = _aligned(at, 8) + 56
         self._unpack = struct.Struct(''.join(parts)).unpack_from
@@ -91,14 +93,11 @@ class _Layout:
         texts = values[4::_FIELDS], values[6::_FIELDS]
         if values[0] != len(self._names) or given != self._given or texts != self._texts:
             return None
+        stamps = zip(values[1::_FIELDS], values[2::_FIELDS])
+        poses = zip(*(values[at::_FIELDS] for at in range(7, 14)))
         return [
-            (
-                parent,
-                child,
-                values[at] * _NS_PER_S + values[at + 1],
-                values[slice(at + 6, at + _FIELDS)],
-            )
-            for at, (parent, child) in zip(range(1, len(values), _FIELDS), self._names)
+            (parent, child, seconds * _NS_PER_S + nanoseconds, pose)
+            for (parent, child), (seconds, nanoseconds), pose in zip(self._names, stamps, poses)
         ]
 
 

@@ -159,8 +159,8 @@ def test_random_descriptions(stage: Stage) -> None:
     display = stage.show(RobotModel)
     words = ['', 'nan', '1e400', '-1', '1e308', '<', '"', '\ud800', '\x00', 'base', '/', '&a;']
     for _ in range(300):
-        at, size = random.randrange(len(URDF)), random.choice([0, 1, 5, 50])
-        end = at + size
+        at = random.randrange(len(URDF))
+        end = at + random.choice([0, 1, 5, 50])
         stage.describe(URDF[:at] + random.choice(words) + URDF[end:])
         display.update()
         assert sentence(display, 'URDF')
