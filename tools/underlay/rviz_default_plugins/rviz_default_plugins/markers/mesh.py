@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
+from rviz_common.canvas import Canvas
 from rviz_default_plugins.drawing.bodies import opacity_of
 from rviz_default_plugins.markers.look import Look
 from rviz_default_plugins.robot.mesh import DrawnMesh
@@ -18,7 +18,7 @@ __all__ = ['draw_mesh']
 WHITE = (1.0, 1.0, 1.0, 1.0)
 
 
-def draw_mesh(scene: Any, name: str, look: Look) -> None:
+def draw_mesh(canvas: Canvas, name: str, look: Look) -> None:
     """Draw a mesh, in the colours of its file if the marker wants that, or raise ValueError."""
     resource, has_own_colors = look.mesh
     if not resource:
@@ -27,16 +27,17 @@ def draw_mesh(scene: Any, name: str, look: Look) -> None:
     for index, surface in enumerate(mesh.surfaces):
         path = f'{name}_{index}'
         if has_own_colors and surface.glb is not None:
-            scene.add_glb(path, surface.glb, scale=look.scale)
+            canvas.put('glb', path, glb_data=surface.glb, scale=look.scale)
             continue
         color, alpha = look.color, look.alpha
         if has_own_colors:
             red, green, blue, alpha = surface.color or WHITE
             color = round(red * 255), round(green * 255), round(blue * 255)
-        scene.add_mesh_simple(
+        canvas.put(
+            'mesh_simple',
             path,
-            surface.vertices,
-            surface.faces,
+            vertices=surface.vertices,
+            faces=surface.faces,
             color=color,
             opacity=opacity_of(alpha),
             scale=look.scale,

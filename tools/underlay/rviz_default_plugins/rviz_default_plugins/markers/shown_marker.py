@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
 from rviz_default_plugins.decoding.geometry import (
     joined,
@@ -123,7 +124,9 @@ class ShownMarker:
         self.note = look.note or self.note
         if look.is_like(self._look):
             return
-        self.remove()
-        self._node = self._scene.add_frame(self._place, show_axes=False, visible=False)
-        draw_look(self._scene, self._place, look)
+        if self._node is None:
+            self._node = self._scene.add_frame(self._place, show_axes=False, visible=False)
+            self._canvas = Canvas(self._scene, self._place)
+        with self._canvas.anew():
+            draw_look(self._canvas, look)
         self._look = look
