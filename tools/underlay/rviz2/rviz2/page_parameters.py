@@ -11,7 +11,7 @@ from rviz_common.page.settings import PageSettings
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-__all__ = ['page_settings']
+__all__ = ['page_settings', 'unknown_parameters']
 
 
 def page_settings(node: Node) -> PageSettings:
@@ -20,6 +20,14 @@ def page_settings(node: Node) -> PageSettings:
     port = _declare(node, 'port', 0, 'The port of the page; 0: the first free one from 8080 on.')
     token = _declare(node, 'token', '', 'What one must know to see the page; empty: nothing.')
     return PageSettings(host, port or None, token)
+
+
+def unknown_parameters(node: Node) -> list[str]:
+    """Return a sentence for each parameter that is given, but that nobody has declared."""
+    from robot_state_publisher.unknown_parameters import unknown_parameters
+
+    given = getattr(node, '_parameter_overrides', {})  # rclpy has no public way to ask for them
+    return unknown_parameters(given, node.get_parameters_by_prefix('').keys())
 
 
 def _declare(node: Node, name: str, default: str | int, text: str) -> Any:

@@ -43,11 +43,11 @@ def _job(words: list[str]) -> Job:
 def _show(job: Job) -> int:
     """Show it until a signal comes; return the exit status."""
     from rclpy.exceptions import ParameterException
-    from rclpy.node import Node
     from rviz2.page_parameters import page_settings
+    from rviz_common.guarded_node import GuardedNode
     from rviz_common.page import Page, PortError
 
-    node = Node('rviz2')
+    node = GuardedNode('rviz2')
     try:
         page = Page('RViz', page_settings(node))
     except (ValueError, ParameterException, PortError) as error:
@@ -63,12 +63,15 @@ def _show(job: Job) -> int:
 def _visualize(
     node: Node, page: Page, arguments: argparse.Namespace, configuration: Configuration
 ) -> None:
+    from rviz2.page_parameters import unknown_parameters
     from rviz_common.visualizer import Visualizer
     from rviz_common.visualizer.options import FIXED_FRAME
 
     visualizer = Visualizer(node, page.viser, configuration, arguments.display_config or '')
     if arguments.fixed_frame is not None:
         visualizer.set_option(FIXED_FRAME, arguments.fixed_frame)
+    for sentence in unknown_parameters(node):
+        node.get_logger().warning(sentence)
     spin(node)
     visualizer.close()
 

@@ -134,7 +134,7 @@ class ColorOf(Property):
 
     def read(self, value: Any) -> tuple[int, int, int]:
         """Return the value, which a file has as `255; 0; 0`, or raise ValueError."""
-        words = value.split(';') if isinstance(value, str) else list(value)
+        words = value.split(';') if isinstance(value, str) else value
         try:
             red, green, blue = (int(word) for word in words)
         except (TypeError, ValueError):

@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from contextlib import suppress
 import os
 from typing import Any, TYPE_CHECKING
 
+from rclpy.exceptions import InvalidHandle
 from rviz_common.config import ConfigError, Configuration
 from rviz_common.config.configuration import (
     DISPLAYS,
@@ -20,13 +21,17 @@ from rviz_common.config.configuration import (
 )
 from rviz_common.config.document import Place
 from rviz_common.context import Context
+from rviz_common.described_error import described_error
+from rviz_common.frame_listener import FrameListener
 from rviz_common.frames import Frames
+from rviz_common.pace import Pace
+from rviz_common.panels.file_folder import FileFolder
 from rviz_common.panels.head import Head
-from rviz_common.panels.pace import Pace
 from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.properties import topic_path, Values
 from rviz_common.status import Statuses
 from rviz_common.views import View
+from rviz_common.visualizer.background import paint
 from rviz_common.visualizer.cameras import Cameras, WORLD
 from rviz_common.visualizer.entry import Entry
 from rviz_common.visualizer.frame_loop import FrameLoop
@@ -38,12 +43,11 @@ from rviz_common.visualizer.options import (
     FIXED_FRAME,
     FRAME_RATE,
     OPTIONS,
-    UNUSED_OPTIONS,
 )
-from rviz_common.visualizer.reports import sentences_about_classes, sentences_about_displays
+from rviz_common.visualizer.reports import surprises
 from rviz_common.visualizer.tool_box import ToolBox
 from rviz_common.work_queue import WorkQueue
-from tf2_ros import Buffer, TransformListener
+from tf2_ros import Buffer
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -63,18 +67,18 @@ class Visualizer:
         self, node: Node, server: ViserServer, configuration: Configuration, path: str = ''
     ) -> None:
         """Show what a configuration says; `path` is the file that it is from."""
-        wake = node.create_guard_condition(self._work)
         self._buffer = Buffer()
-        self._listener = TransformListener(self._buffer, node)
+        self._listener = FrameListener(self._buffer, node)
         frames = Frames(self._buffer)
-        self.context = Context(node, server, frames, WorkQueue(wake.trigger), self)
+        self.context = Context(node, server, frames, WorkQueue(self._rouse), self)
         self.status = Statuses()
         self.watch = FrameWatch(node, frames, self.status)
-        self._wake = wake
+        self._wake = node.create_guard_condition(self._work)
         self._logger = node.get_logger()
         self._pace = Pace()
         self._maker = Maker(self.context, f'{WORLD}/displays')
         self._open(configuration, path)
+        self._files = FileFolder(self.context)
         self._loop = FrameLoop(node, self.frame, self.options[FRAME_RATE])
 
     def load(self, configuration: Configuration, path: str = '') -> None:
@@ -90,7 +94,6 @@ class Visualizer:
             raise ConfigError(path or 'The file', None, 'Its name must end with .rviz.')
         self.configuration.save(path, self._sections())
         self.path = path
-        self._logger.info(f'Saved to {path}.')
 
     def text(self) -> str:
         """Return what a file of what is shown would have."""
@@ -118,6 +121,7 @@ class Visualizer:
 
     def frame(self) -> None:
         """Draw the next frame."""
+        self._listener.take_all()
         if self._pace.is_due():
             self.watch.update()
         with self.context.server.atomic():
@@ -136,6 +140,7 @@ class Visualizer:
         """Show nothing any longer."""
         self._loop.close()
         self._close()
+        self._files.close()
         self._listener.unregister()
         self.context.node.destroy_guard_condition(self._wake)
 
@@ -153,7 +158,7 @@ class Visualizer:
         self.watch.update()
         self.head = Head(self.context, self)
         self.panels = PanelTabs(self.context, configuration.panels)
-        for sentence in self._surprises():
+        for sentence in surprises(self):
             self._logger.warning(sentence)
 
     def _close(self) -> None:
@@ -172,12 +177,12 @@ class Visualizer:
         elif option == FRAME_RATE:
             self._loop.set_rate(value)
         else:
-            _paint(self.context.server, value)
+            paint(self.context.server, value)
 
     def _sections(self) -> dict[Place, Any]:
         """Return the sections of the file that may have been changed."""
         return {
-            DISPLAYS: self.displays.to_file()['Displays'],
+            DISPLAYS: [each.to_file() for each in self.displays.children],
             OPTIONS_PLACE: self.options.to_file(),
             PANELS: self.panels.to_file(),
             SAVED_VIEWS: [view.to_file() for view in self.saved_views],
@@ -185,30 +190,15 @@ class Visualizer:
             VIEW: self.cameras.view.to_file(),
         }
 
-    def _surprises(self) -> Iterator[str]:
-        """Return a sentence for all of the file that is not known."""
-        source = self.configuration.document.source
-        yield from sentences_about_displays(self.configuration, self.displays.children)
-        yield from sentences_about_classes('tools', source, self.tools.unknown)
-        yield from sentences_about_classes('panels', source, self.panels.unknown)
-        view = self.cameras.view
-        if not view.is_known:
-            yield from sentences_about_classes('views', source, [view.class_name])
-        for name in self.options.unknown(UNUSED_OPTIONS):
-            yield f"{source}: The global option '{name}' is not known. The file keeps it."
-        yield from (f'{source}: The global option {each}' for each in self.options.refusals)
-
     def _work(self) -> None:
         """Do what widgets have posted."""
         try:
             self.context.queue.run()
         except Exception as error:  # whatever a widget does, all else goes on
-            self._logger.error(f'What was entered failed: {type(error).__name__}: {error}')
-            self._wake.trigger()  # for what still waits
+            self._logger.error(f'What was entered failed: {described_error(error)}')
+            self._rouse()  # for what still waits
 
-
-def _paint(server: ViserServer, color: tuple[int, int, int]) -> None:
-    """Give the scene a background of one color."""
-    import numpy as np
-
-    server.scene.set_background_image(np.full((1, 1, 3), color, np.uint8), format='png')
+    def _rouse(self) -> None:
+        """Have posted work done soon; a browser may post some until the page is closed."""
+        with suppress(InvalidHandle):
+            self._wake.trigger()

@@ -22,6 +22,7 @@ from urdf import RobotModel as Robot
 __all__ = ['RobotModel']
 
 FILE, TOPIC = 'File', 'Topic'
+MAX_LINKS = 2000
 ALL_LINKS = 'Links/All Links Enabled'
 REASONS_S = 0.5
 
@@ -122,6 +123,7 @@ class RobotModel(Display):
         self._text = text
         try:
             model = parse_urdf(text, source)
+            _check_size(model, source)
         except UrdfError as error:
             stays = ' The robot from before stays.' if self._model else ''
             self.status.say('URDF', Level.ERROR, f'{error}{stays}')
@@ -187,6 +189,12 @@ class RobotModel(Display):
             self.status.say(subject, level, sentence)
         else:
             self.status.forget(subject)
+
+
+def _check_size(model: Robot, source: str) -> None:
+    if len(model.links) > MAX_LINKS:
+        reason = f'{len(model.links)} links are too many: at most {MAX_LINKS} are shown.'
+        raise UrdfError(reason, source=source)
 
 
 def _poses(frames: Frames, prefix: str) -> Any:

@@ -10,7 +10,7 @@ from urllib.parse import unquote, urlsplit
 from rviz_default_plugins.robot.mesh_error import MeshError
 from urdf.did_you_mean import did_you_mean
 
-__all__ = ['KINDS', 'find_file', 'find_mesh']
+__all__ = ['KINDS', 'find_file', 'find_mesh', 'folder_of']
 
 KINDS = ('.stl', '.obj', '.glb', '.gltf', '.ply', '.dae')
 
@@ -23,6 +23,13 @@ def find_mesh(name: str) -> Path:
     if not path.is_file():
         raise MeshError(f"'{name}' is not there: {path} is no file.{_meant(path)}")
     return path
+
+
+def folder_of(name: str) -> Path:
+    """Return the folder whose files a mesh may use: its package, or else the one that it is in."""
+    path = find_file(name)
+    scheme, _, rest = name.partition('://')
+    return _share(name, rest.partition('/')[0]) if scheme == 'package' else path.parent
 
 
 def find_file(name: str) -> Path:

@@ -14,19 +14,23 @@ from urdf import Color
 
 __all__ = ['MAX_BYTES', 'MAX_TRIANGLES', 'load_mesh']
 
-MAX_BYTES = 200_000_000
+MAX_BYTES = 100_000_000
 MAX_TRIANGLES = 200_000
 
 
-def load_mesh(path: Path, name: str) -> DrawnMesh:
-    """Return the mesh of a file, which may be thinned out, or raise MeshError."""
+def load_mesh(path: Path, name: str, folder: Path | None = None) -> DrawnMesh:
+    """
+    Return the mesh of a file, which may be thinned out, or raise MeshError.
+
+    What the file names besides, such as pictures, must be in the folder, or beside the file.
+    """
     size = path.stat().st_size
     if size > MAX_BYTES:
         raise MeshError(
             f"'{name}' has {size / 1e6:.0f} MB, and at most {MAX_BYTES / 1e6:.0f} MB are shown. "
             'Export it with fewer triangles.'
         )
-    bodies = [body for body in _bodies(path, name) if len(body.faces)]
+    bodies = [body for body in _bodies(path, name, folder or path.parent) if len(body.faces)]
     if not bodies:
         raise MeshError(f"'{name}' has no triangles.")
     for body in bodies:
@@ -39,8 +43,9 @@ def load_mesh(path: Path, name: str) -> DrawnMesh:
     return _thinned(bodies, count, is_flat, name)
 
 
-def _bodies(path: Path, name: str) -> list[Any]:
+def _bodies(path: Path, name: str, folder: Path) -> list[Any]:
     """Return the bodies of a file, each where it is in the whole."""
+    from rviz_default_plugins.robot.nearby_files import NearbyFiles
     import trimesh
 
     try:
@@ -48,7 +53,7 @@ def _bodies(path: Path, name: str) -> list[Any]:
             scene = trimesh.load_scene(
                 stream,
                 file_type=path.suffix[1:].lower(),
-                resolver=trimesh.resolvers.FilePathResolver(str(path)),
+                resolver=NearbyFiles(path, folder),
             )
         if path.suffix.lower() == '.dae':  # the only kind that says what its unit is
             scene = scene.convert_units('meters')

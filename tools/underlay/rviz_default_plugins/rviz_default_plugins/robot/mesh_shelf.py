@@ -8,7 +8,7 @@ from pathlib import Path
 
 from rviz_default_plugins.robot.mesh import DrawnMesh
 from rviz_default_plugins.robot.mesh_error import MeshError
-from rviz_default_plugins.robot.mesh_file import find_mesh
+from rviz_default_plugins.robot.mesh_file import find_mesh, folder_of
 from rviz_default_plugins.robot.mesh_loading import load_mesh
 
 __all__ = ['MeshShelf']
@@ -41,5 +41,5 @@ class MeshShelf:
         changed_ns = path.stat().st_mtime_ns
         known = self._read.get(path)
         if known is None or known[0] != changed_ns:
-            known = self._read[path] = changed_ns, load_mesh(path, name)
+            known = self._read[path] = changed_ns, load_mesh(path, name, folder_of(name))
         return known[1]

@@ -130,6 +130,26 @@ def test_textures(tmp_path: Path) -> None:
     assert load_mesh(tmp_path / 'box.glb', 'box').surfaces[0].glb
 
 
+@pytest.mark.parametrize(
+    ('picture', 'is_used'),
+    [('../pictures/red.png', True), ('../../outside.png', False), ('/etc/hostname', False)],
+)
+def test_pictures_of_packages(package: Path, picture: str, is_used: bool) -> None:
+    """A mesh may use pictures of its package, which may be links out of it; no others."""
+    (package / 'pictures').mkdir()
+    outside = package.parent / 'outside.png'
+    Image.new('RGB', (2, 2), (255, 0, 0)).save(outside)
+    (package / 'pictures/red.png').symlink_to(outside)
+    (package / 'meshes/body.mtl').write_text(f'newmtl red\nmap_Kd {picture}\n')
+    (package / 'meshes/body.obj').write_text(
+        'mtllib body.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\n'
+        'vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n'
+    )
+    name, shelf = 'package://parts/meshes/body.obj', MeshShelf()
+    shelf.read([name])
+    assert bool(shelf.meshes[name].surfaces[0].glb) == is_used
+
+
 @pytest.mark.parametrize('kind', ['stl', 'obj', 'glb', 'gltf', 'ply', 'dae'])
 @pytest.mark.parametrize('content', [b'', b'\x00' * 100, b'solid', b'{}', b'<a/>', b'\xff' * 50])
 def test_broken_files(tmp_path: Path, kind: str, content: bytes) -> None:
@@ -153,7 +173,7 @@ def test_huge_file(tmp_path: Path) -> None:
     path = tmp_path / 'huge.stl'
     with path.open('wb') as stream:
         stream.truncate(mesh_loading.MAX_BYTES + 1)
-    with pytest.raises(MeshError, match='at most 200 MB'):
+    with pytest.raises(MeshError, match='at most 100 MB'):
         load_mesh(path, 'huge')
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import pytest
@@ -152,6 +153,19 @@ def test_malformed_descriptions(stage: Stage, text: str) -> None:
     assert sentence(display, 'URDF').startswith('/robot_description')
 
 
+def test_random_descriptions(stage: Stage) -> None:
+    """Whatever is wrong with a description, there is a sentence, and the page goes on."""
+    random = Random(6)
+    display = stage.show(RobotModel)
+    words = ['', 'nan', '1e400', '-1', '1e308', '<', '"', '\ud800', '\x00', 'base', '/', '&a;']
+    for _ in range(300):
+        at = random.randrange(len(URDF))
+        end = at + random.choice([0, 1, 5, 50])
+        stage.describe(URDF[:at] + random.choice(words) + URDF[end:])
+        display.update()
+        assert sentence(display, 'URDF')
+
+
 def test_new_description(stage: Stage, robot: Any) -> None:
     """A new description replaces the robot; the same one again changes nothing."""
     box = stage.node_at(f'{BASE}/visual_0')
@@ -284,6 +298,20 @@ def test_huge_robot(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
     stage.describe(f'<robot name="r"><link name="l">{ball * 7}</link></robot>')
     assert sentence(display, 'Bodies') == '7 bodies are too many: 5 are shown.'
     assert stage.node_at('/display_0/l/visual_5') is None
+
+
+def test_too_many_links(stage: Stage) -> None:
+    """A robot of more links than a browser can move is refused with both numbers."""
+    links = ''.join(f'<link name="l{number}"/>' for number in range(2002))
+    joints = ''.join(
+        f'<joint name="j{number}" type="fixed"><parent link="l0"/>'
+        f'<child link="l{number}"/></joint>'
+        for number in range(1, 2002)
+    )
+    display = stage.show(RobotModel)
+    stage.describe(f'<robot name="r">{links}{joints}</robot>')
+    display.update()
+    assert '2002 links are too many: at most 2000' in sentence(display, 'URDF')
 
 
 def test_names_with_slashes(stage: Stage) -> None:

@@ -57,6 +57,20 @@ def test_arrows_and_names(stage: Stage) -> None:
     assert stage.node_at('/display_0/axes').axes_length == pytest.approx(0.4)
 
 
+def test_many_names_take_turns(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    """If many names move, some do so in each frame, and all of them in the end."""
+    monkeypatch.setattr('rviz_default_plugins.tf.frame_names.MAX_MOVES', 2)
+    display = stage.show(TF, {'Show Names': True})
+    names = [f'frame_{number}' for number in range(6)]
+    for x, counts in ((0.0, [0]), (1.0, [2, 4, 6])):
+        for name in names:
+            stage.move('map', name, x=x)
+        for count in counts:
+            display.update()
+            labels = [stage.node_at(f'/display_0/names/{name}') for name in names]
+            assert sum(label.position[0] == 1.0 for label in labels) == count
+
+
 def test_what_is_not_shown(stage: Stage) -> None:
     """Without names, axes and arrows nothing is drawn."""
     display = stage.show(TF, {'Show Axes': False, 'Show Arrows': False})
