@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Future
 from functools import lru_cache
 from pathlib import Path
+from threading import Lock, Thread
 
 from rviz_common.canvas import Canvas
 from rviz_default_plugins.drawing.bodies import opacity_of
@@ -13,9 +15,14 @@ from rviz_default_plugins.robot.mesh import DrawnMesh
 from rviz_default_plugins.robot.mesh_file import find_mesh
 from rviz_default_plugins.robot.mesh_loading import load_mesh
 
-__all__ = ['draw_mesh']
+__all__ = ['MeshIsBeingRead', 'draw_mesh']
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
+ONE_AT_A_TIME = Lock()
+
+
+class MeshIsBeingRead(ValueError):
+    """A mesh that cannot be drawn yet."""
 
 
 def draw_mesh(canvas: Canvas, name: str, look: Look) -> None:
@@ -50,11 +57,28 @@ def _mesh(resource: str) -> DrawnMesh:
     """Return a mesh, or raise ValueError; MeshError is one."""
     path = find_mesh(resource)
     try:
-        return _loaded(path, resource, path.stat().st_mtime_ns)
+        changed_ns = path.stat().st_mtime_ns
     except OSError as error:
         raise ValueError(f"'{resource}' cannot be read: {error.strerror}.") from None
+    reading = _reading(path, resource, changed_ns)
+    if not reading.done():
+        raise MeshIsBeingRead(f"'{resource}' is being read.")
+    return reading.result()
 
 
-@lru_cache(maxsize=32)
-def _loaded(path: Path, resource: str, changed_ns: int) -> DrawnMesh:
-    return load_mesh(path, resource)
+@lru_cache(maxsize=256)
+def _reading(path: Path, resource: str, changed_ns: int) -> Future[DrawnMesh]:
+    """Begin to read a mesh, which may take seconds, while all else goes on."""
+    reading: Future[DrawnMesh] = Future()
+
+    def read() -> None:
+        try:
+            with ONE_AT_A_TIME:
+                reading.set_result(load_mesh(path, resource))
+        except OSError as error:
+            reading.set_exception(ValueError(f"'{resource}' cannot be read: {error.strerror}."))
+        except Exception as error:  # who waits for the mesh is to have it
+            reading.set_exception(error)
+
+    Thread(target=read, name='mesh', daemon=True).start()
+    return reading
