@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections import deque
 from typing import Any, ClassVar, NamedTuple
 
+from rviz_common.canvas import Canvas
 from rviz_common.frames import FrameError, Pose
 from rviz_common.status import Level
 from rviz_common.topic_display import TopicDisplay
@@ -20,11 +21,18 @@ class Waiting(NamedTuple):
     came_ns: int
 
 
+class Place(NamedTuple):
+    """A node of the scene, and what is drawn below it."""
+
+    node: Any
+    canvas: Canvas
+
+
 class Kept(NamedTuple):
-    """A message that is drawn, and the node of the scene below which it is."""
+    """A message that is drawn, and where."""
 
     waiting: Waiting
-    node: Any
+    place: Place
 
 
 class HistoryDisplay(TopicDisplay):
@@ -44,7 +52,7 @@ class HistoryDisplay(TopicDisplay):
         """Subscribe the topic."""
         self._waiting: deque[Waiting] = deque()
         self._kept: deque[Kept] = deque()
-        self._serial = 0
+        self._free: list[Place] = []
         self._fixed_frame = self.context.frames.fixed_frame
         super().start()
 
@@ -53,6 +61,7 @@ class HistoryDisplay(TopicDisplay):
         super().stop()
         self._waiting.clear()
         self._kept.clear()
+        self._free.clear()
 
     def update(self) -> None:
         """Draw the messages whose place has become known, and remove old ones."""
@@ -63,8 +72,8 @@ class HistoryDisplay(TopicDisplay):
             self._draw_ready()
         self._remove_old()
 
-    def draw(self, place: str, message: Any, pose: Pose) -> None:
-        """Draw a message below a path, or raise ValueError; its frame has the pose."""
+    def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
+        """Draw a message, or raise ValueError; its frame has the pose."""
         raise NotImplementedError
 
     def keep(self) -> int:
@@ -85,8 +94,7 @@ class HistoryDisplay(TopicDisplay):
         """Draw the messages that are shown again."""
         for kept in reversed(self._kept):
             self._waiting.appendleft(kept.waiting)
-            kept.node.remove()
-        self._kept.clear()
+        self._keep_last(0)
 
     def _draw_ready(self) -> None:
         """Draw those of the waiting messages whose place is known."""
@@ -109,26 +117,35 @@ class HistoryDisplay(TopicDisplay):
             self._draw(waiting, pose)
 
     def _draw(self, waiting: Waiting, pose: Pose) -> None:
-        self._serial += 1
-        place = f'{self.root}/{self._serial}'
-        node = self.context.scene.add_frame(
-            place, show_axes=False, position=pose.position, wxyz=pose.wxyz
-        )
+        place = self._free.pop() if self._free else self._new_place()
+        place.node.position, place.node.wxyz = pose
+        place.node.visible = True
         try:
-            self.draw(place, waiting.message, pose)
+            with place.canvas.anew():
+                self.draw(place.canvas, waiting.message, pose)
         except ValueError as error:
-            node.remove()
+            self._leave(place)
             self.say_left_out(error)
             return
-        self._kept.append(Kept(waiting, node))
+        self._kept.append(Kept(waiting, place))
         self.say_shown()
+
+    def _new_place(self) -> Place:
+        root = f'{self.root}/{len(self._kept) + 1}'
+        node = self.context.scene.add_frame(root, show_axes=False)
+        return Place(node, Canvas(self.context.scene, root))
+
+    def _leave(self, place: Place) -> None:
+        """Hide a place, to draw another message there."""
+        place.node.visible = False
+        self._free.append(place)
 
     def _remove_old(self) -> None:
         decay_ns = round(self.decay_s() * 1e9)
         if decay_ns:
             now_ns = self._now_ns()
             while self._kept and now_ns - self._kept[0].waiting.came_ns > decay_ns:
-                self._kept.popleft().node.remove()
+                self._leave(self._kept.popleft().place)
         self._keep_last(self.MOST if decay_ns else self.keep())
         if decay_ns and len(self._kept) == self.MOST:
             self.status.say(
@@ -139,7 +156,7 @@ class HistoryDisplay(TopicDisplay):
 
     def _keep_last(self, count: int) -> None:
         while len(self._kept) > count:
-            self._kept.popleft().node.remove()
+            self._leave(self._kept.popleft().place)
 
     def _pose_of(self, header: Any) -> Pose:
         stamp_ns = header.stamp.sec * 1_000_000_000 + header.stamp.nanosec

@@ -74,7 +74,8 @@ def _from_bayer(raw: NDArray[Any], layout: Layout, step: int) -> Picture:
     small = [_eight_bits(corner[::half, ::half]) for corner in corners]
     green = np.mean([each for each, color in zip(small, layout.order) if color == 'g'], axis=0)
     red, blue = (small[layout.order.index(color)] for color in 'rb')
-    return Picture(np.stack([red, green.astype(np.uint8), blue], axis=2), 2 * half)
+    shown = np.stack([red, green.astype(np.uint8), blue], axis=2)
+    return Picture(shown, 2 * half if half > 1 else 1)
 
 
 def _from_yuv(raw: Bytes, order: str) -> Bytes:

@@ -28,7 +28,7 @@ def decode_cloud(message: Any) -> Cloud:
             f'it has no field {missing[0]}; its fields are '
             f'{", ".join(data.dtype.names or ()) or "none"}.'
         )
-    with np.errstate(over='ignore'):  # a 64-bit number may be too great; it is infinite then
+    with np.errstate(over='ignore', invalid='ignore'):  # what 32 bits cannot hold is nowhere
         points = np.stack([data[axis].astype(np.float32) for axis in 'xyz'], axis=1)
     names = [name for name in data.dtype.names or () if name not in 'xyz']
     return Cloud(points, {name: data[name] for name in names})

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from rviz_common.canvas import Canvas
 from rviz_common.frames import FrameError
 from rviz_common.properties import Number
 from rviz_common.status import Level
@@ -35,18 +36,13 @@ class Camera(ImageTopicDisplay):
 
     def start(self) -> None:
         """Subscribe the picture and what is known of the camera."""
-        self._pyramid: Any = None
+        self._canvas = Canvas(self.context.scene, self.root)
         self._info: Any = None
         super().start()
         if topic := self.values['Topic/Value']:
             self._info_topic = info_topic(topic)
             if self.subscribe(CameraInfo, self._info_topic, self._take_info):
                 self._say_no_info()
-
-    def stop(self) -> None:
-        """Subscribe no longer, and remove the pyramid."""
-        super().stop()
-        self._pyramid = None
 
     def update(self) -> None:
         """Show the newest picture, and follow the camera."""
@@ -61,17 +57,18 @@ class Camera(ImageTopicDisplay):
             return
         angle, aspect = view_of(self._info)
         self.status.forget('Camera Info')
-        self._pyramid = self.context.scene.add_camera_frustum(
-            f'{self.root}/camera',
-            angle,
-            aspect,
+        pyramid = self._canvas.put(
+            'camera_frustum',
+            'camera',
+            fov=angle,
+            aspect=aspect,
             image=picture.pixels,
             format='jpeg',
             jpeg_quality=self.QUALITY,
             cast_shadow=False,
         )
         depth = min(self.values['Far Plane Distance'], MOST_DISTANT)
-        self._pyramid.scale = depth / self._pyramid.compute_canonical_frustum_size()[2]
+        pyramid.scale = depth / pyramid.compute_canonical_frustum_size()[2]
 
     def _take_info(self, message: Any) -> None:
         if self._info is None or view_numbers(message) != view_numbers(self._info):

@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
+from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
 from rviz_common.history_display import HistoryDisplay
 from rviz_common.properties import Choice, ColorOf, Flag, Number, Property, Text, Whole
@@ -67,7 +68,7 @@ class CloudDisplay(HistoryDisplay):
         """Return how long points stay."""
         return float(self.values['Decay Time'])
 
-    def draw(self, place: str, message: Any, pose: Pose) -> None:
+    def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
         """Draw the points, not more of them than a browser can."""
         cloud = self.decode(message).finite()
         shown = cloud.thinned(self.MOST_DECAYING if self.decay_s() else self.MOST_POINTS)
@@ -77,20 +78,21 @@ class CloudDisplay(HistoryDisplay):
         else:
             self.status.forget('Points')
         if len(shown) and self.values['Alpha']:
-            self._add(place, shown, self._colors(shown, pose))
+            self._add(canvas, shown, self._colors(shown, pose))
 
-    def _add(self, place: str, cloud: Cloud, colors: Any) -> None:
+    def _add(self, canvas: Canvas, cloud: Cloud, colors: Any) -> None:
         style = self.values['Style']
         is_round = style == 'Spheres'
         pixels = self.values['Size (Pixels)'] * PIXEL
-        self.context.scene.add_point_cloud(
-            f'{place}/points',
-            cloud.points,
-            colors,
+        canvas.put(
+            'point_cloud',
+            'points',
+            points=cloud.points,
+            colors=colors,
+            precision='float32',
             point_size=pixels if style == 'Points' else self.values['Size (m)'],
             point_shape='circle' if is_round else 'square',
             point_shading='gradient' if is_round else 'flat',
-            precision='float32',
         )
 
     def _colors(self, cloud: Cloud, pose: Pose) -> Any:

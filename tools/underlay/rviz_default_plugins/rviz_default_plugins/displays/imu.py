@@ -6,13 +6,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
 from rviz_common.message_display import MessageDisplay
 from rviz_common.properties import ColorOf, Flag, Number, topic_properties
 from rviz_common.status import Level
 from rviz_default_plugins.decoding.geometry import position, Quaternion, rotated, rotation
 from rviz_default_plugins.drawing.bodies import add_arrow_to, opacity_of
-from rviz_default_plugins.drawing.drawn import Drawn
 from sensor_msgs.msg import Imu as ImuMessage
 
 __all__ = ['Imu']
@@ -53,7 +53,7 @@ class Imu(MessageDisplay):
 
     def start(self) -> None:
         """Subscribe the topic."""
-        self._drawn = Drawn()
+        self._canvas = Canvas(self.context.scene, self.root)
         super().start()
 
     def show(self, message: Any) -> None:
@@ -64,40 +64,41 @@ class Imu(MessageDisplay):
         else:
             turn = rotation(message.orientation)
             self.status.forget('Orientation')
-        handles = []
-        if self.values[f'{BOX}/Enable box']:
-            handles.append(self._add_box(turn))
-        if self.values[f'{AXES}/Enable axes']:
-            handles.append(self._add_axes(turn))
-        if self.values[f'{ARROW}/Enable acceleration']:
-            handles.append(self._add_arrow(message, turn))
-        self._drawn.replace(handle for handle in handles if handle is not None)
+        with self._canvas.anew():
+            if self.values[f'{BOX}/Enable box']:
+                self._add_box(turn)
+            if self.values[f'{AXES}/Enable axes']:
+                self._add_axes(turn)
+            if self.values[f'{ARROW}/Enable acceleration']:
+                self._add_arrow(message, turn)
 
     def placed(self, pose: Pose) -> Pose:
         """Return the place of the IMU, with its rotation unless the orientation has it."""
         return Pose(pose.position) if self.values['fixed_frame_orientation'] else pose
 
-    def _add_box(self, turn: Quaternion) -> Any:
+    def _add_box(self, turn: Quaternion) -> None:
         x, y, z = (self.values[f'{BOX}/{axis}_scale'] for axis in 'xyz')
-        return self.context.scene.add_box(
-            f'{self.root}/box',
+        self._canvas.put(
+            'box',
+            'box',
             color=self.values[f'{BOX}/Box color'],
             dimensions=(x, y, z),
             opacity=opacity_of(self.values[f'{BOX}/Box alpha']),
             wxyz=turn,
         )
 
-    def _add_axes(self, turn: Quaternion) -> Any:
+    def _add_axes(self, turn: Quaternion) -> None:
         length = self.values[f'{AXES}/Axes scale']
-        return self.context.scene.add_frame(
-            f'{self.root}/axes',
+        self._canvas.put(
+            'frame',
+            'axes',
             axes_length=length,
             axes_radius=0.05 * length,
             origin_radius=0.05 * length,
             wxyz=turn,
         )
 
-    def _add_arrow(self, message: Any, turn: Quaternion) -> Any:
+    def _add_arrow(self, message: Any, turn: Quaternion) -> None:
         vector = position(message.linear_acceleration, 'linear acceleration')
         if self.values[f'{ARROW}/Derotate acceleration']:
             vector = tuple(rotated(np.array([vector]), turn)[0])
@@ -107,5 +108,4 @@ class Imu(MessageDisplay):
             self.values[f'{ARROW}/Acc. vector color'],
             self.values[f'{ARROW}/Acc. vector alpha'],
         )
-        name = f'{self.root}/acceleration'
-        return add_arrow_to(self.context.scene, name, (x, y, z), 0.05, paint, (0.0, 0.0, 0.0))
+        add_arrow_to(self._canvas, 'acceleration', (x, y, z), 0.05, paint, (0.0, 0.0, 0.0))

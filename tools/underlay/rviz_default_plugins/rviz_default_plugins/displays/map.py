@@ -8,6 +8,7 @@ from typing import Any
 
 from nav_msgs.msg import OccupancyGrid
 import numpy as np
+from rviz_common.canvas import Canvas
 from rviz_common.message_display import MessageDisplay
 from rviz_common.properties import Choice, Flag, Number, topic_properties, Whole
 from rviz_common.status import Level
@@ -20,7 +21,6 @@ from rviz_default_plugins.decoding.occupancy import (
     paint,
     thinned,
 )
-from rviz_default_plugins.drawing.drawn import Drawn
 
 __all__ = ['Map']
 
@@ -47,7 +47,7 @@ class Map(MessageDisplay):
 
     def start(self) -> None:
         """Subscribe the map and its updates."""
-        self._drawn = Drawn()
+        self._canvas = Canvas(self.context.scene, self.root)
         self._of: Any = None
         self._cells: Cells | None = None
         self._updates: list[Any] = []
@@ -88,9 +88,10 @@ class Map(MessageDisplay):
             self.status.say('Map', Level.WARN, sentence)
         else:
             self.status.forget('Map')
-        self._drawn.replace([self._add(cells, step, message.info)])
+        with self._canvas.anew():
+            self._add(cells, step, message.info)
 
-    def _add(self, cells: Cells, step: int, info: Any) -> Any:
+    def _add(self, cells: Cells, step: int, info: Any) -> None:
         if self.values['Binary representation']:
             cells = binary(cells, self.values['Binary threshold'])
         picture = paint(cells, self.values['Color Scheme'], self.values['Alpha'])
@@ -98,11 +99,12 @@ class Map(MessageDisplay):
         height, width = (length * step * info.resolution for length in cells.shape)
         behind = BEHIND if self.values['Draw Behind'] else 0.0
         middle = rotated(np.array([[width / 2.0, height / 2.0, behind]]), turn)[0] + at
-        return self.context.scene.add_image(
-            f'{self.root}/map',
-            picture,
-            width,
-            height,
+        self._canvas.put(
+            'image',
+            'map',
+            image=picture,
+            render_width=width,
+            render_height=height,
             format='png',
             position=tuple(middle),
             wxyz=turn,

@@ -8,6 +8,7 @@ import math
 from typing import Any
 
 from nav_msgs.msg import Odometry as OdometryMessage
+from rviz_common.canvas import Canvas
 from rviz_common.context import Context
 from rviz_common.frames import Pose
 from rviz_common.history_display import HistoryDisplay
@@ -69,11 +70,10 @@ class Odometry(HistoryDisplay):
             self._last = pose
             super().take(message)
 
-    def draw(self, place: str, message: Any, pose: Pose) -> None:
+    def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
         """Draw a pose, and how uncertain it is."""
-        scene, shown = self.context.scene, message.pose
-        add_covariance(scene, place, shown, self.values)
-        add_pose(scene, place, shown.pose, self.values, 'Shape/Value', 'Shape/')
+        add_covariance(canvas, message.pose, self.values)
+        add_pose(canvas, message.pose.pose, self.values, 'Shape/Value', 'Shape/')
 
     def _is_far(self, pose: Any, last: Any) -> bool:
         here, there = position(pose.position), position(last.position)

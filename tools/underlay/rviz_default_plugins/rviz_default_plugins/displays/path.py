@@ -7,6 +7,7 @@ from typing import Any
 
 from nav_msgs.msg import Path as PathMessage
 import numpy as np
+from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
 from rviz_common.history_display import HistoryDisplay
 from rviz_common.properties import Choice, ColorOf, Number, topic_properties, Vector, Whole
@@ -49,40 +50,40 @@ class Path(HistoryDisplay):
         """Return how many paths are shown at once."""
         return int(self.values['Buffer Length'])
 
-    def draw(self, place: str, message: Any, pose: Pose) -> None:
+    def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
         """Draw the line and the poses."""
         step = max(1, -(-len(message.poses) // MOST))
         poses = [each.pose for each in message.poses[::step]]
         points = finite_points_of(each.position for each in poses)
         points = points + np.array(self.values['Offset'], dtype=np.float32)
         if len(points) > 1 and self.values['Alpha']:
-            self._add_line(place, points)
+            self._add_line(canvas, points)
         if len(points) and self.values['Pose Style'] != 'None':
-            self._add_poses(place, points, poses)
+            self._add_poses(canvas, points, poses)
         if step > 1:
             sentence = f'{len(points)} of the {len(message.poses)} poses of the path are shown.'
             self.status.say('Path', Level.WARN, sentence)
         else:
             self.status.forget('Path')
 
-    def _add_line(self, place: str, points: Points) -> None:
+    def _add_line(self, canvas: Canvas, points: Points) -> None:
         segments = np.stack([points[:-1], points[1:]], axis=1)
         is_wide = self.values['Line Style'] == 'Billboards'
         width = self.values['Line Width'] if is_wide else None
-        color = self.values['Color']
-        add_lines(self.context.scene, f'{place}/line', segments, color, width)
+        add_lines(canvas, 'line', segments, self.values['Color'], width)
 
-    def _add_poses(self, place: str, points: Points, poses: list[Any]) -> None:
-        scene, values = self.context.scene, self.values
+    def _add_poses(self, canvas: Canvas, points: Points, poses: list[Any]) -> None:
+        values = self.values
         wxyzs, valid = rotations_of(each.orientation for each in poses)
         if not valid.all():
             lost = len(valid) - int(valid.sum())
             raise ValueError(f'{lost} of its {len(valid)} poses have quaternions of zeros.')
         if values['Pose Style'] == 'Axes':
-            scene.add_batched_axes(
-                f'{place}/poses',
-                wxyzs,
-                points,
+            canvas.put(
+                'batched_axes',
+                'poses',
+                batched_wxyzs=wxyzs,
+                batched_positions=points,
                 axes_length=values['Length'],
                 axes_radius=values['Radius'],
             )
@@ -90,4 +91,4 @@ class Path(HistoryDisplay):
         shaft = values['Shaft Length'], values['Shaft Diameter'] / 2.0
         surface = arrow(*shaft, values['Head Length'], values['Head Diameter'] / 2.0)
         paint = values['Pose Color'], values['Alpha']
-        add_copies(scene, f'{place}/poses', surface, paint, points, wxyzs)
+        add_copies(canvas, 'poses', surface, paint, points, wxyzs)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from geometry_msgs.msg import PointStamped as PointStampedMessage
+from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
 from rviz_common.history_display import HistoryDisplay
 from rviz_common.properties import ColorOf, Number, topic_properties, Whole
@@ -32,10 +33,11 @@ class PointStamped(HistoryDisplay):
         """Return how many points are shown at once."""
         return int(self.values['History Length'])
 
-    def draw(self, place: str, message: Any, pose: Pose) -> None:
+    def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
         """Draw the sphere."""
-        self.context.scene.add_icosphere(
-            f'{place}/point',
+        canvas.put(
+            'icosphere',
+            'point',
             radius=self.values['Radius'],
             color=self.values['Color'],
             opacity=opacity_of(self.values['Alpha']),

@@ -7,11 +7,11 @@ from typing import Any
 
 from geometry_msgs.msg import PolygonStamped
 import numpy as np
+from rviz_common.canvas import Canvas
 from rviz_common.message_display import MessageDisplay
 from rviz_common.properties import ColorOf, Number, topic_properties
 from rviz_default_plugins.decoding.geometry import finite_points_of
 from rviz_default_plugins.drawing.bodies import add_lines
-from rviz_default_plugins.drawing.drawn import Drawn
 
 __all__ = ['Polygon']
 
@@ -31,16 +31,13 @@ class Polygon(MessageDisplay):
 
     def start(self) -> None:
         """Subscribe the topic."""
-        self._drawn = Drawn()
+        self._canvas = Canvas(self.context.scene, self.root)
         super().start()
 
     def show(self, message: Any) -> None:
         """Draw the line around it."""
         points = finite_points_of(message.polygon.points)
-        if not len(points) or not self.values['Alpha']:
-            self._drawn.replace([])
-            return
-        segments = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
-        scene = self.context.scene
-        line = add_lines(scene, f'{self.root}/line', segments, self.values['Color'])
-        self._drawn.replace([line])
+        with self._canvas.anew():
+            if len(points) and self.values['Alpha']:
+                segments = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
+                add_lines(self._canvas, 'line', segments, self.values['Color'])

@@ -6,9 +6,9 @@ from __future__ import annotations
 from typing import Any
 
 from geometry_msgs.msg import PoseStamped
+from rviz_common.canvas import Canvas
 from rviz_common.message_display import MessageDisplay
 from rviz_common.properties import topic_properties
-from rviz_default_plugins.drawing.drawn import Drawn
 from rviz_default_plugins.drawing.pose_shape import add_pose, pose_shape_properties
 
 __all__ = ['Pose']
@@ -26,10 +26,10 @@ class Pose(MessageDisplay):
 
     def start(self) -> None:
         """Subscribe the topic."""
-        self._drawn = Drawn()
+        self._canvas = Canvas(self.context.scene, self.root)
         super().start()
 
     def show(self, message: Any) -> None:
         """Draw the arrow or the axes."""
-        scene = self.context.scene
-        self._drawn.replace(add_pose(scene, self.root, message.pose, self.values, 'Shape'))
+        with self._canvas.anew():
+            add_pose(self._canvas, message.pose, self.values, 'Shape')

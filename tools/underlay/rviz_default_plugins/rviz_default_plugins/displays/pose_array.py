@@ -7,12 +7,12 @@ from typing import Any
 
 from geometry_msgs.msg import PoseArray as PoseArrayMessage
 import numpy as np
+from rviz_common.canvas import Canvas
 from rviz_common.message_display import MessageDisplay
 from rviz_common.properties import Choice, ColorOf, Number, topic_properties
 from rviz_common.status import Level
 from rviz_default_plugins.decoding.geometry import matrices_of, Points, points_of, rotations_of
 from rviz_default_plugins.drawing.bodies import add_copies, add_lines
-from rviz_default_plugins.drawing.drawn import Drawn
 from rviz_default_plugins.drawing.surfaces import arrow
 
 __all__ = ['PoseArray']
@@ -42,7 +42,7 @@ class PoseArray(MessageDisplay):
 
     def start(self) -> None:
         """Subscribe the topic."""
-        self._drawn = Drawn()
+        self._canvas = Canvas(self.context.scene, self.root)
         super().start()
 
     def show(self, message: Any) -> None:
@@ -50,9 +50,9 @@ class PoseArray(MessageDisplay):
         step = max(1, -(-len(message.poses) // MOST))
         positions, wxyzs = self._poses(message.poses[::step])
         draw = {FLAT: self._add_flat, SOLID: self._add_solid, AXES: self._add_axes}
-        self._drawn.replace(
-            [draw[self.values['Shape']](positions, wxyzs)] if len(positions) else []
-        )
+        with self._canvas.anew():
+            if len(positions):
+                draw[self.values['Shape']](positions, wxyzs)
         if step > 1:
             self.status.say(
                 'Poses',
@@ -76,7 +76,7 @@ class PoseArray(MessageDisplay):
             self.status.forget('Poses')
         return positions[valid], wxyzs[valid]
 
-    def _add_flat(self, positions: Points, wxyzs: Points) -> Any:
+    def _add_flat(self, positions: Points, wxyzs: Points) -> None:
         """Add arrows of lines: a shaft and two for the head."""
         length = self.values['Arrow Length']
         tip, back, side = (length, 0, 0), 0.8 * length, 0.1 * length
@@ -84,21 +84,20 @@ class PoseArray(MessageDisplay):
         ends = np.array(lines, dtype=np.float32)
         turned = ends.reshape(-1, 3) @ matrices_of(wxyzs).transpose(0, 2, 1)
         segments = turned + positions[:, None]
-        scene, color = self.context.scene, self.values['Color']
-        return add_lines(scene, f'{self.root}/lines', segments.reshape(-1, 2, 3), color)
+        add_lines(self._canvas, 'lines', segments.reshape(-1, 2, 3), self.values['Color'])
 
-    def _add_solid(self, positions: Points, wxyzs: Points) -> Any:
+    def _add_solid(self, positions: Points, wxyzs: Points) -> None:
         names = ('Shaft Length', 'Shaft Radius', 'Head Length', 'Head Radius')
         surface = arrow(*(self.values[name] for name in names))
         paint = self.values['Color'], self.values['Alpha']
-        scene = self.context.scene
-        return add_copies(scene, f'{self.root}/arrows', surface, paint, positions, wxyzs)
+        add_copies(self._canvas, 'arrows', surface, paint, positions, wxyzs)
 
-    def _add_axes(self, positions: Points, wxyzs: Points) -> Any:
-        return self.context.scene.add_batched_axes(
-            f'{self.root}/axes',
-            wxyzs,
-            positions,
+    def _add_axes(self, positions: Points, wxyzs: Points) -> None:
+        self._canvas.put(
+            'batched_axes',
+            'axes',
+            batched_wxyzs=wxyzs,
+            batched_positions=positions,
             axes_length=self.values['Axes Length'],
             axes_radius=self.values['Axes Radius'],
         )

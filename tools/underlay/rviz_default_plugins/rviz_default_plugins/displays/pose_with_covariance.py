@@ -6,9 +6,9 @@ from __future__ import annotations
 from typing import Any
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
+from rviz_common.canvas import Canvas
 from rviz_common.message_display import MessageDisplay
 from rviz_common.properties import topic_properties
-from rviz_default_plugins.drawing.drawn import Drawn
 from rviz_default_plugins.drawing.pose_shape import (
     add_covariance,
     add_pose,
@@ -32,13 +32,11 @@ class PoseWithCovariance(MessageDisplay):
 
     def start(self) -> None:
         """Subscribe the topic."""
-        self._drawn = Drawn()
+        self._canvas = Canvas(self.context.scene, self.root)
         super().start()
 
     def show(self, message: Any) -> None:
         """Draw the pose and the ellipsoid."""
-        scene, pose = self.context.scene, message.pose
-        around = add_covariance(scene, self.root, pose, self.values)
-        self._drawn.replace(
-            [*around, *add_pose(scene, self.root, pose.pose, self.values, 'Shape')]
-        )
+        with self._canvas.anew():
+            add_covariance(self._canvas, message.pose, self.values)
+            add_pose(self._canvas, message.pose.pose, self.values, 'Shape')

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
 from rviz_common.history_display import HistoryDisplay
 from rviz_common.properties import ColorOf, Number, topic_properties, Whole
@@ -33,7 +34,7 @@ class Range(HistoryDisplay):
         """Return how many ranges are shown at once."""
         return int(self.values['Buffer Length'])
 
-    def draw(self, place: str, message: Any, pose: Pose) -> None:
+    def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
         """Draw the cone."""
         length = _length(message)
         radius = length * math.tan(message.field_of_view / 2.0)
@@ -42,7 +43,7 @@ class Range(HistoryDisplay):
         if length > 0.0:
             surface = cone(length, radius)
             paint = self.values['Color'], self.values['Alpha']
-            add_surface(self.context.scene, f'{place}/cone', surface, paint)
+            add_surface(canvas, 'cone', surface, paint)
 
 
 def _length(message: Any) -> float:

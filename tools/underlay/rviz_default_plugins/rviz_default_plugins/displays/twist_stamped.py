@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from geometry_msgs.msg import TwistStamped as TwistStampedMessage
+from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
 from rviz_common.properties import ColorOf, Flag, Number, topic_properties, Whole
 from rviz_default_plugins.displays.vectors import VectorsDisplay
@@ -30,9 +31,9 @@ class TwistStamped(VectorsDisplay):
         Whole('History Length', 1, 'How many are shown at once.', 1, 1000),
     )
 
-    def draw(self, place: str, message: Any, pose: Pose) -> None:
+    def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
         """Draw both arrows."""
-        self.draw_pair(place, message.twist.linear, message.twist.angular, ('Linear', 'Angular'))
+        self.draw_pair(canvas, message.twist.linear, message.twist.angular, ('Linear', 'Angular'))
 
     def smallest(self) -> float:
         """Return how long a vector is that is not drawn."""

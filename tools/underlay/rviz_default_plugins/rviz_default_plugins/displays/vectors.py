@@ -7,6 +7,7 @@ import math
 from typing import Any
 
 import numpy as np
+from rviz_common.canvas import Canvas
 from rviz_common.history_display import HistoryDisplay
 from rviz_default_plugins.decoding.geometry import along_x, position, Triple
 from rviz_default_plugins.drawing.bodies import add_arrow_to, add_lines, Paint
@@ -23,7 +24,9 @@ class VectorsDisplay(HistoryDisplay):
         """Return how many pairs are shown at once."""
         return int(self.values['History Length'])
 
-    def draw_pair(self, place: str, straight: Any, turning: Any, names: tuple[str, str]) -> None:
+    def draw_pair(
+        self, canvas: Canvas, straight: Any, turning: Any, names: tuple[str, str]
+    ) -> None:
         """Draw both; the names are those of the properties of each."""
         for name, vector, is_turning in ((names[0], straight, False), (names[1], turning, True)):
             scale = self.values[f'{name} Arrow Scale']
@@ -32,19 +35,19 @@ class VectorsDisplay(HistoryDisplay):
             if math.hypot(x, y, z) <= self.smallest():
                 continue
             paint = self.values[f'{name} Color'], self.values['Alpha']
-            self._add_arrow(f'{place}/{name.lower()}', scaled, paint)
+            self._add_arrow(canvas, name.lower(), scaled, paint)
             if is_turning:
-                self._add_circle(f'{place}/circle', scaled, paint)
+                self._add_circle(canvas, scaled, paint)
 
     def smallest(self) -> float:
         """Return how long a vector is that is not drawn."""
         return 0.0
 
-    def _add_arrow(self, name: str, vector: Triple, paint: Paint) -> None:
+    def _add_arrow(self, canvas: Canvas, name: str, vector: Triple, paint: Paint) -> None:
         width = 0.1 * self.values['Arrow Width']
-        add_arrow_to(self.context.scene, name, vector, width, paint, ORIGIN)
+        add_arrow_to(canvas, name, vector, width, paint, ORIGIN)
 
-    def _add_circle(self, name: str, vector: Triple, paint: Paint) -> None:
+    def _add_circle(self, canvas: Canvas, vector: Triple, paint: Paint) -> None:
         """Draw most of a circle around the vector, with a hook at the end that it turns to."""
         length = math.hypot(*vector)
         if length < 1e-9:
@@ -55,5 +58,4 @@ class VectorsDisplay(HistoryDisplay):
         hook = around[-4] * (1.0, 0.7, 0.7)
         points = np.concatenate([around, [hook]]).astype(np.float32)
         segments = np.stack([points[:-1], points[1:]], axis=1)
-        line = add_lines(self.context.scene, name, segments, paint[0])
-        line.wxyz = along_x(vector)
+        add_lines(canvas, 'circle', segments, paint[0], wxyz=along_x(vector))

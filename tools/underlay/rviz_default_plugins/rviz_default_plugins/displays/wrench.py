@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from geometry_msgs.msg import WrenchStamped
+from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
 from rviz_common.properties import ColorOf, Number, topic_properties, Whole
 from rviz_default_plugins.displays.vectors import VectorsDisplay
@@ -30,7 +31,7 @@ class Wrench(VectorsDisplay):
     )
     UNUSED = ('Accept NaN Values',)
 
-    def draw(self, place: str, message: Any, pose: Pose) -> None:
+    def draw(self, canvas: Canvas, message: Any, pose: Pose) -> None:
         """Draw both arrows."""
         wrench = message.wrench
-        self.draw_pair(place, wrench.force, wrench.torque, ('Force', 'Torque'))
+        self.draw_pair(canvas, wrench.force, wrench.torque, ('Force', 'Torque'))

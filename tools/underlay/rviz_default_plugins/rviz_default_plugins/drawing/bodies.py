@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from rviz_common.canvas import Canvas
 from rviz_default_plugins.decoding.covariance import Ellipsoid
 from rviz_default_plugins.decoding.geometry import along_x, Triple
 from rviz_default_plugins.drawing.surfaces import arrow, Surface
@@ -32,13 +33,14 @@ def opacity_of(alpha: float) -> float | None:
     return None if alpha >= 1.0 else max(0.0, alpha)
 
 
-def add_surface(scene: Any, name: str, surface: Surface, paint: Paint, **options: Any) -> Any:
+def add_surface(canvas: Canvas, name: str, surface: Surface, paint: Paint, **options: Any) -> None:
     """Add a body of one colour; options are those of `add_mesh_simple`."""
     color, alpha = paint
-    return scene.add_mesh_simple(
+    canvas.put(
+        'mesh_simple',
         name,
-        surface.vertices,
-        surface.faces,
+        vertices=surface.vertices,
+        faces=surface.faces,
         color=tuple(int(part) for part in color),
         opacity=opacity_of(alpha),
         flat_shading=True,
@@ -47,25 +49,26 @@ def add_surface(scene: Any, name: str, surface: Surface, paint: Paint, **options
 
 
 def add_copies(
-    scene: Any,
+    canvas: Canvas,
     name: str,
     surface: Surface,
     paint: Paint,
     positions: NDArray[Any],
     wxyzs: NDArray[Any] | None = None,
     **options: Any,
-) -> Any:
+) -> None:
     """Add a body at each of some places; options are those of `add_batched_meshes_simple`."""
     color, alpha = paint
     if wxyzs is None:
         wxyzs = np.tile(np.array([1.0, 0.0, 0.0, 0.0], np.float32), (len(positions), 1))
     options.setdefault('batched_colors', tuple(int(part) for part in color))
-    return scene.add_batched_meshes_simple(
+    canvas.put(
+        'batched_meshes_simple',
         name,
-        surface.vertices,
-        surface.faces,
-        wxyzs,
-        positions,
+        vertices=surface.vertices,
+        faces=surface.faces,
+        batched_wxyzs=wxyzs,
+        batched_positions=positions,
         opacity=opacity_of(alpha),
         lod='off',
         flat_shading=True,
@@ -74,23 +77,24 @@ def add_copies(
 
 
 def add_arrow_to(
-    scene: Any, name: str, vector: Triple, width: float, paint: Paint, start: Sequence[float]
-) -> Any:
-    """Add an arrow from a point along a vector, which is as long as the vector; None for zero."""
+    canvas: Canvas, name: str, vector: Triple, width: float, paint: Paint, start: Triple
+) -> None:
+    """Add an arrow from a point along a vector, which is as long; nothing for zero."""
     length = math.hypot(*vector)
     if length < 1e-9:
-        return None
+        return
     head = min(0.3 * length, 3.0 * width)
     surface = arrow(length - head, 0.5 * width, head, width)
-    return add_surface(scene, name, surface, paint, position=start, wxyz=along_x(vector))
+    add_surface(canvas, name, surface, paint, position=start, wxyz=along_x(vector))
 
 
 def add_ellipsoid(
-    scene: Any, name: str, ellipsoid: Ellipsoid, paint: Paint, position: Triple, scale: float
-) -> Any:
+    canvas: Canvas, name: str, ellipsoid: Ellipsoid, paint: Paint, position: Triple, scale: float
+) -> None:
     """Add what shows how uncertain a position is."""
     color, alpha = paint
-    return scene.add_icosphere(
+    canvas.put(
+        'icosphere',
         name,
         radius=1.0,
         color=tuple(color),
@@ -102,13 +106,20 @@ def add_ellipsoid(
 
 
 def add_lines(
-    scene: Any, name: str, segments: NDArray[Any], colors: Any, width: float | None = None
-) -> Any:
+    canvas: Canvas,
+    name: str,
+    segments: NDArray[Any],
+    colors: Any,
+    width: float | None = None,
+    **options: Any,
+) -> None:
     """Add lines, N x 2 points, of a width in metres, or else as thin as seen well."""
-    return scene.add_line_segments(
+    canvas.put(
+        'line_segments',
         name,
-        segments,
-        colors,
+        points=segments,
+        colors=colors,
         thickness=2.0 if width is None else width,
         thickness_units='screen' if width is None else 'world',
+        **options,
     )

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from rviz_common.canvas import Canvas
 from rviz_common.properties import Choice, ColorOf, Flag, Number, Property, Values
 from rviz_default_plugins.decoding.covariance import ellipsoid_of
 from rviz_default_plugins.decoding.geometry import position, rotation
@@ -38,39 +39,36 @@ def pose_shape_properties(shape: str, below: str = '') -> tuple[Property, ...]:
     )
 
 
-def add_pose(
-    scene: Any, place: str, pose: Any, values: Values, shape: str, below: str = ''
-) -> list[Any]:
+def add_pose(canvas: Canvas, pose: Any, values: Values, shape: str, below: str = '') -> None:
     """Add what shows a pose, or raise ValueError if it is none."""
     at, turn = position(pose.position), rotation(pose.orientation)
     if values[shape] == 'Axes':
-        axes = scene.add_frame(
-            f'{place}/axes',
+        canvas.put(
+            'frame',
+            'axes',
             axes_length=values[f'{below}Axes Length'],
             axes_radius=values[f'{below}Axes Radius'],
             origin_radius=values[f'{below}Axes Radius'],
             position=at,
             wxyz=turn,
         )
-        return [axes]
+        return
     names: Sequence[str] = ('Shaft Length', 'Shaft Radius', 'Head Length', 'Head Radius')
     surface = arrow(*(values[f'{below}{name}'] for name in names))
     paint = values[f'{below}Color'], values[f'{below}Alpha']
-    return [add_surface(scene, f'{place}/arrow', surface, paint, position=at, wxyz=turn)]
+    add_surface(canvas, 'arrow', surface, paint, position=at, wxyz=turn)
 
 
-def add_covariance(scene: Any, place: str, pose: Any, values: Values) -> list[Any]:
+def add_covariance(canvas: Canvas, pose: Any, values: Values) -> None:
     """Add what shows how uncertain a PoseWithCovariance is, or raise ValueError."""
     if not (values['Covariance/Value'] and values['Covariance/Position/Value']):
-        return []
+        return
     paint = values['Covariance/Position/Color'], values['Covariance/Position/Alpha']
-    return [
-        add_ellipsoid(
-            scene,
-            f'{place}/covariance',
-            ellipsoid_of(pose.covariance),
-            paint,
-            position(pose.pose.position),
-            values['Covariance/Position/Scale'],
-        )
-    ]
+    add_ellipsoid(
+        canvas,
+        'covariance',
+        ellipsoid_of(pose.covariance),
+        paint,
+        position(pose.pose.position),
+        values['Covariance/Position/Scale'],
+    )

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from rviz_common.canvas import Canvas
 from rviz_default_plugins.decoding.geometry import along_x, Points
 from rviz_default_plugins.drawing.bodies import (
     add_copies,
@@ -28,14 +29,14 @@ ARROW = arrow(0.77, 0.25, 0.23, 0.5)
 HEAD = 0.23
 
 
-def draw_look(scene: Any, place: str, look: Look) -> None:
-    """Draw a marker below a path, or raise ValueError with the reason why that cannot be."""
+def draw_look(canvas: Canvas, look: Look) -> None:
+    """Draw a marker, or raise ValueError with the reason why that cannot be."""
     draw = DRAWINGS.get(look.kind)
     if draw is None:
         raise ValueError(f'its type {look.kind} is not known.')
     _check_scale(look)
     if look.alpha or look.colors is not None:
-        draw(scene, f'{place}/marker', look)
+        draw(canvas, 'marker', look)
 
 
 def _check_scale(look: Look) -> None:
@@ -56,24 +57,26 @@ def _options(look: Look) -> dict[str, Any]:
     return {'color': look.color, 'opacity': opacity_of(look.alpha), 'scale': look.scale}
 
 
-def _draw_arrow(scene: Any, name: str, look: Look) -> None:
+def _draw_arrow(canvas: Canvas, name: str, look: Look) -> None:
     if len(look.points) not in (0, 2):
         raise ValueError(
             f'it is an arrow with {len(look.points)} points, but must have 2 or none.'
         )
     if not len(look.points):
-        add_surface(scene, name, ARROW, _paint(look), scale=look.scale)
+        add_surface(canvas, name, ARROW, _paint(look), scale=look.scale)
         return
-    _draw_arrows_between(scene, name, look, look.points[:1], look.points[1:])
+    _draw_arrows_between(canvas, name, look, look.points[:1], look.points[1:])
 
 
-def _draw_arrow_strip(scene: Any, name: str, look: Look) -> None:
+def _draw_arrow_strip(canvas: Canvas, name: str, look: Look) -> None:
     if len(look.points) < 2:
         raise ValueError('it has less than 2 points.')
-    _draw_arrows_between(scene, name, look, look.points[:-1], look.points[1:])
+    _draw_arrows_between(canvas, name, look, look.points[:-1], look.points[1:])
 
 
-def _draw_arrows_between(scene: Any, name: str, look: Look, tails: Points, tips: Points) -> None:
+def _draw_arrows_between(
+    canvas: Canvas, name: str, look: Look, tails: Points, tips: Points
+) -> None:
     shaft, head, head_length = look.scale
     for index, (tail, tip) in enumerate(zip(tails, tips)):
         vector = tip - tail
@@ -83,48 +86,48 @@ def _draw_arrows_between(scene: Any, name: str, look: Look, tails: Points, tips:
         of_head = min(head_length or HEAD * length, length)
         surface = arrow(length - of_head, shaft / 2.0, of_head, head / 2.0)
         place = {'position': tuple(map(float, tail)), 'wxyz': along_x(vector)}
-        add_surface(scene, f'{name}_{index}' if index else name, surface, _paint(look), **place)
+        add_surface(canvas, f'{name}_{index}' if index else name, surface, _paint(look), **place)
 
 
-def _draw_cube(scene: Any, name: str, look: Look) -> None:
-    scene.add_box(name, dimensions=(1.0, 1.0, 1.0), **_options(look))
+def _draw_cube(canvas: Canvas, name: str, look: Look) -> None:
+    canvas.put('box', name, dimensions=(1.0, 1.0, 1.0), **_options(look))
 
 
-def _draw_sphere(scene: Any, name: str, look: Look) -> None:
-    scene.add_icosphere(name, radius=0.5, **_options(look))
+def _draw_sphere(canvas: Canvas, name: str, look: Look) -> None:
+    canvas.put('icosphere', name, radius=0.5, **_options(look))
 
 
-def _draw_cylinder(scene: Any, name: str, look: Look) -> None:
-    scene.add_cylinder(name, radius=0.5, height=1.0, **_options(look))
+def _draw_cylinder(canvas: Canvas, name: str, look: Look) -> None:
+    canvas.put('cylinder', name, radius=0.5, height=1.0, **_options(look))
 
 
-def _draw_line_strip(scene: Any, name: str, look: Look) -> None:
+def _draw_line_strip(canvas: Canvas, name: str, look: Look) -> None:
     if len(look.points) < 2:
         raise ValueError('it has less than 2 points.')
     colors = look.colors
     pairs = None if colors is None else np.stack([colors[:-1], colors[1:]], axis=1)
-    _add_lines(scene, name, look, np.stack([look.points[:-1], look.points[1:]], axis=1), pairs)
+    _add_lines(canvas, name, look, np.stack([look.points[:-1], look.points[1:]], axis=1), pairs)
 
 
-def _draw_line_list(scene: Any, name: str, look: Look) -> None:
+def _draw_line_list(canvas: Canvas, name: str, look: Look) -> None:
     colors = None if look.colors is None else look.colors.reshape(-1, 2, 3)
-    _add_lines(scene, name, look, look.points.reshape(-1, 2, 3), colors)
+    _add_lines(canvas, name, look, look.points.reshape(-1, 2, 3), colors)
 
 
-def _add_lines(scene: Any, name: str, look: Look, segments: Points, colors: Any) -> None:
+def _add_lines(canvas: Canvas, name: str, look: Look, segments: Points, colors: Any) -> None:
     if len(segments):
-        add_lines(scene, name, segments, look.color if colors is None else colors, look.scale[0])
+        add_lines(canvas, name, segments, look.color if colors is None else colors, look.scale[0])
 
 
-def _draw_cubes(scene: Any, name: str, look: Look) -> None:
-    _draw_copies(scene, name, look, cube())
+def _draw_cubes(canvas: Canvas, name: str, look: Look) -> None:
+    _draw_copies(canvas, name, look, cube())
 
 
-def _draw_spheres(scene: Any, name: str, look: Look) -> None:
-    _draw_copies(scene, name, look, sphere())
+def _draw_spheres(canvas: Canvas, name: str, look: Look) -> None:
+    _draw_copies(canvas, name, look, sphere())
 
 
-def _draw_copies(scene: Any, name: str, look: Look, surface: Surface) -> None:
+def _draw_copies(canvas: Canvas, name: str, look: Look, surface: Surface) -> None:
     if not len(look.points):
         return
     options: dict[str, Any] = {}
@@ -135,49 +138,51 @@ def _draw_copies(scene: Any, name: str, look: Look, surface: Surface) -> None:
         if (look.alphas < 1.0).any():
             options['batched_opacities'] = look.alphas
     scaled = Surface(surface.vertices * np.array(look.scale, np.float32), surface.faces)
-    add_copies(scene, name, scaled, paint, look.points, **options)
+    add_copies(canvas, name, scaled, paint, look.points, **options)
 
 
-def _draw_points(scene: Any, name: str, look: Look) -> None:
+def _draw_points(canvas: Canvas, name: str, look: Look) -> None:
     if len(look.points):
-        scene.add_point_cloud(
+        canvas.put(
+            'point_cloud',
             name,
-            look.points,
-            look.color if look.colors is None else look.colors,
+            points=look.points,
+            colors=look.color if look.colors is None else look.colors,
+            precision='float32',
             point_size=look.scale[0],
             point_shape='square',
             point_shading='flat',
-            precision='float32',
         )
 
 
-def _draw_text(scene: Any, name: str, look: Look) -> None:
+def _draw_text(canvas: Canvas, name: str, look: Look) -> None:
     if not look.text:
         raise ValueError('its text is empty.')
-    scene.add_label(
+    canvas.put(
+        'label',
         name,
-        look.text,
+        text=look.text,
         font_size_mode='scene',
         font_scene_height=look.scale[2],
         anchor='center-center',
     )
 
 
-def _draw_triangles(scene: Any, name: str, look: Look) -> None:
+def _draw_triangles(canvas: Canvas, name: str, look: Look) -> None:
     if not len(look.points):
         raise ValueError('it has no points.')
     if look.colors is None or look.alphas is None:
         faces = np.arange(len(look.points), dtype=np.uint32).reshape(-1, 3)
         surface = Surface(look.points, faces)
-        add_surface(scene, name, surface, _paint(look), scale=look.scale, side='double')
+        add_surface(canvas, name, surface, _paint(look), scale=look.scale, side='double')
         return
     colors = np.column_stack([look.colors, (look.alphas * 255.0).astype(np.uint8)])
     if len(colors) != len(look.points):
         colors = np.repeat(colors, 3, axis=0)
-    scene.add_glb(name, glb_of(look.points, colors), scale=look.scale)
+    canvas.put('glb', name, glb_data=glb_of(look.points, colors), scale=look.scale)
 
 
-DRAWINGS: dict[int, Callable[[Any, str, Look], None]] = {
+DRAWINGS: dict[int, Callable[[Canvas, str, Look], None]] = {
     Marker.ARROW: _draw_arrow,
     Marker.CUBE: _draw_cube,
     Marker.SPHERE: _draw_sphere,

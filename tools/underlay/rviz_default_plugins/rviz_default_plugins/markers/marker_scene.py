@@ -43,6 +43,8 @@ class MarkerScene:
 
     def update(self, now_ns: int, is_enabled: Callable[[str], bool]) -> None:
         """Draw what is new, remove what is over, and follow frames."""
+        for marker in self._shown.values():
+            marker.finish()
         self._take_inbox()
         self._end(now_ns)
         if self._frames.fixed_frame != self._fixed_frame:

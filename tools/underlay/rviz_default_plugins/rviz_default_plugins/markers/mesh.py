@@ -3,22 +3,29 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Future
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from threading import Lock, Thread
 
+from rviz_common.canvas import Canvas
 from rviz_default_plugins.drawing.bodies import opacity_of
 from rviz_default_plugins.markers.look import Look
 from rviz_default_plugins.robot.mesh import DrawnMesh
 from rviz_default_plugins.robot.mesh_file import find_mesh
 from rviz_default_plugins.robot.mesh_loading import load_mesh
 
-__all__ = ['draw_mesh']
+__all__ = ['MeshIsBeingRead', 'draw_mesh']
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
+ONE_AT_A_TIME = Lock()
 
 
-def draw_mesh(scene: Any, name: str, look: Look) -> None:
+class MeshIsBeingRead(ValueError):
+    """A mesh that cannot be drawn yet."""
+
+
+def draw_mesh(canvas: Canvas, name: str, look: Look) -> None:
     """Draw a mesh, in the colours of its file if the marker wants that, or raise ValueError."""
     resource, has_own_colors = look.mesh
     if not resource:
@@ -27,16 +34,17 @@ def draw_mesh(scene: Any, name: str, look: Look) -> None:
     for index, surface in enumerate(mesh.surfaces):
         path = f'{name}_{index}'
         if has_own_colors and surface.glb is not None:
-            scene.add_glb(path, surface.glb, scale=look.scale)
+            canvas.put('glb', path, glb_data=surface.glb, scale=look.scale)
             continue
         color, alpha = look.color, look.alpha
         if has_own_colors:
             red, green, blue, alpha = surface.color or WHITE
             color = round(red * 255), round(green * 255), round(blue * 255)
-        scene.add_mesh_simple(
+        canvas.put(
+            'mesh_simple',
             path,
-            surface.vertices,
-            surface.faces,
+            vertices=surface.vertices,
+            faces=surface.faces,
             color=color,
             opacity=opacity_of(alpha),
             scale=look.scale,
@@ -49,11 +57,28 @@ def _mesh(resource: str) -> DrawnMesh:
     """Return a mesh, or raise ValueError; MeshError is one."""
     path = find_mesh(resource)
     try:
-        return _loaded(path, resource, path.stat().st_mtime_ns)
+        changed_ns = path.stat().st_mtime_ns
     except OSError as error:
         raise ValueError(f"'{resource}' cannot be read: {error.strerror}.") from None
+    reading = _reading(path, resource, changed_ns)
+    if not reading.done():
+        raise MeshIsBeingRead(f"'{resource}' is being read.")
+    return reading.result()
 
 
-@lru_cache(maxsize=32)
-def _loaded(path: Path, resource: str, changed_ns: int) -> DrawnMesh:
-    return load_mesh(path, resource)
+@lru_cache(maxsize=256)
+def _reading(path: Path, resource: str, changed_ns: int) -> Future[DrawnMesh]:
+    """Begin to read a mesh, which may take seconds, while all else goes on."""
+    reading: Future[DrawnMesh] = Future()
+
+    def read() -> None:
+        try:
+            with ONE_AT_A_TIME:
+                reading.set_result(load_mesh(path, resource))
+        except OSError as error:
+            reading.set_exception(ValueError(f"'{resource}' cannot be read: {error.strerror}."))
+        except Exception as error:  # who waits for the mesh is to have it
+            reading.set_exception(error)
+
+    Thread(target=read, name='mesh', daemon=True).start()
+    return reading

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from rviz_common.canvas import Canvas
 from rviz_common.frames import Pose
 from rviz_default_plugins.decoding.geometry import (
     joined,
@@ -17,6 +18,7 @@ from rviz_default_plugins.decoding.geometry import (
 from rviz_default_plugins.markers.drawing import draw_look
 from rviz_default_plugins.markers.inbox import Coming
 from rviz_default_plugins.markers.look import Look, look_of
+from rviz_default_plugins.markers.mesh import MeshIsBeingRead
 
 __all__ = ['ShownMarker']
 
@@ -39,6 +41,7 @@ class ShownMarker:
         self._is_placed = self._is_shown = False
         self._own = self._frame = Pose()
         self._end_ns: int | None = None
+        self._unfinished: Coming | None = None
         self.problem = ''
         self.note = ''
         self.frame_id = ''
@@ -50,13 +53,21 @@ class ShownMarker:
         marker = coming.marker
         self.note = self.problem = ''
         self._is_placed = False
+        self._unfinished = None
         try:
             self._set_place(marker)
             self._set_end(marker, coming.came_ns)
             self._draw(look_of(marker))
         except ValueError as error:
             self.problem = str(error)
+            if isinstance(error, MeshIsBeingRead):
+                self._unfinished = coming
             self.remove()
+
+    def finish(self) -> None:
+        """Draw what had to wait for a mesh."""
+        if self._unfinished is not None:
+            self.change(self._unfinished)
 
     def remove(self) -> None:
         """Remove it from the scene."""
@@ -123,7 +134,9 @@ class ShownMarker:
         self.note = look.note or self.note
         if look.is_like(self._look):
             return
-        self.remove()
-        self._node = self._scene.add_frame(self._place, show_axes=False, visible=False)
-        draw_look(self._scene, self._place, look)
+        if self._node is None:
+            self._node = self._scene.add_frame(self._place, show_axes=False, visible=False)
+            self._canvas = Canvas(self._scene, self._place)
+        with self._canvas.anew():
+            draw_look(self._canvas, look)
         self._look = look

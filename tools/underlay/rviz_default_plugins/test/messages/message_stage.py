@@ -80,9 +80,15 @@ class MessageStage(Stage):
         return found
 
     def drawn(self, display: Display) -> list[str]:
-        """Return the paths of what a display has drawn, below it."""
+        """Return the paths of what a display shows, below it, in order."""
         start = f'{display.root}/'
-        return [path.removeprefix(start) for path in self.paths() if path.startswith(start)]
+        hidden = [path for path in self.paths() if not self.node_at(path).visible]
+        return sorted(
+            path.removeprefix(start)
+            for path in self.paths()
+            if path.startswith(start)
+            and not any(f'{path}/'.startswith(f'{above}/') for above in hidden)
+        )
 
 
 @pytest.fixture

@@ -74,7 +74,13 @@ def test_newest_cloud_replaces_the_one_before(message_stage):
     display = stage.listen(PointCloud2)
     stage.tell(display, cloud_of([(1, 0, 0)]), cloud_of([(2, 0, 0)]))
     assert stage.drawn(display) == ['1', '1/points']
-    assert near(stage.at(display, '1/points').points, 2, 0, 0)
+    drawn = stage.at(display, '1/points')
+    assert near(drawn.points, 2, 0, 0)
+    stage.tell(display, cloud_of([(1, 0, 0), (4, 0, 0)]), cloud_of([(2, 0, 0)]))
+    assert stage.drawn(display) == ['2', '2/points']
+    stage.tell(display, cloud_of([(2, 0, 0), (4, 0, 0)]))
+    assert stage.at(display, '1/points') is drawn  # what is new would begin at the origin
+    assert near(drawn.points, [2, 0, 0], [4, 0, 0])
     display.values['Decay Time'] = 2.0
     display.on_change('Decay Time')
     stage.node.now_s += 1.5
@@ -82,8 +88,8 @@ def test_newest_cloud_replaces_the_one_before(message_stage):
     assert len(stage.drawn(display)) == 4
     stage.node.now_s += 1.0
     display.update()
-    assert near(stage.node_at(f'{display.root}/3/points').points, 3, 0, 0)
-    assert len(stage.drawn(display)) == 2
+    (_, points) = stage.drawn(display)
+    assert near(stage.at(display, points).points, 3, 0, 0)
 
 
 def test_decaying_clouds_are_not_too_many(message_stage):

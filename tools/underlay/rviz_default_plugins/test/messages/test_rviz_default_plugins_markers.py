@@ -157,10 +157,33 @@ def test_mesh(message_stage, tmp_path):
     file.write_text('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n')
     display = message_stage.listen(Marker)
     message_stage.tell(display, marker(Message.MESH_RESOURCE, mesh_resource=f'file://{file}'))
+    show_mesh(message_stage, display)
+    assert sentence(display, 'Markers') == ''
     mesh = message_stage.at(display, '1/marker_0')
     assert len(mesh.faces) == 1
     assert mesh.color == (255, 128, 0)
     assert mesh.scale == (1, 2, 3)
+
+
+def show_mesh(stage, display):
+    """Draw frames until a mesh has been read."""
+
+    def is_read():
+        display.update()
+        return 'is being read' not in sentence(display, 'Markers')
+
+    stage.work_until(is_read)
+
+
+def test_broken_mesh(message_stage, tmp_path):
+    """A file that is no mesh has a sentence."""
+    file = tmp_path / 'broken.stl'
+    file.write_bytes(b'solid nothing')
+    display = message_stage.listen(Marker)
+    message_stage.tell(display, marker(Message.MESH_RESOURCE, mesh_resource=f'file://{file}'))
+    show_mesh(message_stage, display)
+    assert 'broken.stl' in sentence(display, 'Markers')
+    assert message_stage.drawn(display) == []
 
 
 @pytest.mark.parametrize(

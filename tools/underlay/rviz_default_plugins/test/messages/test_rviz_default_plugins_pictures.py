@@ -132,7 +132,7 @@ def test_bayer(order):
     below = [color[letter] for letter in order[2:]] * 2
     picture = decode_image(image(f'bayer_{order}8', row + below, 4, 2), Brightness())
     assert picture.pixels.tolist() == [[[200, 100, 50]] * 2]
-    assert picture.step == 2
+    assert picture.step == 1
 
 
 def test_rows_with_padding():

@@ -199,8 +199,8 @@ def test_path_is_a_line(message_stage):
     display.values['Line Style'] = 'Lines'
     display.on_change('Line Style')
     display.update()
-    assert message_stage.at(display, '2/line').thickness_units == 'screen'
-    assert message_stage.drawn(display) == ['2', '2/line']
+    assert message_stage.at(display, '1/line').thickness_units == 'screen'
+    assert message_stage.drawn(display) == ['1', '1/line']
 
 
 @pytest.mark.parametrize('style', ['Axes', 'Arrows'])
@@ -256,7 +256,7 @@ def test_message_waits_for_its_transform(message_stage):
     assert sentence(display, 'Transform') == ''
     stage.frames.fixed_frame = 'base'
     display.update()
-    assert near(stage.at(display, '2').position, 0, 0, 0)
+    assert near(stage.at(display, '1').position, 0, 0, 0)
 
 
 def test_messages_without_transform_do_not_pile_up(message_stage):

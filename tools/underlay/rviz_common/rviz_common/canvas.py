@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A part of the scene that is drawn again and again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any, TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from viser import SceneApi
+
+__all__ = ['Canvas']
+
+COLORS = ('colors', 'batched_colors')
+ONCE = ('jpeg_quality',)
+"""What can only be said when something is added."""
+
+
+@dataclass
+class Thing:
+    """Something in the scene, as it has been put last."""
+
+    kind: str
+    handle: Any
+    look: dict[str, Any]
+
+
+class Canvas:
+    """
+    What is below a path of the scene.
+
+    What is put again under its name is changed, and not made anew: a browser shows what is new at
+    the origin before it is where it belongs.
+    """
+
+    def __init__(self, scene: SceneApi, root: str) -> None:
+        """Begin with nothing."""
+        self._scene = scene
+        self._root = root
+        self._things: dict[str, Thing] = {}
+        self._seen: set[str] = set()
+
+    @contextmanager
+    def anew(self) -> Iterator[None]:
+        """Remove what is not put again in a `with` block; all stays if that fails."""
+        self._seen = set()
+        yield
+        for name in [name for name in self._things if name not in self._seen]:
+            self._things.pop(name).handle.remove()
+
+    def put(self, kind: str, name: str, **look: Any) -> Any:
+        """Add or change something; what it looks like is what `scene.add_KIND` takes."""
+        self._seen.add(name)
+        thing = self._things.get(name)
+        if thing is not None and thing.kind == kind and thing.look.keys() == look.keys():
+            _change(thing, look)
+            return thing.handle
+        handle = getattr(self._scene, f'add_{kind}')(f'{self._root}/{name}', **look)
+        self._things[name] = Thing(kind, handle, look)
+        return handle
+
+
+def _change(thing: Thing, look: dict[str, Any]) -> None:
+    """Set what is different; viser finds out for itself in which arrays that is so."""
+    for name, value in look.items():
+        before = thing.look[name]
+        is_array = isinstance(value, np.ndarray) or isinstance(before, np.ndarray)
+        if name in ONCE or (not is_array and value == before):
+            continue
+        colors = np.asarray(value, dtype=np.uint8) if name in COLORS else value
+        setattr(thing.handle, name, colors)
+    thing.look = look
