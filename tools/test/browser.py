@@ -114,7 +114,9 @@ class Tab:
         return self.page.frame_locator(f'iframe[title={title}]')
 
     def picture(self, name: str) -> Path:
-        """Keep what is seen."""
+        """Keep what is seen, without what viser says about machines without a graphics card."""
+        for button in self.page.locator('.mantine-Notification-closeButton').all():
+            button.click()
         path = PICTURES / f'{name}.png'
         self.page.screenshot(path=path, timeout=PATIENCE_S * 1000.0)
         return path

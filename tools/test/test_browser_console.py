@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from browser import Browser, browser_started, Tab
-from browser_world import pid_of, urls, World, world
+from browser_world import pid_of, url_of, World, world
 from programs import wait_until
 import pytest
 from ros_side import expected_place, LATCHED
@@ -35,7 +35,7 @@ def robot(tmp_path_factory: pytest.TempPathFactory, browser: Browser) -> Iterato
 @pytest.fixture(scope='module')
 def tab(robot: World, browser: Browser) -> Tab:
     """Open the page that the humanoid has printed."""
-    tab = browser.open(urls(robot.programs[0])[0])
+    tab = browser.open(url_of(robot.programs[0]))
     tab.wait_for_link(FOREARM)
     return tab
 
