@@ -36,7 +36,7 @@ class Display:
         given = given or {}
         self.context = context
         self.root = root
-        self.name = str(given.get('Name') or self.CLASS.partition('/')[2])
+        self.name = self._first_name = str(given.get('Name') or self.CLASS.partition('/')[2])
         enabled = Flag('Enabled', True, 'Whether it is shown.')
         self.values = Values((enabled, *self.PROPERTIES), given)
         self.status = Statuses()
@@ -51,8 +51,11 @@ class Display:
     def to_file(self) -> dict[str, Any]:
         """Return what the file is to have."""
         written = self.values.to_file()
-        enabled = self.values['Enabled']
-        return {**written, 'Class': self.CLASS, 'Name': self.name, 'Value': enabled}
+        if 'Class' not in written or self.name != self._first_name:
+            written.update({'Class': self.CLASS, 'Name': self.name})
+        if 'Enabled' in written:
+            written['Value'] = self.values['Enabled']
+        return written
 
     def start(self) -> None:
         """Begin to show it."""

@@ -42,7 +42,10 @@ class Panel:
 
     def to_file(self) -> dict[str, Any]:
         """Return what the file is to have."""
-        return {**self.values.to_file(), 'Class': self.CLASS, 'Name': self.name}
+        written = self.values.to_file()
+        if 'Class' not in written:
+            written.update({'Class': self.CLASS, 'Name': self.name})
+        return written
 
     def start(self) -> None:
         """Add the widgets."""

@@ -16,7 +16,8 @@ class Values:
     """
     The values of some properties, by path; those that a file does not give have their defaults.
 
-    What a file has besides is kept, so that a file is written back without losses.
+    What a file has besides is kept, so that a file is written back without losses: of what a file
+    gives, only what has been changed since is written anew.
     """
 
     def __init__(
@@ -29,6 +30,7 @@ class Values:
         self.refusals: list[str] = []
         for path in self.properties:
             self._take(path)
+        self._changed: set[str] = set() if self._given else set(self.properties)
 
     def __getitem__(self, path: str) -> Any:
         """Return the value of a property."""
@@ -36,13 +38,17 @@ class Values:
 
     def __setitem__(self, path: str, value: Any) -> None:
         """Set a property, or raise ValueError with the reason."""
-        self._values[path] = self.properties[path].read(value)
+        value = self.properties[path].read(value)
+        if value != self._values[path]:
+            self._values[path] = value
+            self._changed.add(path)
 
     def to_file(self) -> dict[str, Any]:
-        """Return what a file is to have: what it had, with the values as they are now."""
+        """Return what a file is to have: what it had, with the values that have been changed."""
         written = copy.deepcopy(self._given)
-        for path, value in self._values.items():
-            _put(written, path, self.properties[path].write(value))
+        for path in self._values:
+            if path in self._changed:
+                _put(written, path, self.properties[path].write(self._values[path]))
         return written
 
     def unknown(self, known: Iterable[str]) -> list[str]:
@@ -55,7 +61,7 @@ class Values:
         if found is _MISSING:
             return
         try:
-            self[path] = found
+            self._values[path] = self.properties[path].read(found)
         except ValueError as error:
             self.refusals.append(f"'{path}' {error}.")
 
