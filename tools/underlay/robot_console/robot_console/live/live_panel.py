@@ -33,9 +33,13 @@ class LivePanel(Panel):
         """Add the page."""
         self._pace = Pace(self.PERIOD_S)
         self.channel = Channel(self.context.queue, self.greet, self.actions())
-        self.begin()
         namespace = self.values['Namespace']
         self._page = SmallPage(self.context, self.PAGE, namespace, self.settings(), self.channel)
+        try:
+            self.begin()
+        except Exception:
+            self._page.close()
+            raise
 
     def update(self) -> None:
         """Tell what is new, a few times a second."""
@@ -56,7 +60,7 @@ class LivePanel(Panel):
         return {}
 
     def begin(self) -> None:
-        """Begin what is done also while nobody looks."""
+        """Begin what is done also while nobody looks; nobody comes before."""
 
     def greet(self, viewer: Viewer) -> None:
         """Tell somebody who comes how things are."""

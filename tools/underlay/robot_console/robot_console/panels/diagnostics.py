@@ -38,7 +38,7 @@ class Diagnostics(LivePanel):
 
     def settings(self) -> dict[str, Any]:
         """Return what the page is to know from the beginning."""
-        return {'topic': self._topic, 'stale': self.values['Stale After']}
+        return {'topic': self._topic(), 'stale': self.values['Stale After']}
 
     def actions(self) -> Mapping[str, Action]:
         """Return what the page may ask for."""
@@ -46,11 +46,10 @@ class Diagnostics(LivePanel):
 
     def begin(self) -> None:
         """Listen, also while nobody looks, so that changes are remembered."""
-        self._topic = self.full_name(self.values['Topic'])
         self._book = DiagnosticBook(self.values['Stale After'])
         self._told: Any = None
         self._ear = self.context.node.create_subscription(
-            DiagnosticArray, self._topic, self._take, DEPTH
+            DiagnosticArray, self._topic(), self._take, DEPTH
         )
 
     def greet(self, viewer: Viewer) -> None:
@@ -74,9 +73,12 @@ class Diagnostics(LivePanel):
         """Listen no longer."""
         self.context.node.destroy_subscription(self._ear)
 
+    def _topic(self) -> str:
+        return self.full_name(self.values['Topic'])
+
     def _state(self) -> dict[str, Any]:
         rows = self._book.rows(time.monotonic())
-        talking = bool(rows) or self.context.node.count_publishers(self._topic) > 0
+        talking = bool(rows) or self.context.node.count_publishers(self._topic()) > 0
         return {'rows': rows, 'talking': talking, 'left_out': self._book.left_out}
 
     def _tell_details(self, viewer: Viewer) -> None:

@@ -41,7 +41,7 @@ class Log(LivePanel):
 
     def settings(self) -> dict[str, Any]:
         """Return what the page is to know from the beginning."""
-        return {'topic': self._topic, 'kept': self.values['Kept Messages']}
+        return {'topic': self._topic(), 'kept': self.values['Kept Messages']}
 
     def actions(self) -> Mapping[str, Action]:
         """Return what the page may ask for."""
@@ -49,12 +49,11 @@ class Log(LivePanel):
 
     def begin(self) -> None:
         """Listen, also while nobody looks."""
-        self._topic = self.full_name(self.values['Topic'])
         self._book = LogBook(self.values['Kept Messages'], self.values['Namespace'])
         self._interruptions = Interruptions()
         self._told = 0
         self._ear = self.context.node.create_subscription(
-            LogMessage, self._topic, self._take, ALL_OF_BEFORE
+            LogMessage, self._topic(), self._take, ALL_OF_BEFORE
         )
 
     def greet(self, viewer: Viewer) -> None:
@@ -73,6 +72,9 @@ class Log(LivePanel):
     def end(self) -> None:
         """Listen no longer."""
         self.context.node.destroy_subscription(self._ear)
+
+    def _topic(self) -> str:
+        return self.full_name(self.values['Topic'])
 
     def _tell_all(self) -> None:
         if self._told != self._book.count and self.channel.viewers:

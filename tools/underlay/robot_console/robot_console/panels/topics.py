@@ -87,11 +87,12 @@ class Topics(LivePanel):
 
     def _follow(self, wanted: set[str]) -> None:
         """Watch the topics that somebody has chosen, and no others."""
-        for topic in set(self._watches) - wanted:
-            self._watches.pop(topic).close()
-        for topic in wanted - set(self._watches):
-            if topic in self._types:
-                self._watches[topic] = TopicWatch(self.context.node, topic, self._types[topic])
+        types = {topic: self._types[topic] for topic in wanted if topic in self._types}
+        for topic, watch in list(self._watches.items()):
+            if types.get(topic) != watch.type_names:
+                self._watches.pop(topic).close()
+        for topic in set(types) - set(self._watches):
+            self._watches[topic] = TopicWatch(self.context.node, topic, types[topic])
         for watch in self._watches.values():
             watch.update()
 

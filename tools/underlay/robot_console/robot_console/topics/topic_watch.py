@@ -35,7 +35,7 @@ class TopicWatch:
         self._next_s = 0.0
         self._subscription: Any = None
         self._qos: Any = None
-        self._type_names = type_names
+        self.type_names = type_names
         self._kind = self._found_kind()
 
     def update(self) -> None:
@@ -60,11 +60,11 @@ class TopicWatch:
             self._subscription = None
 
     def _found_kind(self) -> Any:
-        if len(self._type_names) != 1:
-            self.reason = f'It has several types: {", ".join(self._type_names)}.'
+        if len(self.type_names) != 1:
+            self.reason = f'It has several types: {", ".join(self.type_names)}.'
             return None
         try:
-            return get_message(self._type_names[0])
+            return get_message(self.type_names[0])
         except UnknownType as error:
             self.reason = f'Its messages cannot be read: {error}'
             return None
