@@ -3,138 +3,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import suppress
+from collections.abc import Iterator
 from http.client import HTTPConnection
-import json
-import os
-import threading
 import time
 from typing import Any
 from unittest import mock
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from domain_coordinator import domain_id
+from live_world import live_world, LiveWorld, PANELS
 import pytest
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 import rclpy
 from rclpy.context import Context as RosContext
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from robot_console.live import LivePanel
-from robot_console.panels.diagnostics import Diagnostics
-from robot_console.panels.log import Log
-from robot_console.panels.parameters import Parameters
-from robot_console.panels.services import Services
-from robot_console.panels.topics import Topics
-from rviz_common.context import Context
-from rviz_common.page import Page
-from rviz_common.work_queue import WorkQueue
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
-from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import connect
 
 LATCHED = QoSProfile(
     depth=1,
     reliability=ReliabilityPolicy.RELIABLE,
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
-PANELS = {'log': Log, 'diagnostics': Diagnostics, 'topics': Topics}
-PANELS |= {'parameters': Parameters, 'services': Services}
-
-
-class World:
-    """A page with a panel, and a robot, in a domain of their own."""
-
-    def __init__(self, domain: int, page: Page) -> None:
-        """Start the robot."""
-        self.page = page
-        self.ros = RosContext()
-        rclpy.init(context=self.ros, domain_id=domain)
-        self.node = Node('console', context=self.ros)
-        self.robot = Node('robot', namespace='robot1', context=self.ros)
-        self.executor = SingleThreadedExecutor(context=self.ros)
-        for node in (self.node, self.robot):
-            self.executor.add_node(node)
-        self.context = Context(self.node, page, None, WorkQueue())  # type: ignore[arg-type]
-        self.panels: list[LivePanel] = []
-
-    def open(self, name: str, **given: Any) -> Browser:
-        """Start a panel, and look at it."""
-        panel = PANELS[name](self.context, given)
-        panel.start()
-        self.panels.append(panel)
-        return self.look(name, given.get('Namespace', ''))
-
-    def look(self, name: str, namespace: str = '') -> Browser:
-        """Look at a panel."""
-        path = f'/{name}/{namespace}' if namespace else f'/{name}'
-        return Browser(self, f'ws://127.0.0.1:{self.page.port}{path}')
-
-    def wait_until(self, predicate: Callable[[], bool], what: str, told: Any = None) -> None:
-        """Let time pass until something holds."""
-        end_s = time.monotonic() + 20.0
-        while not predicate():
-            assert time.monotonic() < end_s, f'{what}; told: {str(told)[-2000:]}'
-            self.executor.spin_once(timeout_sec=0.02)
-            self.context.queue.run()
-            for panel in self.panels:
-                panel.update()
-
-    def close(self) -> None:
-        """End all of it."""
-        for panel in self.panels:
-            panel.close()
-        self.page.close()
-        self.executor.shutdown()
-        for node in (self.node, self.robot):
-            node.destroy_node()
-        self.ros.try_shutdown()
-
-
-class Browser:
-    """A browser that looks at a panel, and notes down what it is told."""
-
-    def __init__(self, world: World, url: str) -> None:
-        """Connect."""
-        self.world = world
-        self.told: list[dict[str, Any]] = []
-        self.connection = connect(url)
-        self._reading = threading.Thread(target=self._read, daemon=True)
-        self._reading.start()
-
-    def _read(self) -> None:
-        with suppress(ConnectionClosed):
-            for text in self.connection:
-                self.told.append(json.loads(text))
-
-    def ask(self, do: str, **values: Any) -> None:
-        """Ask for something."""
-        self.connection.send(json.dumps({'do': do, **values}))
-
-    def wait_for(self, key: str, predicate: Callable[[Any], bool] = bool) -> dict[str, Any]:
-        """Wait until something is told that has a key with such a value, and return all of it."""
-
-        def found() -> list[dict[str, Any]]:
-            return [each for each in self.told if key in each and predicate(each[key])]
-
-        self.world.wait_until(lambda: bool(found()), f"no such '{key}'", self.told)
-        return found()[-1]
 
 
 @pytest.fixture
-def world() -> Iterator[World]:
+def world() -> Iterator[LiveWorld]:
     """Return a page and a robot."""
-    quiet = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
-    with domain_id() as domain, mock.patch.dict(os.environ, quiet):
-        world = World(domain, Page('test'))
-        try:
-            yield world
-        finally:
-            world.close()
+    with live_world() as world:
+        yield world
 
 
 def status(name: str, level: int, message: str = '') -> DiagnosticArray:
@@ -144,7 +42,7 @@ def status(name: str, level: int, message: str = '') -> DiagnosticArray:
     return DiagnosticArray(status=[each])
 
 
-def test_log(world: World) -> None:
+def test_log(world: LiveWorld) -> None:
     """A page is told what was said before, and what is said from then on."""
     world.robot.get_logger().warning('before')
     page = world.open('log', Namespace='robot1')
@@ -160,7 +58,7 @@ def test_log(world: World) -> None:
     assert [line[1] for line in fresh['lines']] == [30, 40]
 
 
-def test_error_pops_up(world: World) -> None:
+def test_error_pops_up(world: LiveWorld) -> None:
     """An error is shown in all browsers, whatever they look at."""
     page = world.open('log')
     client = mock.Mock()
@@ -172,7 +70,7 @@ def test_error_pops_up(world: World) -> None:
     assert (title, text) == ('Error of robot1.robot', 'broken')
 
 
-def test_diagnostics(world: World) -> None:
+def test_diagnostics(world: LiveWorld) -> None:
     """The worst part comes first; parts become stale; one can be looked at closely."""
     page = world.open('diagnostics', Namespace='robot1', **{'Stale After': 1.0})
     assert page.wait_for('rows', lambda rows: rows == [])['talking'] is False
@@ -192,7 +90,7 @@ def test_diagnostics(world: World) -> None:
     page.wait_for('rows', lambda rows: rows == [])
 
 
-def test_topics(world: World) -> None:
+def test_topics(world: LiveWorld) -> None:
     """Topics are listed; one is subscribed only while somebody has chosen it."""
     publisher = world.robot.create_publisher(String, 'words', LATCHED)
     publisher.publish(String(data='from before'))
@@ -209,7 +107,7 @@ def test_topics(world: World) -> None:
     world.wait_until(lambda: publisher.get_subscription_count() == 0, 'still subscribed')
 
 
-def test_rates(world: World) -> None:
+def test_rates(world: LiveWorld) -> None:
     """Rates of all topics are measured while somebody wants them."""
     publisher = world.robot.create_publisher(String, 'words', 10)
     world.robot.create_timer(0.05, lambda: publisher.publish(String(data='hi')))
@@ -222,7 +120,7 @@ def test_rates(world: World) -> None:
     world.wait_until(lambda: publisher.get_subscription_count() == 0, 'still subscribed')
 
 
-def test_mismatch(world: World) -> None:
+def test_mismatch(world: LiveWorld) -> None:
     """Two ends between which nothing passes are named with the reason."""
     best_effort = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
     world.robot.create_publisher(String, 'words', best_effort)
@@ -237,7 +135,7 @@ def test_mismatch(world: World) -> None:
     page.wait_for('details', lambda details: details == {'topic': '/nothing'})
 
 
-def robot_with_parameters(world: World) -> None:
+def robot_with_parameters(world: LiveWorld) -> None:
     """Give the robot a parameter, of which it does not take all values."""
     about = ParameterDescriptor(
         description='How fast.', floating_point_range=[FloatingPointRange(to_value=9.0)]
@@ -252,7 +150,7 @@ def robot_with_parameters(world: World) -> None:
     world.robot.add_on_set_parameters_callback(check)
 
 
-def test_parameters(world: World) -> None:
+def test_parameters(world: LiveWorld) -> None:
     """A parameter is changed; the page or the node refuse with their reasons."""
     robot_with_parameters(world)
     page = world.open('parameters', Namespace='robot1')
@@ -275,7 +173,7 @@ def test_parameters(world: World) -> None:
     page.wait_for('refused', lambda refused: 'not there' in refused)
 
 
-def test_parameter_of_others(world: World) -> None:
+def test_parameter_of_others(world: LiveWorld) -> None:
     """What others change, and new parameters, are shown."""
     robot_with_parameters(world)
     page = world.open('parameters')
@@ -294,7 +192,7 @@ def test_parameter_of_others(world: World) -> None:
     page.wait_for('problem', lambda problem: "no node '/nobody'" in problem)
 
 
-def test_services(world: World) -> None:
+def test_services(world: LiveWorld) -> None:
     """A service is called with what was typed, and its answer or its failure shown."""
 
     def switch(request: Any, response: Any) -> Any:
@@ -323,7 +221,7 @@ def test_services(world: World) -> None:
     world.robot.destroy_service(service)
 
 
-def test_service_that_does_not_answer(world: World) -> None:
+def test_service_that_does_not_answer(world: LiveWorld) -> None:
     """A call that is not answered ends with a sentence, and blocks nothing."""
     other = RosContext()
     rclpy.init(context=other, domain_id=world.ros.get_domain_id())
@@ -339,7 +237,7 @@ def test_service_that_does_not_answer(world: World) -> None:
 
 
 @pytest.mark.parametrize('name', PANELS)
-def test_small_page(world: World, name: str) -> None:
+def test_small_page(world: LiveWorld, name: str) -> None:
     """The pages are complete, and ask nobody else for anything."""
     world.open(name)
     connection = HTTPConnection('127.0.0.1', world.page.port, timeout=30)
@@ -351,7 +249,7 @@ def test_small_page(world: World, name: str) -> None:
 
 
 @pytest.mark.parametrize('name', PANELS)
-def test_begin_anew(world: World, name: str) -> None:
+def test_begin_anew(world: LiveWorld, name: str) -> None:
     """A panel that is closed leaves nothing, so that another file can have it again."""
     world.open(name)
     before = len(list(world.node.subscriptions)), len(list(world.node.clients))

@@ -43,11 +43,11 @@ def _job(words: list[str]) -> Job:
 def _show(job: Job) -> int:
     """Show it until a signal comes; return the exit status."""
     from rclpy.exceptions import ParameterException
-    from rclpy.node import Node
     from rviz2.page_parameters import page_settings
+    from rviz_common.guarded_node import GuardedNode
     from rviz_common.page import Page, PortError
 
-    node = Node('rviz2')
+    node = GuardedNode('rviz2')
     try:
         page = Page('RViz', page_settings(node))
     except (ValueError, ParameterException, PortError) as error:

@@ -57,6 +57,11 @@ class Tool:
     def close(self) -> None:
         """End what has been begun."""
 
+    def on_change(self, path: str) -> None:
+        """Follow a property that has been changed: begin anew, by default."""
+        self.close()
+        self.begin()
+
     def take_up(self) -> None:
         """Be the one that is in use."""
 

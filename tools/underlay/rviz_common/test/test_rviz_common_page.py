@@ -138,6 +138,9 @@ def test_route(page: Page) -> None:
         connect(url, origin=Origin('http://evil.example'))
     with pytest.raises(ValueError, match="something at '/echo' already"):
         page.routes.add('/echo', Route(''))
+    page.routes.remove('/echo')
+    page.routes.add('/echo', Route('anew'))
+    assert ask(page, '/echo').read() == b'anew'
 
 
 def test_failing_route(page: Page) -> None:

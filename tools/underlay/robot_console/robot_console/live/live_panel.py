@@ -10,8 +10,8 @@ from robot_console.live.channel import Action, Channel
 from robot_console.live.viewer import Viewer
 from robot_console.namespaces import below, NAMESPACE
 from robot_console.small_page import SmallPage
+from rviz_common.pace import Pace
 from rviz_common.panel import Panel
-from rviz_common.panels.pace import Pace
 from rviz_common.properties import Property
 
 __all__ = ['LivePanel']

@@ -12,13 +12,13 @@ from robot_console.robot_link import LATCHED, link_of
 from robot_console.safety_session import Facts, SafetySession
 from robot_console.small_page import SmallPage
 from rviz_common.panel import Panel
+from rviz_common.panels.order import ALWAYS_ORDER
 from rviz_common.properties import Choice
 from std_msgs.msg import String
 
 __all__ = ['Safety']
 
 PERIOD_S = 0.5
-FIRST = -1.0
 
 
 class Safety(Panel):
@@ -55,7 +55,7 @@ class Safety(Panel):
             'namespace': namespace,
         }
         talks = Connections(self._link.people, self._session)
-        self._page = SmallPage(self.context, 'safety', namespace, settings, talks, FIRST)
+        self._page = SmallPage(self.context, 'safety', namespace, settings, talks, ALWAYS_ORDER)
 
     def update(self) -> None:
         """Look who is there, now and then."""

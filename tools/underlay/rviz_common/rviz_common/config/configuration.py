@@ -59,7 +59,7 @@ class Configuration:
     def read(cls, path: str) -> Configuration:
         """Return what a file says, or raise ConfigError."""
         try:
-            with open(path, encoding='utf-8') as file:
+            with open(path, encoding='utf-8-sig') as file:
                 text = file.read()
         except OSError as error:
             raise ConfigError(path, None, _unreadable(path, error)) from error

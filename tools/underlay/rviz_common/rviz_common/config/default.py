@@ -13,6 +13,7 @@ def default_values() -> dict[str, Any]:
     return {
         'Panels': [
             {'Class': 'rviz_common/Displays', 'Name': 'Displays'},
+            {'Class': 'rviz_common/Tool Properties', 'Name': 'Tool Properties'},
             {'Class': 'rviz_common/Views', 'Name': 'Views'},
             {'Class': 'rviz_common/Time', 'Name': 'Time'},
         ],

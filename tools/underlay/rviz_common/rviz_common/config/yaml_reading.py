@@ -8,6 +8,7 @@ is written back the same is made a number here: `007` and `on` remain texts, `1e
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 import re
 from typing import Any
 
@@ -29,15 +30,14 @@ Loader = getattr(yaml, 'CBaseLoader', yaml.BaseLoader)
 
 def read_yaml(text: str, source: str) -> Document:
     """Return the values of a text, or raise ConfigError."""
+    reader = _Reader(text, source)
     try:
-        node = yaml.compose(text, Loader=Loader)
+        return Document(source, reader.document(), reader.lines)
     except yaml.MarkedYAMLError as error:
         raise _unreadable(error, text, source) from error
     except yaml.YAMLError as error:
-        raise ConfigError(source, None, f'This is not YAML: {error}.') from error
-    reader = _Reader(source)
-    values = None if node is None else reader.value(node, ())
-    return Document(source, values, reader.lines)
+        said = ' '.join(str(error).split())
+        raise ConfigError(source, None, f'This is not YAML: {said}.') from error
 
 
 def scalar_value(text: str) -> Any:
@@ -55,43 +55,74 @@ def scalar_value(text: str) -> Any:
 
 
 class _Reader:
-    """Makes values of the nodes of a file, and remembers their lines."""
+    """Makes values of the events of a file, and remembers their lines."""
 
-    def __init__(self, source: str) -> None:
+    def __init__(self, text: str, source: str) -> None:
         self.lines: dict[Place, int] = {}
+        self._events: Iterator[Any] = yaml.parse(text, Loader=Loader)
         self._source = source
         self._count = 0
 
-    def value(self, node: yaml.Node, place: Place) -> Any:
-        """Return the value of a node."""
-        line = self.lines[place] = node.start_mark.line + 1
+    def document(self) -> Any:
+        """Return the value of the first document, which must be the only one."""
+        next(self._events)
+        if isinstance(next(self._events), yaml.StreamEndEvent):
+            return None
+        value = self._value(next(self._events), ())
+        next(self._events)
+        more = next(self._events)
+        if not isinstance(more, yaml.StreamEndEvent):
+            raise ConfigError(self._source, _line(more), 'A second document begins here.')
+        return value
+
+    def _value(self, event: Any, place: Place) -> Any:
+        """Return the value that begins with an event."""
+        line = self.lines[place] = _line(event)
         self._count += 1
         if len(place) > MAXIMAL_DEPTH or self._count > MAXIMAL_COUNT:
             raise ConfigError(self._source, line, 'The file is nested too deeply, or too large.')
-        if isinstance(node, yaml.MappingNode):
-            return self._mapping(node, place)
-        if isinstance(node, yaml.SequenceNode):
-            return [self.value(each, (*place, index)) for index, each in enumerate(node.value)]
-        is_quoted = bool(getattr(node, 'style', None))
-        return node.value if is_quoted else scalar_value(node.value)
+        if isinstance(event, yaml.MappingStartEvent):
+            return self._mapping(place)
+        if isinstance(event, yaml.SequenceStartEvent):
+            return self._sequence(place)
+        return self._scalar(event)
 
-    def _mapping(self, node: yaml.MappingNode, place: Place) -> dict[str, Any]:
-        values: dict[str, Any] = {}
-        for key, below in node.value:
-            name, line = key.value, key.start_mark.line + 1
-            here = (*place, name)
-            if not isinstance(key, yaml.ScalarNode):
-                raise ConfigError(self._source, line, 'A key must be a text, and not a tree.')
-            if name in values:
-                first = self.lines[here]
-                raise ConfigError(
-                    self._source,
-                    line,
-                    f"'{name}' stands here and in line {first} already: remove one of them.",
-                )
-            values[name] = self.value(below, here)
-            self.lines[here] = line
+    def _scalar(self, event: Any) -> Any:
+        if isinstance(event, yaml.AliasEvent):
+            reason = f"'*{event.anchor}' refers to another place: write here what stands there."
+            raise ConfigError(self._source, _line(event), reason)
+        return event.value if event.style else scalar_value(event.value)
+
+    def _sequence(self, place: Place) -> list[Any]:
+        values: list[Any] = []
+        while not isinstance(event := next(self._events), yaml.SequenceEndEvent):
+            values.append(self._value(event, (*place, len(values))))
         return values
+
+    def _mapping(self, place: Place) -> dict[str, Any]:
+        values: dict[str, Any] = {}
+        while not isinstance(key := next(self._events), yaml.MappingEndEvent):
+            if not isinstance(key, yaml.ScalarEvent):
+                raise ConfigError(
+                    self._source, _line(key), 'A key must be a text, and not a tree.'
+                )
+            name, here = key.value, (*place, key.value)
+            if name in values:
+                self._refuse_second(name, _line(key), self.lines[here])
+            values[name] = self._value(next(self._events), here)
+            self.lines[here] = _line(key)
+        return values
+
+    def _refuse_second(self, name: str, line: int, first: int) -> None:
+        raise ConfigError(
+            self._source,
+            line,
+            f"'{name}' stands here and in line {first} already: remove one of them.",
+        )
+
+
+def _line(event: Any) -> int:
+    return int(event.start_mark.line + 1)
 
 
 def _unreadable(error: yaml.MarkedYAMLError, text: str, source: str) -> ConfigError:

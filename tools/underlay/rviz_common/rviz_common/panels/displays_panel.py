@@ -5,11 +5,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from rviz_common.pace import Pace
 from rviz_common.panel import Panel
 from rviz_common.panels.add_display import AddDisplay
 from rviz_common.panels.entry_folder import EntryFolder
-from rviz_common.panels.file_folder import FileFolder
-from rviz_common.panels.pace import Pace
 from rviz_common.panels.property_editor import PropertyEditor
 from rviz_common.visualizer.entry import Entry
 from rviz_common.visualizer.options import FIXED_FRAME
@@ -28,7 +27,6 @@ class DisplaysPanel(Panel):
         self._visualizer = self.context.visualizer
         self._pace = Pace()
         gui = self.context.gui
-        FileFolder(self.context)
         with gui.add_folder('Global Options', expand_by_default=False):
             self._frames: Any = gui.add_dropdown('Known frames', [self._fixed_frame()])
             self.context.on_input(self._frames, self._choose_frame)

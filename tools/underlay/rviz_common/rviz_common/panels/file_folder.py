@@ -8,6 +8,7 @@ from typing import Any
 
 from rviz_common.config import ConfigError, Configuration
 from rviz_common.context import Context
+from rviz_common.panels.order import FILE_ORDER
 
 __all__ = ['FileFolder']
 
@@ -23,14 +24,20 @@ class FileFolder:
         self._visualizer = context.visualizer
         path = self._visualizer.path or os.path.join(os.getcwd(), 'saved.rviz')
         gui = context.gui
-        with gui.add_folder('File', expand_by_default=False):
-            self._path = gui.add_text('Path', path, hint='On the machine where rviz2 runs.')
+        # It remains when a file is loaded: viser does not forgive the loss of the button.
+        self._folder = gui.add_folder('File', order=FILE_ORDER, expand_by_default=False)
+        with self._folder:
+            self._path: Any = gui.add_text('Path', path, hint='On the machine where rviz2 runs.')
             save = gui.add_button('Save', hint='Write what is shown to this file.')
             download = gui.add_button('Download', hint='Save it where the browser runs.')
             upload = gui.add_upload_button('Load a .rviz file', mime_type='*/*')
         context.on_click(save, self._save)
         download.on_click(lambda event: context.queue.post(lambda: self._download(event.client)))
         upload.on_upload(self._on_upload)
+
+    def close(self) -> None:
+        """Remove the widgets."""
+        self._folder.remove()
 
     def _save(self) -> None:
         try:
@@ -59,4 +66,6 @@ class FileFolder:
         except ConfigError as error:
             self._visualizer.notify('Not loaded', str(error))
         else:
-            self._visualizer.load(configuration, self._visualizer.path)
+            directory = os.path.dirname(self._path.value)
+            self._path.value = os.path.join(directory, os.path.basename(name))
+            self._visualizer.load(configuration, self._path.value)

@@ -6,8 +6,9 @@ from __future__ import annotations
 from typing import Any, TYPE_CHECKING
 
 from rviz_common.context import Context
+from rviz_common.pace import Pace
 from rviz_common.panels.marks import escaped, MARKS
-from rviz_common.panels.pace import Pace
+from rviz_common.panels.order import STATUS_ORDER, TOOLS_ORDER
 from rviz_common.status import Level
 from rviz_common.tool import Tool
 
@@ -27,8 +28,10 @@ class Head:
         """Add the widgets."""
         self._visualizer = visualizer
         self._pace = Pace()
-        self._text = context.gui.add_markdown('')
-        self._folder = context.gui.add_folder('Tools', visible=bool(visualizer.tools.tools))
+        self._text = context.gui.add_markdown('', order=STATUS_ORDER)
+        self._folder = context.gui.add_folder(
+            'Tools', order=TOOLS_ORDER, visible=bool(visualizer.tools.tools)
+        )
         self._buttons: list[tuple[Tool | None, Any]] = []
         with self._folder:
             for tool in (None, *visualizer.tools.tools):

@@ -9,7 +9,9 @@ import copy
 from typing import Any
 
 from rviz_common.context import Context
+from rviz_common.described_error import described_error
 from rviz_common.panel import Panel
+from rviz_common.panels.order import TABS_ORDER
 from rviz_common.plugins import load_plugin, PANELS
 
 __all__ = ['BUILT_IN', 'PanelTabs']
@@ -27,7 +29,7 @@ class PanelTabs:
         self._logger = context.node.get_logger()
         self._entries: list[Panel | Mapping[str, Any]] = [self._made(entry) for entry in entries]
         has_tabs = not all(panel.IS_ALWAYS_VISIBLE for panel in self.panels)
-        self._tabs: Any = context.gui.add_tab_group() if has_tabs else None
+        self._tabs: Any = context.gui.add_tab_group(order=TABS_ORDER) if has_tabs else None
         self._running = [panel for panel in self.panels if self._started(panel)]
 
     @property
@@ -79,8 +81,7 @@ class PanelTabs:
             work()
         except Exception as error:  # whatever a panel does, the others go on
             self._logger.error(
-                f"Panel '{panel.name}' ({panel.CLASS}) has been stopped: "
-                f'{type(error).__name__}: {error}'
+                f"Panel '{panel.name}' ({panel.CLASS}) has been stopped: {described_error(error)}"
             )
             return False
         return True

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import time
 
+from rviz_common.pace import Pace
 from rviz_common.panel import Panel
-from rviz_common.panels.pace import Pace
 
 __all__ = ['TimePanel']
 

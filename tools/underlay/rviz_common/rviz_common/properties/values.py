@@ -23,14 +23,18 @@ class Values:
     def __init__(
         self, properties: Iterable[Property], given: Mapping[str, Any] | None = None
     ) -> None:
-        """Take the values that a file gives; `refusals` says which of them cannot be used."""
+        """
+        Take the values that a file gives; `refusals` says which of them cannot be used.
+
+        Without any, all are new to the file, and are written.
+        """
         self.properties = {each.path: each for each in properties}
         self._given: dict[str, Any] = copy.deepcopy(dict(given or {}))
         self._values = {path: each.default for path, each in self.properties.items()}
         self.refusals: list[str] = []
         for path in self.properties:
             self._take(path)
-        self._changed: set[str] = set() if self._given else set(self.properties)
+        self._changed: set[str] = set(self.properties) if given is None else set()
 
     def __getitem__(self, path: str) -> Any:
         """Return the value of a property."""

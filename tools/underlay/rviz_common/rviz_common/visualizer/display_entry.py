@@ -7,6 +7,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
+from rviz_common.described_error import described_error
 from rviz_common.display import Display
 from rviz_common.status import Level, Statuses
 from rviz_common.visualizer.entry import Entry
@@ -92,8 +93,7 @@ class DisplayEntry(Entry):
         self._is_running = False
         with suppress(Exception):  # what has failed may not be able to stop either
             self.display.stop()
-        with suppress(KeyError):
-            self.display.context.scene.remove_by_name(self.display.root)
+        self.display.context.scene.remove_by_name(self.display.root)
         reason = f'{type(error).__name__}: {error}'
         self.status.say(
             'Display',
@@ -101,13 +101,5 @@ class DisplayEntry(Entry):
             f'It has been stopped by an error ({reason}). Disable and enable it to try again.',
         )
         self.display.context.node.get_logger().error(
-            f"Display '{self.name}' ({self.class_name}) has been stopped: {_where(error)}{reason}"
+            f"Display '{self.name}' ({self.class_name}) has been stopped: {described_error(error)}"
         )
-
-
-def _where(error: Exception) -> str:
-    """Return the file and the line where an error was raised."""
-    trace = error.__traceback__
-    while trace is not None and trace.tb_next is not None:
-        trace = trace.tb_next
-    return '' if trace is None else f'{trace.tb_frame.f_code.co_filename}:{trace.tb_lineno}: '

@@ -22,6 +22,7 @@ class Group(Entry):
         """Take what the file says, and the displays."""
         self._given = copy.deepcopy({k: v for k, v in given.items() if k != 'Displays'})
         self._places = list(given)
+        self._nothing: list[Any] | None = [] if given.get('Displays') == [] else None
         self.class_name = self.CLASS
         self.name = str(given.get('Name') or 'Group')
         self.children = children
@@ -83,7 +84,8 @@ class Group(Entry):
     def to_file(self) -> dict[str, Any]:
         """Return what the file is to have."""
         written = {name: copy.deepcopy(self._given.get(name)) for name in self._places}
-        written['Displays'] = [child.to_file() for child in self.children]
+        # RViz writes `~` for no displays.
+        written['Displays'] = [child.to_file() for child in self.children] or self._nothing
         if 'Enabled' in written or not self._is_enabled:
             written['Enabled'] = self._is_enabled
         if 'Name' in written or self.name != 'Group':

@@ -8,6 +8,7 @@ import copy
 from typing import Any
 
 from rviz_common.context import Context
+from rviz_common.described_error import described_error
 from rviz_common.plugins import load_plugin, TOOLS
 from rviz_common.tool import Point, Tool
 from rviz_common.visualizer.cameras import WORLD
@@ -98,7 +99,7 @@ class ToolBox:
         try:
             is_done = work(tool)
         except Exception as error:  # whatever a tool does, all else goes on
-            self._logger.error(f"Tool '{tool.NAME}' failed: {type(error).__name__}: {error}")
+            self._logger.error(f"Tool '{tool.NAME}' failed: {described_error(error)}")
             is_done = True
         if is_done:
             self.use(None)

@@ -20,9 +20,11 @@ from rviz_common.config.configuration import (
 )
 from rviz_common.config.document import Place
 from rviz_common.context import Context
+from rviz_common.described_error import described_error
 from rviz_common.frames import Frames
+from rviz_common.pace import Pace
+from rviz_common.panels.file_folder import FileFolder
 from rviz_common.panels.head import Head
-from rviz_common.panels.pace import Pace
 from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.properties import topic_path, Values
 from rviz_common.status import Statuses
@@ -76,6 +78,7 @@ class Visualizer:
         self._pace = Pace()
         self._maker = Maker(self.context, f'{WORLD}/displays')
         self._open(configuration, path)
+        self._files = FileFolder(self.context)
         self._loop = FrameLoop(node, self.frame, self.options[FRAME_RATE])
 
     def load(self, configuration: Configuration, path: str = '') -> None:
@@ -91,7 +94,6 @@ class Visualizer:
             raise ConfigError(path or 'The file', None, 'Its name must end with .rviz.')
         self.configuration.save(path, self._sections())
         self.path = path
-        self._logger.info(f'Saved to {path}.')
 
     def text(self) -> str:
         """Return what a file of what is shown would have."""
@@ -137,6 +139,7 @@ class Visualizer:
         """Show nothing any longer."""
         self._loop.close()
         self._close()
+        self._files.close()
         self._listener.unregister()
         self.context.node.destroy_guard_condition(self._wake)
 
@@ -178,7 +181,7 @@ class Visualizer:
     def _sections(self) -> dict[Place, Any]:
         """Return the sections of the file that may have been changed."""
         return {
-            DISPLAYS: self.displays.to_file()['Displays'],
+            DISPLAYS: [each.to_file() for each in self.displays.children],
             OPTIONS_PLACE: self.options.to_file(),
             PANELS: self.panels.to_file(),
             SAVED_VIEWS: [view.to_file() for view in self.saved_views],
@@ -197,14 +200,17 @@ class Visualizer:
             yield from sentences_about_classes('views', source, [view.class_name])
         for name in self.options.unknown(UNUSED_OPTIONS):
             yield f"{source}: The global option '{name}' is not known. The file keeps it."
-        yield from (f'{source}: The global option {each}' for each in self.options.refusals)
+        yield from (f'{source}: Of the global options, {each}' for each in self.options.refusals)
+        yield from (f'{source}: Of the view, {each}' for each in view.values.refusals)
+        for tool in self.tools.tools:
+            yield from (f'{source}: Of {tool.CLASS}, {each}' for each in tool.values.refusals)
 
     def _work(self) -> None:
         """Do what widgets have posted."""
         try:
             self.context.queue.run()
         except Exception as error:  # whatever a widget does, all else goes on
-            self._logger.error(f'What was entered failed: {type(error).__name__}: {error}')
+            self._logger.error(f'What was entered failed: {described_error(error)}')
             self._wake.trigger()  # for what still waits
 
 

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Use the small pages in a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import os
+from typing import Any
+
+from console_world import World, world_of
+import pytest
+from robot_console.panels.safety import Safety
+from robot_console.robot_link import LATCHED
+from rviz_common.page import Route
+from std_msgs.msg import Bool
+
+CHROMIUM = '/usr/bin/chromium'
+FRAMES = '<input><iframe src="/safety" title="safety"></iframe><iframe src="/safety/b"></iframe>'
+
+pytestmark = pytest.mark.skipif(
+    not os.path.exists(CHROMIUM), reason=f'needs a browser: there is no {CHROMIUM}'
+)
+
+
+@pytest.fixture
+def world() -> Iterator[World]:
+    """Return a page, panels and a robot."""
+    with world_of('') as world:
+        yield world
+
+
+@pytest.fixture(scope='module')
+def browser() -> Iterator[Any]:
+    """Start a browser."""
+    api = pytest.importorskip('playwright.sync_api')
+    with api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def tab(browser: Any) -> Iterator[Any]:
+    """Open a tab in which no script may fail."""
+    tab = browser.new_page(viewport={'width': 300, 'height': 420})
+    failures: list[str] = []
+    tab.on('pageerror', lambda error: failures.append(str(error)))
+    yield tab
+    tab.close()
+    assert failures == []
+
+
+def shows(world: World, tab: Any, element: str, words: str) -> None:
+    """Wait until an element of a small page has some words."""
+    world.wait_until(
+        lambda: words in (tab.locator(element).text_content() or ''), f'{element}: {words}'
+    )
+
+
+def test_drive_with_keys(world: World, tab: Any) -> None:
+    """Keys drive as long as they are held, and the page has the focus."""
+    tab.goto(f'http://{world.url("drive")}')
+    shows(world, tab, '#what', 'Stands still')
+    tab.keyboard.down('w')
+    world.wait_until(lambda: world.twists()[-1:] == [(0.25, 0.0)], 'no velocity')
+    tab.keyboard.down('ArrowLeft')
+    world.wait_until(lambda: world.twists()[-1:] == [(0.25, 0.5)], 'no turn')
+    tab.keyboard.up('w')
+    world.wait_until(lambda: world.twists()[-1:] == [(0.0, 0.5)], 'not only the turn')
+    tab.evaluate('window.dispatchEvent(new Event("blur"))')
+    world.wait_until(lambda: world.twists()[-1:] == [(0.0, 0.0)], 'no zero')
+    world.wait_until(lambda: world.beats()[-1:] == [False], 'control is not given back')
+
+
+def test_drive_with_the_stick(world: World, tab: Any) -> None:
+    """The stick drives while it is held; the slider is the limit; nothing is cut off."""
+    tab.goto(f'http://{world.url("drive")}')
+    shows(world, tab, '#what', 'Stands still')
+    tab.locator('#move').fill('100')
+    box = tab.locator('#stick').bounding_box()
+    middle = box['x'] + box['width'] / 2, box['y'] + box['height'] / 2
+    tab.mouse.move(*middle)
+    tab.mouse.down()
+    tab.mouse.move(middle[0], middle[1] - 200)
+    world.wait_until(lambda: world.twists()[-1:] == [(0.5, 0.0)], 'no velocity')
+    tab.mouse.up()
+    world.wait_until(lambda: world.twists()[-1:] == [(0.0, 0.0)], 'no zero')
+    assert tab.evaluate('document.documentElement.scrollWidth') <= 300
+
+
+def test_stop_and_release(world: World, tab: Any) -> None:
+    """A click stops, two release."""
+    tab.goto(f'http://{world.url("safety")}')
+    shows(world, tab, '#link', 'connected')
+    tab.click('#stop')
+    world.wait_until(lambda: world.stops() == [True], 'no stop')
+    shows(world, tab, '#hint', 'by you')
+    tab.click('#release')
+    shows(world, tab, '#release', 'Release?')
+    assert world.stops() == [True]
+    tab.click('#release')
+    world.wait_until(lambda: world.stops() == [True, False], 'no release')
+
+
+def test_lost_and_back(world: World, tab: Any) -> None:
+    """A page without a connection says so; what was pressed meanwhile is sent after."""
+    tab.goto(f'http://{world.url("safety")}')
+    shows(world, tab, '#link', 'connected')
+    safety = world.panels[0]
+    safety.close()
+    shows(world, tab, '#link', 'lost: this page cannot stop the robot')
+    tab.click('#stop')
+    shows(world, tab, '#hint', 'NOT STOPPED YET')
+    assert world.stops() == []
+    safety.start()
+    world.wait_until(lambda: world.stops()[-1:] == [True], 'no stop')
+    shows(world, tab, '#link', 'connected')
+
+
+def test_space_bar_stops_all_robots(world: World, tab: Any) -> None:
+    """The space bar stops all robots of a page, but not where somebody writes."""
+    other = Safety(world.panels[0].context, {'Namespace': 'b'})
+    other.start()
+    stops: list[bool] = []
+    world.robot.create_subscription(
+        Bool, '/b/emergency_stop', lambda message: stops.append(message.data), LATCHED
+    )
+    world.page.routes.add('/both', Route(FRAMES))
+    tab.goto(f'http://{world.url("both")}')
+    for index in range(2):
+        frame = tab.frame_locator('iframe').nth(index)
+        world.wait_until(
+            lambda frame=frame: frame.locator('#link').text_content() == 'connected', 'no frame'
+        )
+    tab.locator('input').focus()
+    tab.keyboard.press('Space')
+    assert tab.locator('input').input_value() == ' '
+    tab.evaluate('document.activeElement.blur()')
+    tab.keyboard.press('Space')
+    world.wait_until(lambda: world.stops() == [True] and stops == [True], 'not all stop')
+    other.close()

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the panels of the console are in the page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import os
+from typing import Any
+from unittest import mock
+
+from domain_coordinator import domain_id
+import pytest
+import rclpy
+from rclpy.context import Context as RosContext
+from rclpy.node import Node
+from rviz_common.context import Context
+from rviz_common.page import Page
+from rviz_common.panels.order import ALWAYS_ORDER
+from rviz_common.panels.panel_tabs import PanelTabs
+from rviz_common.work_queue import WorkQueue
+
+FILE = [
+    {'Class': 'robot_console/Safety', 'Name': 'Stop', 'Robot': 'real'},
+    {'Class': 'robot_console/Drive', 'Max Sideways Speed': 0, 'Namespace': 'robot1'},
+]
+
+
+@pytest.fixture
+def context() -> Iterator[Context]:
+    """Return a page and a node in a domain of their own."""
+    quiet = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
+    with domain_id() as domain, mock.patch.dict(os.environ, quiet), Page('test') as page:
+        ros = RosContext()
+        rclpy.init(context=ros, domain_id=domain)
+        node = Node('console', context=ros)
+        nothing: Any = None
+        yield Context(node, page, nothing, WorkQueue())
+        node.destroy_node()
+        ros.try_shutdown()
+
+
+def test_stop_button_is_outside_of_the_tabs(context: Context) -> None:
+    """The stop button is above all, and in no tab; other panels are in one."""
+    with (
+        mock.patch.object(context.gui, 'add_html', wraps=context.gui.add_html) as html,
+        mock.patch.object(context.gui, 'add_tab_group', wraps=context.gui.add_tab_group) as tabs,
+    ):
+        panels = PanelTabs(context, FILE)
+        assert [call.kwargs['order'] for call in html.call_args_list] == [ALWAYS_ORDER, None]
+        assert tabs.call_count == 1
+        panels.close()
+        PanelTabs(context, FILE[:1]).close()
+        assert tabs.call_count == 1, 'a button alone makes no tabs'
+
+
+def test_file(context: Context) -> None:
+    """What the file says is written back; nothing of it is unknown."""
+    panels = PanelTabs(context, FILE)
+    assert panels.unknown == [] and [each.unknown for each in panels.panels] == [[], []]
+    safety, drive = panels.to_file()
+    assert (safety['Name'], safety['Robot']) == ('Stop', 'real')
+    assert drive['Max Sideways Speed'] == 0 and drive['Namespace'] == 'robot1'
+    assert context.page.routes.find('/drive/robot1') and context.page.routes.find('/safety')
+    panels.close()
+    assert not context.page.routes.find('/drive/robot1')
+
+
+def test_same_panel_twice(context: Context) -> None:
+    """A second panel for the same robot is left out; the first one works."""
+    panels = PanelTabs(context, [FILE[0], FILE[0]])
+    panels.update()
+    panels.close()
+    assert not context.page.routes.find('/safety')
