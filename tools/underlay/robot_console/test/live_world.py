@@ -51,7 +51,7 @@ class LiveWorld:
         self.context = Context(self.node, page, None, WorkQueue())  # type: ignore[arg-type]
         self.panels: list[LivePanel] = []
 
-    def open(self, name: str, **given: Any) -> Browser:
+    def visit(self, name: str, **given: Any) -> Browser:
         """Start a panel, and look at it."""
         self.start(name, **given)
         return self.look(name, given.get('Namespace', ''))

@@ -45,7 +45,7 @@ class Desk:
             self.queue.run()
             time.sleep(0.01)
 
-    def open(self) -> ClientConnection:
+    def visit(self) -> ClientConnection:
         """Connect as a browser does, and take the greeting."""
         count = len(self.channel.viewers)
         client = connect(self.url)
@@ -68,7 +68,7 @@ def desk() -> Iterator[Desk]:
 
 def test_ask_and_tell(desk: Desk) -> None:
     """All who look are told, and what one asks for is done in order."""
-    first, second = desk.open(), desk.open()
+    first, second = desk.visit(), desk.visit()
     desk.channel.tell(news=[1, 'ü'])
     assert heard(first) == heard(second) == {'news': [1, 'ü']}
     for number in range(3):
@@ -80,7 +80,7 @@ def test_ask_and_tell(desk: Desk) -> None:
 
 def test_refusal(desk: Desk) -> None:
     """Who asks for something that cannot be is told why."""
-    client = desk.open()
+    client = desk.visit()
     client.send(json.dumps({'do': 'refuse'}))
     client.send(json.dumps({'do': 'note', 'what': 'after'}))
     desk.wait_until(lambda: desk.done == ['after'], 'not done')
@@ -92,7 +92,7 @@ def test_refusal(desk: Desk) -> None:
 )
 def test_odd_texts(desk: Desk, text: str | bytes) -> None:
     """What no page would ask for ends that connection, and no other."""
-    odd, other = desk.open(), desk.open()
+    odd, other = desk.visit(), desk.visit()
     odd.send(text)
     with pytest.raises(ConnectionClosedError):
         odd.recv(timeout=20)
@@ -105,7 +105,7 @@ def test_stalled_browser(desk: Desk) -> None:
     """A browser that reads nothing is dropped before it costs memory; others go on."""
     stalled = connect(desk.url, max_queue=1)
     desk.wait_until(lambda: len(desk.channel.viewers) == 1, 'nobody came')
-    viewer, other = desk.channel.viewers[0], desk.open()
+    viewer, other = desk.channel.viewers[0], desk.visit()
     text = 'x' * 200_000
     for _ in range(200):
         desk.channel.tell(text=text)
@@ -119,7 +119,7 @@ def test_stalled_browser(desk: Desk) -> None:
 
 def test_end(desk: Desk) -> None:
     """A panel that is closed ends its connections, also those that just begin."""
-    client, late = desk.open(), connect(desk.url)
+    client, late = desk.visit(), connect(desk.url)
     desk.channel.end()
     with pytest.raises(ConnectionClosed):
         client.recv(timeout=20)

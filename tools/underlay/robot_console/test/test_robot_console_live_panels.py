@@ -45,7 +45,7 @@ def status(name: str, level: int, message: str = '') -> DiagnosticArray:
 def test_log(world: LiveWorld) -> None:
     """A page is told what was said before, and what is said from then on."""
     world.robot.get_logger().warning('before')
-    page = world.open('log', Namespace='robot1')
+    page = world.visit('log', Namespace='robot1')
     page.wait_for('lines', lambda lines: any('before' in line[3] for line in lines))
     world.node.get_logger().info('of another robot')
     world.robot.get_logger().error('<b>broken</b> \n "now"')
@@ -60,7 +60,7 @@ def test_log(world: LiveWorld) -> None:
 
 def test_error_pops_up(world: LiveWorld) -> None:
     """An error is shown in all browsers, whatever they look at."""
-    page = world.open('log')
+    page = world.visit('log')
     client = mock.Mock()
     with mock.patch.object(world.page.viser, 'get_clients', lambda: {1: client}):
         world.robot.get_logger().error('broken')
@@ -72,7 +72,7 @@ def test_error_pops_up(world: LiveWorld) -> None:
 
 def test_diagnostics(world: LiveWorld) -> None:
     """The worst part comes first; parts become stale; one can be looked at closely."""
-    page = world.open('diagnostics', Namespace='robot1', **{'Stale After': 1.0})
+    page = world.visit('diagnostics', Namespace='robot1', **{'Stale After': 1.0})
     assert page.wait_for('rows', lambda rows: rows == [])['talking'] is False
     publisher = world.robot.create_publisher(DiagnosticArray, 'diagnostics', 10)
     world.wait_until(lambda: publisher.get_subscription_count() > 0, 'no subscription')
@@ -94,7 +94,7 @@ def test_topics(world: LiveWorld) -> None:
     """Topics are listed; one is subscribed only while somebody has chosen it."""
     publisher = world.robot.create_publisher(String, 'words', LATCHED)
     publisher.publish(String(data='from before'))
-    page = world.open('topics', Namespace='robot1')
+    page = world.visit('topics', Namespace='robot1')
     row = ['/robot1/words', 'std_msgs/msg/String', 1, 0]
     page.wait_for('rows', lambda rows: row in rows)
     assert publisher.get_subscription_count() == 0
@@ -111,7 +111,7 @@ def test_rates(world: LiveWorld) -> None:
     """Rates of all topics are measured while somebody wants them."""
     publisher = world.robot.create_publisher(String, 'words', 10)
     world.robot.create_timer(0.05, lambda: publisher.publish(String(data='hi')))
-    page = world.open('topics')
+    page = world.visit('topics')
     page.wait_for('rows')
     assert publisher.get_subscription_count() == 0
     page.ask('rates', on=True)
@@ -125,7 +125,7 @@ def test_mismatch(world: LiveWorld) -> None:
     best_effort = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
     world.robot.create_publisher(String, 'words', best_effort)
     world.robot.create_subscription(String, 'words', print, 10)
-    page = world.open('topics')
+    page = world.visit('topics')
     page.wait_for('rows', lambda rows: any(row[0] == '/robot1/words' for row in rows))
     page.ask('choose', topic='/robot1/words')
     told = page.wait_for('details', lambda details: bool(details.get('reasons')))
@@ -153,7 +153,7 @@ def robot_with_parameters(world: LiveWorld) -> None:
 def test_parameters(world: LiveWorld) -> None:
     """A parameter is changed; the page or the node refuse with their reasons."""
     robot_with_parameters(world)
-    page = world.open('parameters', Namespace='robot1')
+    page = world.visit('parameters', Namespace='robot1')
     page.wait_for('nodes', lambda nodes: nodes == ['/robot1/robot'])
     page.ask('choose', node='/robot1/robot')
     told = page.wait_for('parameters', bool)['parameters']['speed']
@@ -176,7 +176,7 @@ def test_parameters(world: LiveWorld) -> None:
 def test_parameter_of_others(world: LiveWorld) -> None:
     """What others change, and new parameters, are shown."""
     robot_with_parameters(world)
-    page = world.open('parameters')
+    page = world.visit('parameters')
     page.wait_for('nodes', lambda nodes: '/robot1/robot' in nodes)
     page.ask('choose', node='/robot1/robot')
     page.wait_for('parameters', bool)
@@ -200,7 +200,7 @@ def test_services(world: LiveWorld) -> None:
         return response
 
     service = world.robot.create_service(SetBool, 'switch', switch)
-    page = world.open('services', Namespace='robot1', Timeout=1.0)
+    page = world.visit('services', Namespace='robot1', Timeout=1.0)
     row = ['/robot1/switch', 'std_srvs/srv/SetBool', True]
     page.wait_for('rows', lambda rows: row in rows)
     page.ask('choose', service='/robot1/switch')
@@ -227,7 +227,7 @@ def test_service_that_does_not_answer(world: LiveWorld) -> None:
     rclpy.init(context=other, domain_id=world.ros.get_domain_id())
     dead = Node('dead', context=other)
     dead.create_service(SetBool, '/stuck', lambda request, response: response)
-    page = world.open('services', Timeout=1.0)
+    page = world.visit('services', Timeout=1.0)
     page.wait_for('rows', lambda rows: any(row[0] == '/stuck' for row in rows))
     page.ask('call', service='/stuck', text='', number=1)
     failed = page.wait_for('number', lambda n: n == 1)['failed']
@@ -239,7 +239,7 @@ def test_service_that_does_not_answer(world: LiveWorld) -> None:
 @pytest.mark.parametrize('name', PANELS)
 def test_small_page(world: LiveWorld, name: str) -> None:
     """The pages are complete, and ask nobody else for anything."""
-    world.open(name)
+    world.visit(name)
     connection = HTTPConnection('127.0.0.1', world.page.port, timeout=30)
     connection.request('GET', f'/{name}')
     text = connection.getresponse().read().decode()
@@ -251,8 +251,8 @@ def test_small_page(world: LiveWorld, name: str) -> None:
 @pytest.mark.parametrize('name', PANELS)
 def test_begin_anew(world: LiveWorld, name: str) -> None:
     """A panel that is closed leaves nothing, so that another file can have it again."""
-    world.open(name)
+    world.visit(name)
     before = len(list(world.node.subscriptions)), len(list(world.node.clients))
     world.panels.pop().close()
-    world.open(name)
+    world.visit(name)
     assert (len(list(world.node.subscriptions)), len(list(world.node.clients))) == before

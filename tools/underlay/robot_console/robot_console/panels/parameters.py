@@ -106,7 +106,7 @@ class Parameters(LivePanel):
                 self._tell(node, changed={name: remote.told_of(name)})
 
         try:
-            remote.set(name, text, tell)
+            remote.change(name, text, tell)
         except ValueError as error:
             tell(str(error))
 

@@ -55,7 +55,7 @@ class RemoteParameters:
         """Tell whether the node has a parameter."""
         return name in self._values
 
-    def set(self, name: str, text: str, tell: Tell) -> None:
+    def change(self, name: str, text: str, tell: Tell) -> None:
         """Set a parameter, or raise ValueError if it cannot have such a value."""
         descriptor = self._descriptors.get(name) or ParameterDescriptor()
         value = parameter_value(text, self._values[name], descriptor)
