@@ -12,31 +12,37 @@ from humanoid_common.running import run_node
 from humanoid_common.steady import SteadyTimer
 from humanoid_control.conversions import command_message
 from humanoid_control.joint_controller_parameters import JointControllerParameters
+from humanoid_control.stop_listener import StopListener
+from humanoid_control.stoppable_motion import StoppableMotion
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
 
 class HumanoidJointController(Node):
-    """Swings the joints that its parameters name, on the topic `joint_commands`."""
+    """Swings the joints that its parameters name, on the topic `joint_commands`, until a stop."""
 
     def __init__(self, **options: Any) -> None:
         """Start to publish."""
         super().__init__('humanoid_joint_controller', **options)
         self._settings = NodeParameters(self, JointControllerParameters, self._change)
         parameters = self._settings.current
-        self._motion = parameters.motion
+        self._motion = StoppableMotion(parameters.motion)
+        self._stop = StopListener(self, parameters.heartbeat_timeout_s)
         self._publisher = self.create_publisher(JointState, 'joint_commands', COMMAND)
         self._timer = SteadyTimer(self, parameters.rate_hz, self._publish)
         self.get_logger().info(f'Humanoid Joint Controller started ({parameters.rate_hz:g} Hz)')
 
     def _publish(self, now_s: float) -> None:
         """Publish the command for this moment."""
-        stamp = self.get_clock().now().to_msg()
-        self._publisher.publish(command_message(self._motion, now_s, stamp))
+        command = self._motion.command(now_s, self._stop.must_hold())
+        if command is not None:
+            stamp = self.get_clock().now().to_msg()
+            self._publisher.publish(command_message(command, stamp))
 
     def _change(self, parameters: JointControllerParameters) -> None:
         """Follow a change of the parameters."""
-        self._motion = self._motion.followed_by(parameters.motion, self._timer.now_s())
+        self._motion.change(parameters.motion, self._timer.now_s())
+        self._stop.guard.heartbeat_timeout_s = parameters.heartbeat_timeout_s
         self._timer.set_rate(parameters.rate_hz)
         self.get_logger().info(f'Parameters changed: {parameters}')
 

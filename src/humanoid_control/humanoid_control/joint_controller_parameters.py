@@ -39,6 +39,12 @@ class JointControllerParameters:
         at_least=-100.0,
         at_most=100.0,
     )
+    heartbeat_timeout_s: float = parameter(
+        0.5,
+        'How long the console that is in control may be silent before the joints are held.',
+        at_least=0.2,
+        at_most=10.0,
+    )
 
     def __post_init__(self) -> None:
         """Check what must hold for all lists together."""

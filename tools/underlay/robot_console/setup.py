@@ -9,7 +9,7 @@ setup(
     name=package_name,
     version='0.1.0',
     packages=find_packages(exclude=['test']),
-    package_data={package_name: ['py.typed']},
+    package_data={package_name: ['py.typed', 'web/*']},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{package_name}']),
         (f'share/{package_name}', ['package.xml']),
@@ -22,4 +22,10 @@ setup(
     description='A console for robots: panels for RViz in the browser.',
     license='Apache-2.0',
     tests_require=['pytest'],
+    entry_points={
+        'rviz_common.panels': [
+            'robot_console/Drive = robot_console.panels.drive:Drive',
+            'robot_console/Safety = robot_console.panels.safety:Safety',
+        ],
+    },
 )

@@ -27,6 +27,8 @@ class Panel:
     PROPERTIES: ClassVar[tuple[Property, ...]] = ()
     UNUSED: ClassVar[tuple[str, ...]] = ()
     """Properties of RViz, by their first name, that mean nothing in a browser."""
+    IS_ALWAYS_VISIBLE: ClassVar[bool] = False
+    """Whether it is not in a tab; it then removes its widgets itself when it is closed."""
 
     def __init__(self, context: Context, given: Mapping[str, Any] | None = None) -> None:
         """Take the properties that a file gives."""

@@ -38,6 +38,10 @@ class Routes:
             raise ValueError(f"There is something at '{path}' already.")
         self._by_path[path] = route
 
+    def remove(self, path: str) -> None:
+        """Serve it no longer; connections that are open stay."""
+        self._by_path.pop(path, None)
+
     def find(self, target: str) -> Route | None:
         """Return what is at the path of a request."""
         return self._by_path.get(unquote(urlsplit(target).path).rstrip('/'))

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import nullcontext
 import copy
 from typing import Any
 
@@ -18,14 +19,15 @@ BUILT_IN = ('rviz_common/Help', 'rviz_common/Selection', 'rviz_common/Transforma
 
 
 class PanelTabs:
-    """The panels of a file, each in a tab; other entries are kept for the file."""
+    """The panels of a file, most in a tab each; other entries are kept for the file."""
 
     def __init__(self, context: Context, entries: Sequence[Mapping[str, Any]]) -> None:
         """Add the panels that a file lists."""
         self._context = context
         self._logger = context.node.get_logger()
         self._entries: list[Panel | Mapping[str, Any]] = [self._made(entry) for entry in entries]
-        self._tabs: Any = context.gui.add_tab_group() if self.panels else None
+        has_tabs = not all(panel.IS_ALWAYS_VISIBLE for panel in self.panels)
+        self._tabs: Any = context.gui.add_tab_group() if has_tabs else None
         self._running = [panel for panel in self.panels if self._started(panel)]
 
     @property
@@ -67,7 +69,8 @@ class PanelTabs:
         return panel
 
     def _started(self, panel: Panel) -> bool:
-        with self._tabs.add_tab(panel.name):
+        tab = nullcontext() if panel.IS_ALWAYS_VISIBLE else self._tabs.add_tab(panel.name)
+        with tab:
             return self._guarded(panel, panel.start)
 
     def _guarded(self, panel: Panel, work: Callable[[], None]) -> bool:

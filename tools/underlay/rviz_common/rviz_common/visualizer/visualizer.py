@@ -47,6 +47,7 @@ from tf2_ros import Buffer, TransformListener
 
 if TYPE_CHECKING:
     from rclpy.node import Node
+    from rviz_common.page import Page
     from viser import ViserServer
 
 __all__ = ['Visualizer']
@@ -60,14 +61,14 @@ class Visualizer:
     """
 
     def __init__(
-        self, node: Node, server: ViserServer, configuration: Configuration, path: str = ''
+        self, node: Node, page: Page, configuration: Configuration, path: str = ''
     ) -> None:
         """Show what a configuration says; `path` is the file that it is from."""
         wake = node.create_guard_condition(self._work)
         self._buffer = Buffer()
         self._listener = TransformListener(self._buffer, node)
         frames = Frames(self._buffer)
-        self.context = Context(node, server, frames, WorkQueue(wake.trigger), self)
+        self.context = Context(node, page, frames, WorkQueue(wake.trigger), self)
         self.status = Statuses()
         self.watch = FrameWatch(node, frames, self.status)
         self._wake = wake

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where joints are to be, and how fast they are to move there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from humanoid_control.sine_motion import Motion
+
+
+@dataclass(frozen=True)
+class JointCommand:
+    """A position and a velocity for each joint."""
+
+    joints: list[str]
+    positions_rad: list[float]
+    velocities_rad_s: list[float]
+
+    def still(self) -> JointCommand:
+        """Return the command to stay there."""
+        return replace(self, velocities_rad_s=[0.0] * len(self.joints))
+
+
+def command_of(motion: Motion, now_s: float) -> JointCommand:
+    """Return the command of a moment of a motion."""
+    return JointCommand(motion.joints, motion.positions_rad(now_s), motion.velocities_rad_s(now_s))

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A motion that can be held and released without a jump."""
+
+from __future__ import annotations
+
+from humanoid_control.joint_command import command_of, JointCommand
+from humanoid_control.sine_motion import Motion
+
+RESUME_S = 2.0
+"""How long it takes from a release until the joints are in their motion again."""
+
+
+class StoppableMotion:
+    """
+    A motion whose time stands still while it is held.
+
+    After a release the joints go from where they were held into the motion, from rest and
+    steadily, even if it has become another one meanwhile.
+    """
+
+    def __init__(self, motion: Motion) -> None:
+        """Begin with a motion that is not held."""
+        self._motion = motion
+        self._behind_s = 0.0
+        self._last: JointCommand | None = None
+        self._held_since_s: float | None = None
+        self._released_s: float | None = None
+        self._held: dict[str, float] = {}
+
+    def command(self, now_s: float, hold: bool) -> JointCommand | None:
+        """Return the command of this moment; None if joints are held that never had one."""
+        if hold:
+            self._begin_to_hold(now_s)
+        else:
+            self._begin_to_move(now_s)
+            self._last = self._blended(command_of(self._motion, now_s - self._behind_s), now_s)
+        return self._last
+
+    def change(self, motion: Motion, now_s: float) -> None:
+        """Go over to another motion; while the joints are held, they stay where they are."""
+        moment_s = now_s if self._held_since_s is None else self._held_since_s
+        self._motion = self._motion.followed_by(motion, moment_s - self._behind_s)
+
+    def _begin_to_hold(self, now_s: float) -> None:
+        if self._held_since_s is None:
+            self._held_since_s = now_s
+            self._last = self._last.still() if self._last else None
+
+    def _begin_to_move(self, now_s: float) -> None:
+        if self._held_since_s is not None:
+            self._behind_s += now_s - self._held_since_s
+            self._held_since_s = None
+            self._released_s = now_s
+            last = self._last
+            self._held = dict(zip(last.joints, last.positions_rad)) if last else {}
+
+    def _blended(self, target: JointCommand, now_s: float) -> JointCommand:
+        """Return the way from where the joints were held into the motion."""
+        if self._released_s is None:
+            return target
+        passed = (now_s - self._released_s) / RESUME_S
+        if passed >= 1.0:
+            self._released_s = None
+            return target
+        share, growth_per_s = passed**2 * (3 - 2 * passed), 6 * passed * (1 - passed) / RESUME_S
+        positions_rad, velocities_rad_s = [], []
+        for joint, to_rad, speed_rad_s in zip(
+            target.joints, target.positions_rad, target.velocities_rad_s
+        ):
+            from_rad = self._held.get(joint, to_rad)
+            positions_rad.append(from_rad + share * (to_rad - from_rad))
+            velocities_rad_s.append(growth_per_s * (to_rad - from_rad) + share * speed_rad_s)
+        return JointCommand(target.joints, positions_rad, velocities_rad_s)

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The connections of a small page, each with a session."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+import json
+import secrets
+import threading
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+from robot_console.people import People
+from robot_console.session import Session
+from websockets.asyncio.server import ServerConnection
+from websockets.exceptions import ConnectionClosed
+
+__all__ = ['Connections']
+
+SILENCE_S = 0.3
+"""For how long a page that is in control may be silent."""
+READING_S = 0.05
+"""How long it may take to read what has come while the thread of the page was busy."""
+ENDING_S = 1.0
+REFUSED = 1008
+
+
+class Connections:
+    """Talks to all who have a small page open, in the thread of the page."""
+
+    def __init__(self, people: People, begin: Callable[[str], Session]) -> None:
+        """Take what begins a session for a person."""
+        self._people = people
+        self._begin = begin
+        self._talks: dict[asyncio.Task[None], asyncio.AbstractEventLoop] = {}
+        self._all_ended = threading.Event()
+        self._all_ended.set()
+        self._is_over = False
+
+    async def talk(self, connection: ServerConnection) -> None:
+        """Talk to one of them, until one of both ends it."""
+        if self._is_over:
+            return
+        task = asyncio.ensure_future(self._serve(connection))
+        self._talks[task] = asyncio.get_running_loop()
+        self._all_ended.clear()
+        try:
+            await task
+        except (ConnectionClosed, asyncio.CancelledError):
+            pass
+        finally:
+            del self._talks[task]
+            if not self._talks:
+                self._all_ended.set()
+
+    def end(self) -> None:
+        """End all sessions, from another thread, and wait for that."""
+        self._is_over = True
+        for task, loop in list(self._talks.items()):
+            if not loop.is_closed():
+                loop.call_soon_threadsafe(task.cancel)
+        self._all_ended.wait(ENDING_S)
+
+    async def _serve(self, connection: ServerConnection) -> None:
+        """Talk to somebody, in a session."""
+        key = _key(connection.request.path if connection.request else '')
+        session = self._begin(self._people.arrive(key, str(connection.remote_address[0])))
+        try:
+            await _exchange(connection, session)
+        finally:
+            session.lose()
+            self._people.leave(key)
+
+
+async def _exchange(connection: ServerConnection, session: Session) -> None:
+    """Answer each message, and notice when a page is silent that must not be."""
+    while True:
+        try:
+            text = await _next(connection, session.is_watched)
+        except asyncio.TimeoutError:
+            session.lose()
+            continue
+        answer = _answer(session, text)
+        if isinstance(answer, ValueError):
+            await connection.close(REFUSED, ascii(str(answer))[:100])
+            return
+        await connection.send(answer)
+
+
+def _answer(session: Session, text: Any) -> str | ValueError:
+    """Return the answer to a message, or why it has none."""
+    try:
+        return json.dumps(session.take(json.loads(text)))
+    except ValueError as error:
+        return error
+    except RecursionError:
+        return ValueError('This is nested too deeply.')
+
+
+async def _next(connection: ServerConnection, is_watched: bool) -> str | bytes:
+    if not is_watched:
+        return await connection.recv()
+    try:
+        return await asyncio.wait_for(connection.recv(), SILENCE_S)
+    except asyncio.TimeoutError:
+        return await asyncio.wait_for(connection.recv(), READING_S)
+
+
+def _key(path: str) -> str:
+    """Return what a page is known by, which it says in its address."""
+    return parse_qs(urlsplit(path).query).get('me', [''])[0][:40] or secrets.token_hex(8)

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The stop button, and what one must know before one presses it."""
+
+from __future__ import annotations
+
+import time
+
+from robot_console.connections import Connections
+from robot_console.namespaces import below, NAMESPACE
+from robot_console.robot_kind import AUTO, KINDS, robot_kind
+from robot_console.robot_link import LATCHED, link_of
+from robot_console.safety_session import Facts, SafetySession
+from robot_console.small_page import SmallPage
+from rviz_common.panel import Panel
+from rviz_common.properties import Choice
+from std_msgs.msg import String
+
+__all__ = ['Safety']
+
+PERIOD_S = 0.5
+FIRST = -1.0
+
+
+class Safety(Panel):
+    """
+    A button that stops the robot, whether it hears that, whether it is real, who is in control.
+
+    A press is published in the thread of the connection, whatever else the page is busy with.
+    """
+
+    CLASS = 'robot_console/Safety'
+    IS_ALWAYS_VISIBLE = True
+    PROPERTIES = (
+        NAMESPACE,
+        Choice(
+            'Robot',
+            AUTO,
+            'Whether the robot is real; auto: simulated if somebody publishes /clock.',
+            KINDS,
+        ),
+    )
+
+    def start(self) -> None:
+        """Add the page with the button."""
+        namespace, node = self.values['Namespace'], self.context.node
+        self._link = link_of(self.context, namespace)
+        self._state_topic = below(namespace, 'stop_state')
+        self._facts = Facts()
+        self._says = ''
+        self._looked_s = -PERIOD_S
+        self._ear = node.create_subscription(String, self._state_topic, self._hear, LATCHED)
+        settings = {
+            'domain': node.context.get_domain_id(),
+            'topic': node.resolve_topic_name(self._link.stop_topic),
+            'namespace': namespace,
+        }
+        talks = Connections(self._link.people, self._session)
+        self._page = SmallPage(self.context, 'safety', namespace, settings, talks, FIRST)
+
+    def update(self) -> None:
+        """Look who is there, now and then."""
+        now_s = time.monotonic()
+        if now_s - self._looked_s >= PERIOD_S:
+            self._looked_s = now_s
+            self._facts = self._look()
+
+    def close(self) -> None:
+        """End the page: the robot notices if this console was in control."""
+        self._page.close()
+        self.context.node.destroy_subscription(self._ear)
+
+    def _session(self, person: str) -> SafetySession:
+        return SafetySession(self._link, person, lambda: self._facts)
+
+    def _hear(self, message: String) -> None:
+        self._says = message.data
+        self._looked_s = -PERIOD_S
+
+    def _look(self) -> Facts:
+        """Return what the graph of nodes says about the robot."""
+        node, topic = self.context.node, self._link.stop_topic
+        own = node.get_fully_qualified_name()
+        names = [
+            sorted({_name(end.node_namespace, end.node_name) for end in ends} - {own})
+            for ends in (
+                node.get_subscriptions_info_by_topic(topic),
+                node.get_publishers_info_by_topic(topic),
+            )
+        ]
+        is_said = node.count_publishers(self._state_topic) > 0
+        return Facts(
+            robot_kind(self.values['Robot'], node.count_publishers('/clock')),
+            tuple(names[0]),
+            tuple(names[1]),
+            self._says if is_said else None,
+        )
+
+
+def _name(namespace: str, name: str) -> str:
+    return f'{namespace.rstrip("/")}/{name}'

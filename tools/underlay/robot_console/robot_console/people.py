@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Short names for those who have a page open."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+__all__ = ['People']
+
+
+class People:
+    """Names such as `browser 2 (127.0.0.1)`, one for all connections of a page."""
+
+    def __init__(self) -> None:
+        """Begin with nobody."""
+        self._names: dict[str, str] = {}
+        self._connections: Counter[str] = Counter()
+        self._count = 0
+
+    def arrive(self, key: str, address: str) -> str:
+        """Return the name of a page that connects, known by a key that it made up."""
+        self._connections[key] += 1
+        if key not in self._names:
+            self._count += 1
+            self._names[key] = f'browser {self._count} ({address})'
+        return self._names[key]
+
+    def leave(self, key: str) -> None:
+        """Forget a page with its last connection."""
+        self._connections[key] -= 1
+        if not self._connections[key]:
+            del self._connections[key], self._names[key]

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the console says to a robot, from whichever thread."""
+
+from __future__ import annotations
+
+import time
+from weakref import WeakKeyDictionary
+
+from rclpy.event_handler import SubscriptionEventCallbacks
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from robot_console.control import Control
+from robot_console.emergency_stop import EmergencyStop
+from robot_console.namespaces import below
+from robot_console.people import People
+from rviz_common.context import Context
+from rviz_common.page import Page
+from std_msgs.msg import Bool
+
+__all__ = ['COMMAND', 'LATCHED', 'RobotLink', 'link_of']
+
+LATCHED = QoSProfile(
+    depth=1,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+COMMAND = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
+NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+BEAT_PERIOD_S = 0.08
+
+
+class RobotLink:
+    """
+    The emergency stop of a robot, and the heartbeat of the console for it.
+
+    What is published goes out at once, from the thread that asks for it. The link stays as long
+    as the node, so that a stop is heard also by those who join late.
+    """
+
+    def __init__(self, node: Node, namespace: str) -> None:
+        """Begin to listen; nothing is said yet, since a false would release a stop."""
+        self.control = Control()
+        self.stop = EmergencyStop()
+        self.people = People()
+        self.stop_topic = below(namespace, 'emergency_stop')
+        self._beat_s = -1.0
+        self._stop_publisher = node.create_publisher(Bool, self.stop_topic, LATCHED)
+        self._beat_publisher = node.create_publisher(
+            Bool, below(namespace, 'console_heartbeat'), NEWEST
+        )
+        quiet = SubscriptionEventCallbacks(use_default_callbacks=False)
+        for qos in (LATCHED, NEWEST):  # as the second one also those are heard who keep nothing
+            node.create_subscription(Bool, self.stop_topic, self._hear, qos, event_callbacks=quiet)
+
+    def say_stop(self, pressed: bool, by: str) -> None:
+        """Press or release the emergency stop."""
+        self.stop.say(pressed, by)
+        self._stop_publisher.publish(Bool(data=pressed))
+
+    def beat(self, in_control: bool) -> None:
+        """Give the robot a sign of life; those that follow too soon are left out."""
+        now_s = time.monotonic()
+        if not in_control or now_s - self._beat_s >= BEAT_PERIOD_S:
+            self._beat_s = now_s
+            self._beat_publisher.publish(Bool(data=in_control))
+
+    def _hear(self, message: Bool) -> None:
+        self.stop.hear(message.data)
+
+
+_LINKS: WeakKeyDictionary[Page, dict[str, RobotLink]] = WeakKeyDictionary()
+
+
+def link_of(context: Context, namespace: str) -> RobotLink:
+    """Return the link to the robot of a namespace, which all panels of a page share."""
+    links = _LINKS.setdefault(context.page, {})
+    name = namespace.strip('/')
+    if name not in links:
+        links[name] = RobotLink(context.node, name)
+    return links[name]

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Small pages inside of the page, with connections of their own."""
+
+from __future__ import annotations
+
+from html import escape
+from importlib.resources import files
+import json
+from typing import Any
+from urllib.parse import quote
+
+from robot_console.connections import Connections
+from rviz_common.context import Context
+from rviz_common.page import Route
+
+__all__ = ['SmallPage', 'page_text']
+
+COMMON = ('common.css', 'link.js')
+# The page dims and blocks its widgets when its own connection is lost; these have another one.
+STYLE = 'display: block; width: 100%; border: 0; color-scheme: dark; pointer-events: auto'
+
+
+class SmallPage:
+    """The page of a robot, among the widgets and at a path of its own."""
+
+    def __init__(
+        self,
+        context: Context,
+        name: str,
+        namespace: str,
+        settings: dict[str, Any],
+        connections: Connections,
+        order: float | None = None,
+    ) -> None:
+        """Add it, or raise ValueError if there is one already."""
+        self._context = context
+        self._connections = connections
+        self._path = f'/{name}/{namespace}' if namespace else f'/{name}'
+        context.page.routes.add(self._path, Route(page_text(name, settings), connections.talk))
+        self._frame = context.gui.add_html(
+            f'<iframe src="{escape(quote(self._path))}" title="{escape(name)}" style="{STYLE}">'
+            '</iframe>',
+            order=order,
+        )
+
+    def close(self) -> None:
+        """End what it does, and remove it."""
+        self._context.page.routes.remove(self._path)
+        self._connections.end()
+        self._frame.remove()
+
+
+def page_text(name: str, settings: dict[str, Any]) -> str:
+    """Return the text of a page, with what all have in common and its settings put in."""
+    folder = files('robot_console') / 'web'
+    text = (folder / f'{name}.html').read_text(encoding='utf-8')
+    for part in COMMON:
+        text = text.replace(f'/* {part} */', (folder / part).read_text(encoding='utf-8'))
+    return text.replace('/* settings */ {}', json.dumps(settings).replace('<', '\\u003c'))

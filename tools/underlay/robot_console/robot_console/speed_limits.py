@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How fast a robot is driven."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+from typing import Any, NamedTuple
+
+__all__ = ['STILL', 'SpeedLimits', 'Velocity']
+
+
+class Velocity(NamedTuple):
+    """A velocity of the base of a robot."""
+
+    forward_m_s: float = 0.0
+    left_m_s: float = 0.0
+    turn_rad_s: float = 0.0
+
+
+STILL = Velocity()
+
+
+@dataclass(frozen=True)
+class SpeedLimits:
+    """The greatest speeds; zero if the robot cannot move so."""
+
+    forward_m_s: float
+    sideways_m_s: float
+    turn_rad_s: float
+
+    def velocity(self, stick: Any, share: Any) -> Velocity:
+        """
+        Return the velocity for a stick, or raise ValueError.
+
+        The stick has three numbers from -1 to 1: forward, to the left, and turn to the left. The
+        shares from 0 to 1 are those of the limits that the person wants: of moving, of turning.
+        """
+        forward, left, turn = _numbers(stick, 3, -1.0)
+        move_share, turn_share = _numbers(share, 2, 0.0)
+        return Velocity(
+            forward * move_share * self.forward_m_s,
+            left * move_share * self.sideways_m_s,
+            turn * turn_share * self.turn_rad_s,
+        )
+
+
+def _numbers(given: Any, count: int, least: float) -> list[float]:
+    """Return numbers from the least one to 1, or raise ValueError."""
+    if not isinstance(given, list) or len(given) != count:
+        raise ValueError(f'must be {count} numbers, and not {given}')
+    for each in given:
+        if isinstance(each, bool) or not isinstance(each, (int, float)) or not math.isfinite(each):
+            raise ValueError(f'must be finite numbers, and not {given}')
+    return [max(least, min(1.0, float(each))) for each in given]

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the panels of safety and driving know, as values."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+from robot_console.emergency_stop import EmergencyStop
+from robot_console.namespaces import below, NAMESPACE
+from robot_console.people import People
+from robot_console.robot_kind import AUTO, REAL, robot_kind, SIMULATED, UNKNOWN
+from robot_console.speed_limits import SpeedLimits
+
+LIMITS = SpeedLimits(0.5, 0.3, 2.0)
+
+
+@pytest.mark.parametrize(
+    ('told', 'clocks', 'kind'),
+    [
+        (AUTO, 0, UNKNOWN),
+        (AUTO, 1, SIMULATED),
+        (REAL, 0, REAL),
+        (REAL, 1, REAL),
+        (SIMULATED, 0, SIMULATED),
+    ],
+)
+def test_kind(told: str, clocks: int, kind: str) -> None:
+    """Without being told no robot is called real."""
+    assert robot_kind(told, clocks) == kind
+
+
+@pytest.mark.parametrize(
+    ('namespace', 'topic', 'full'),
+    [
+        ('', 'cmd_vel', 'cmd_vel'),
+        ('robot1', 'cmd_vel', '/robot1/cmd_vel'),
+        ('fleet/robot1', 'cmd_vel', '/fleet/robot1/cmd_vel'),
+        ('robot1', '/clock', '/clock'),
+    ],
+)
+def test_below(namespace: str, topic: str, full: str) -> None:
+    """The namespace is put before relative names."""
+    assert below(namespace, topic) == full
+
+
+def test_namespace() -> None:
+    """What cannot be a namespace is refused; slashes around do not matter."""
+    assert NAMESPACE.read('/robot1/') == 'robot1'
+    assert NAMESPACE.read(None) == ''
+    for wrong in ('robot 1', '"><script>', '1st', 'a//b'):
+        with pytest.raises(ValueError, match="must be like 'robot1'"):
+            NAMESPACE.read(wrong)
+
+
+def test_people() -> None:
+    """All connections of a page have one name, which no later page gets."""
+    people = People()
+    assert people.arrive('a', 'here') == people.arrive('a', 'here') == 'browser 1 (here)'
+    assert people.arrive('b', 'there') == 'browser 2 (there)'
+    people.leave('a')
+    assert people.arrive('a', 'here') == 'browser 1 (here)'
+    people.leave('a')
+    people.leave('a')
+    assert people.arrive('a', 'here') == 'browser 3 (here)'
+
+
+def test_stop_that_others_publish() -> None:
+    """Who pressed is remembered until somebody else says otherwise."""
+    stop = EmergencyStop()
+    stop.hear(False)
+    assert (stop.pressed, stop.heard) == (False, True)
+    stop.say(True, 'ann')
+    stop.hear(True)
+    assert stop == EmergencyStop(True, 'ann', True)
+    stop.hear(False)
+    assert stop == EmergencyStop(False, '', True)
+
+
+def test_velocity() -> None:
+    """The stick has its share of the limits, and never more than these."""
+    assert LIMITS.velocity([1, 0, -0.5], [0.5, 1]) == (0.25, 0.0, -1.0)
+    assert LIMITS.velocity([9.0, -9.0, 9.0], [7.0, 7.0]) == (0.5, -0.3, 2.0)
+    assert LIMITS.velocity([1.0, 1.0, 1.0], [-1.0, -1.0]) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    'stick', [None, 'x', [], [1.0], [math.nan, 0, 0], [math.inf, 0, 0], ['1', 0, 0], [True, 0, 0]]
+)
+def test_wrong_stick(stick: Any) -> None:
+    """What is no stick moves nothing."""
+    with pytest.raises(ValueError, match='numbers'):
+        LIMITS.velocity(stick, [1.0, 1.0])
+    with pytest.raises(ValueError, match='numbers'):
+        LIMITS.velocity([0, 0, 0], stick)
