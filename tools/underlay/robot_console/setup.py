@@ -25,6 +25,7 @@ setup(
     entry_points={
         'rviz_common.panels': [
             'robot_console/Drive = robot_console.panels.drive:Drive',
+            'robot_console/Recordings = robot_console.panels.recordings:Recordings',
             'robot_console/Safety = robot_console.panels.safety:Safety',
         ],
     },
