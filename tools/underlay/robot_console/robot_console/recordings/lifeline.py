@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 import json
 import os
 import queue
@@ -16,6 +16,7 @@ from typing import Any
 __all__ = ['Lifeline', 'interrupt_self', 'tell']
 
 GRACE_S = 20.0
+CHUNK_BYTES = 65536
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 CUT: dict[str, Any] = {}
 
@@ -47,13 +48,21 @@ class Lifeline:
             return [each for each in found if each]
 
     def _listen(self) -> None:
-        for line in sys.stdin.buffer:
+        for line in _lines():
             self._waiting.put(json.loads(line))
         self.is_cut = True
         self._waiting.put(CUT)  # wakes who waits
         self._on_cut()
         time.sleep(GRACE_S)
         os._exit(1)
+
+
+def _lines() -> Iterator[bytes]:
+    """Yield the lines of the standard input, with no lock that the end would wait for."""
+    text = b''
+    while part := os.read(sys.stdin.fileno(), CHUNK_BYTES):
+        *lines, text = (text + part).split(b'\n')
+        yield from lines
 
 
 def _hear_signals() -> None:

@@ -77,7 +77,8 @@ class SceneTape:
     def close(self) -> None:
         """Keep nothing any longer."""
         with self._web._record_lock:
-            self._web._record_handles.remove(self)
+            if self in self._web._record_handles:
+                self._web._record_handles.remove(self)
 
     def page(self, title: str, max_bytes: int) -> bytes:
         """Return a page that shows what is kept, or raise TooLarge; this takes a while."""
