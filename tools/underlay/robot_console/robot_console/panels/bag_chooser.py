@@ -12,8 +12,8 @@ from robot_console.assigning import assign
 from robot_console.recordings.shelf import Bag, Shelf
 from robot_console.recordings.words import about, clock_text
 from rviz_common.context import Context
+from rviz_common.pace import Pace
 from rviz_common.panels.marks import escaped
-from rviz_common.panels.pace import Pace
 
 __all__ = ['BagChooser']
 

@@ -18,8 +18,8 @@ from robot_console.recordings.shelf import Bag
 from robot_console.recordings.words import clock_text, listed, mixture_text
 from rviz_common.context import Context
 from rviz_common.inputs import on_choice
+from rviz_common.pace import Pace
 from rviz_common.panels.marks import escaped
-from rviz_common.panels.pace import Pace
 
 __all__ = ['PlayFolder']
 

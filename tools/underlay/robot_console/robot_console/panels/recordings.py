@@ -11,8 +11,8 @@ from robot_console.panels.play_folder import PlayFolder
 from robot_console.panels.record_folder import RecordFolder
 from robot_console.panels.scene_folder import SceneFolder
 from robot_console.recordings.commands_left_out import COMMANDS
+from rviz_common.pace import Pace
 from rviz_common.panel import Panel
-from rviz_common.panels.pace import Pace
 from rviz_common.properties import Flag, Number, Text
 
 __all__ = ['Recordings']
