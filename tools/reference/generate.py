@@ -8,6 +8,7 @@ from pathlib import Path
 import re
 import subprocess
 
+import displays
 import launch_names
 from own_packages import is_own_package
 
@@ -75,10 +76,16 @@ def transforms_page() -> str:
     return '\n'.join(parts)
 
 
+def displays_page() -> str:
+    """Describe the displays, panels, tools and views of RViz in the browser."""
+    return '\n'.join([NOTE, *displays.lines()])
+
+
 def pages() -> dict[str, str]:
     """Return the text of each page by file name."""
     return {
         'commands.md': commands_page(),
+        'displays.md': displays_page(),
         'launch_files.md': launch_page(),
         'launch_names.md': names_page(),
         'transforms.md': transforms_page(),

@@ -47,6 +47,13 @@ def test_the_names_of_launch_files_are_described(root: Path, generate: ModuleTyp
     assert '| `Node` | `node` | `executable`, `package=`,' in written
 
 
+def test_the_displays_are_described(root: Path, generate: ModuleType) -> None:
+    """Each display, panel, tool and view and its properties are in the reference."""
+    written = (root / 'docs' / 'reference' / 'displays.md').read_text()
+    assert written == generate.displays_page()
+    assert '| `Plane` | `XY`, `XZ`, `YZ` | `XY` |' in written
+
+
 def test_every_verb_is_described(root: Path, generate: ModuleType) -> None:
     """Each command and verb has its section; how options are laid out depends on the Python."""
     written = (root / 'docs' / 'reference' / 'commands.md').read_text()

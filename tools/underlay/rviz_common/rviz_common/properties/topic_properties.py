@@ -29,7 +29,7 @@ def topic_properties(
 ) -> tuple[Property, ...]:
     """Return the properties of a topic that messages of a type come from."""
     return (
-        Topic(f'{path}/Value', topic, 'Where the messages come from.', type_name),
+        Topic(f'{path}/Value', topic, 'The topic of the messages.', type_name),
         Whole(f'{path}/Depth', depth, 'How many messages may wait.', 1, 100000),
         Choice(
             f'{path}/Durability Policy',
