@@ -26,7 +26,7 @@ CHROMIUM = '/usr/bin/chromium'
 # Two of these are for machines without a graphics card, one for those without user namespaces.
 ARGUMENTS = ('--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--no-sandbox')
 SIZE = {'width': 900, 'height': 620}
-PATIENCE_S = 90.0
+PATIENCE_S = 60.0
 PICTURES = Path(__file__).resolve().parents[2] / 'build' / 'pictures'
 
 NODE = """
@@ -117,6 +117,7 @@ class Tab:
         """Keep what is seen, without what viser says about machines without a graphics card."""
         for button in self.page.locator('.mantine-Notification-closeButton').all():
             button.click()
+        wait_until(lambda: not self.page.locator('.mantine-Notification-root').count(), 20.0, '')
         path = PICTURES / f'{name}.png'
         self.page.screenshot(path=path, timeout=PATIENCE_S * 1000.0)
         return path

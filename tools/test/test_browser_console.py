@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+import os
+import signal
 from typing import Any
 
 from browser import Browser, browser_started, Tab
@@ -100,6 +102,55 @@ def test_the_robot_is_shown_where_it_is(robot: World, tab: Tab) -> None:
     release(robot, tab)
     wait_for_motion(tab)
     tab.picture('console_moving')
+
+
+def test_a_parameter_is_changed(robot: World, tab: Tab) -> None:
+    """A value that is typed in the page is that of the node; a refusal is shown."""
+    tab.show('Parameters')
+    page = tab.small('parameters')
+    page.get_by_label('Node').select_option('/sensor_processor')
+    field = page.get_by_label('report_period_s')
+    field.fill('0.5')
+    field.press('Enter')
+    wait_until(lambda: period_s(robot) == 0.5, 30.0, lambda: f'not {period_s(robot)}')
+    field.fill('-1')
+    field.press('Enter')
+    page.locator('.note.bad').filter(has_text='period').wait_for()
+    tab.picture('console_parameters')
+    assert period_s(robot) == 0.5
+
+
+def period_s(robot: World) -> float:
+    """Return how often the sensor processor reports, as it says itself."""
+    return robot.ros.parameter('/sensor_processor', 'report_period_s').double_value
+
+
+def test_a_recording_is_made_and_played(robot: World, tab: Tab) -> None:
+    """What was recorded from the page moves the robot in the scene when all others are gone."""
+    wait_for_motion(tab)
+    tab.show('Recordings')
+    tab.box('Name').fill('swing')
+    tab.button('Record').click()
+    tab.page.get_by_text('Recording swing').wait_for()
+    heard = len(commands(robot))
+    wait_until(lambda: len(commands(robot)) > heard + 150, 30.0, 'something to record')
+    tab.button('Stop recording').click()
+    tab.page.get_by_text('Recorded swing').wait_for()
+    end_robot(robot)
+    tab.button('Play').click()
+    tab.page.get_by_text('PLAYING swing').wait_for()
+    wait_for_motion(tab)
+    tab.picture('console_playing')
+    tab.button('Stop').click()
+    tab.page.get_by_text('PLAYING swing').wait_for(state='detached')
+
+
+def end_robot(robot: World) -> None:
+    """End all but the console."""
+    program = robot.programs[0]
+    for name in ('joint_controller', 'joint_state_publisher', 'robot_state_publisher'):
+        os.kill(pid_of(program, name), signal.SIGINT)
+    wait_until(lambda: program.output.count('has finished cleanly') == 3, 30.0, 'their end')
 
 
 def test_nothing_is_loaded_from_elsewhere(robot: World, tab: Tab) -> None:
