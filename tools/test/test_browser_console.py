@@ -115,7 +115,7 @@ def test_a_parameter_is_changed(robot: World, tab: Tab) -> None:
     wait_until(lambda: period_s(robot) == 0.5, 30.0, lambda: f'not {period_s(robot)}')
     field.fill('-1')
     field.press('Enter')
-    page.locator('.note.bad').filter(has_text='period').wait_for()
+    page.locator('.note.bad').filter(has_text='It must be from 0.1').wait_for()
     tab.picture('console_parameters')
     assert period_s(robot) == 0.5
 
