@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 import sys
-from typing import Any
+from typing import Any, ClassVar
 
 from joint_state_publisher.merged_joints import MergedJoints, States
-from joint_state_publisher.parameters import CHANGEABLE, declare_settings
+from joint_state_publisher.parameters import CHANGEABLE, declare_settings, Extra
 from joint_state_publisher.settings import Settings, settings_of
 from joint_state_publisher.sources import Sources
 from rcl_interfaces.msg import SetParametersResult
@@ -22,7 +22,7 @@ from robot_state_publisher.state_watch import StateWatch
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_ros.program import run_node
-from urdf import parse_urdf
+from urdf import parse_urdf, RobotModel
 
 __all__ = ['JointStatePublisher', 'main']
 
@@ -34,6 +34,9 @@ REPEAT_S = 10.0
 class JointStatePublisher(Node):
     """Publishes the joint states of a robot: defaults, merged with what other topics tell."""
 
+    EXTRAS: ClassVar[Mapping[str, Extra]] = {}
+    """The parameters of a node that does more."""
+
     def __init__(self, file: str | None = None) -> None:
         """Declare the parameters; the URDF may be in a file."""
         super().__init__(
@@ -41,7 +44,7 @@ class JointStatePublisher(Node):
             automatically_declare_parameters_from_overrides=True,
             parameter_overrides=parameters_from_file(file),
         )
-        self._settings = declare_settings(self)
+        self._settings = declare_settings(self, self.EXTRAS)
         self._joints: MergedJoints | None = None
         self._watch: StateWatch | None = None
         self._publisher = self.create_publisher(JointState, 'joint_states', QoSProfile(depth=10))
@@ -66,10 +69,19 @@ class JointStatePublisher(Node):
         try:
             self._joints.take(states)
         except ValueError as error:
-            self.get_logger().warning(
-                f'{topic}: a message has {error}, and is left out.',
-                throttle_duration_sec=REPEAT_S,
-            )
+            self._left_out(f'{topic}: a message has {error}, and is left out.')
+            return
+        if wrong := self._joints.not_finite(states):
+            names = ', '.join(f"'{name}'" for name in wrong)
+            self._left_out(f'{topic}: no number, and left out, is the position of {names}.')
+
+    def _left_out(self, sentence: str) -> None:
+        """Say what a source told in vain; sources may do so again and again."""
+        self.get_logger().warning(sentence, throttle_duration_sec=REPEAT_S)
+
+    def _refused(self, sentence: str) -> None:
+        """Say why a robot is not taken over."""
+        self.get_logger().error(sentence)
 
     def _find_robot(self, file: str | None) -> None:
         """Load the robot from the file or the parameter, or wait for it on the topic."""
@@ -86,18 +98,22 @@ class JointStatePublisher(Node):
         """Begin anew with a robot, or raise ValueError and go on with the one that there was."""
         model = parse_urdf(settings.robot_description, source)
         joints = MergedJoints(model, settings)
-        self._settings, self._joints, self._watch = settings, joints, StateWatch(model)
-        logger = self.get_logger()
-        logger.info(model.describe())
+        self._settings = settings
+        self._begin(model, joints)
         for sentence in joints.surplus_zeros(settings):
-            logger.warning(sentence)
+            self.get_logger().warning(sentence)
+
+    def _begin(self, model: RobotModel, joints: MergedJoints) -> None:
+        """Publish the states of a robot from now on."""
+        self._joints, self._watch = joints, StateWatch(model)
+        self.get_logger().info(model.describe())
 
     def _on_description(self, message: String) -> None:
         """Take over a robot that is published, unless it is unusable."""
         try:
             self._load(self._changed({'robot_description': message.data}), 'robot_description')
         except ValueError as error:
-            self.get_logger().error(f'A robot description is left out. {error}')
+            self._refused(f'A robot description is left out. {error}')
 
     def _publish(self) -> None:
         """Publish the states of all joints, if any are known."""
@@ -115,13 +131,24 @@ class JointStatePublisher(Node):
     def _on_patience_end(self) -> None:
         """Name what is still awaited, once."""
         self._patience.cancel()
+        self._report_silence([self._silence(topic) for topic in self._awaited()])
+
+    def _awaited(self) -> list[str]:
+        """Return the topics on which nothing was heard."""
         awaited = sorted(self._sources.silent)
         if self._joints is None:
             awaited.append(self.resolve_topic_name('robot_description'))
-        for topic in awaited:
-            count = self.count_publishers(topic)
-            who = f'{count} publishers were found' if count else 'nobody publishes it'
-            self.get_logger().warning(f'Nothing was heard on {topic} so far: {who}.')
+        return awaited
+
+    def _silence(self, topic: str) -> str:
+        count = self.count_publishers(topic)
+        who = f'{count} publishers were found' if count else 'nobody publishes it'
+        return f'Nothing was heard on {topic} so far: {who}.'
+
+    def _report_silence(self, sentences: list[str]) -> None:
+        """Say what is still awaited."""
+        for sentence in sentences:
+            self.get_logger().warning(sentence)
 
     def _check(self, changes: list[Parameter]) -> SetParametersResult:
         """Accept changes only if all can be done that they ask for."""

@@ -44,12 +44,16 @@ class MergedJoints:
             for joint in moving
             if (leader := followed(joint.name, mimics, self.free)) is not None
         }
+        self.defaults = {
+            name: settings.zeros.get(name, joint.zero) for name, joint in self.free.items()
+        }
+        """The positions by default."""
         self._set_defaults(settings)
 
     def _set_defaults(self, settings: Settings) -> None:
         for name, joint in self.free.items():
             if settings.publish_default_positions:
-                joint.position = settings.zeros.get(name, joint.zero)
+                joint.position = self.defaults[name]
             if settings.publish_default_velocities:
                 joint.velocity = 0.0
             if settings.publish_default_efforts:
@@ -70,6 +74,14 @@ class MergedJoints:
             for name, value in zip(states.name, getattr(states, quantity)):
                 if name in self.free and isfinite(value):
                     setattr(self.free[name], quantity, value)
+
+    def not_finite(self, states: States) -> list[str]:
+        """Return the joints that follow no other for which a source tells no finite position."""
+        return [
+            name
+            for name, position in zip(states.name, states.position)
+            if name in self.free and not isfinite(position)
+        ]
 
     def move(self, delta: float) -> None:
         """Move every joint that follows no other by a distance."""

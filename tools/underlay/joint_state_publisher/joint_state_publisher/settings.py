@@ -10,7 +10,7 @@ from typing import Any
 from urdf import check_for_loops, Mimic
 from urdf.did_you_mean import did_you_mean
 
-__all__ = ['DESCRIPTIONS', 'MAPS', 'Settings', 'settings_of']
+__all__ = ['DESCRIPTIONS', 'MAPS', 'Settings', 'checked', 'settings_of']
 
 DESCRIPTIONS = {
     'rate': 'How often joint states are published, in 1/s.',
@@ -49,7 +49,7 @@ def settings_of(values: Mapping[str, Any]) -> Settings:
     """Return the settings that parameters mean, or raise ValueError; other names do not count."""
     known = {each.name: each.default for each in fields(Settings)}
     plain = {
-        name: _checked(name, value, known[name])
+        name: checked(name, value, known[name])
         for name, value in values.items()
         if name in DESCRIPTIONS
     }
@@ -62,7 +62,7 @@ def settings_of(values: Mapping[str, Any]) -> Settings:
 def _zeros(values: Mapping[str, Any]) -> dict[str, float]:
     """Return the positions in `zeros.JOINT`."""
     return {
-        name.removeprefix('zeros.'): _checked(name, value, 0.0)
+        name.removeprefix('zeros.'): checked(name, value, 0.0)
         for name, value in values.items()
         if name.startswith('zeros.')
     }
@@ -80,7 +80,7 @@ def _dependents(values: Mapping[str, Any]) -> dict[str, Mimic]:
                     f'{did_you_mean(key, DEPENDENT_KEYS)}'
                 )
             default = '' if key == 'parent' else 0.0
-            parts.setdefault(joint, {})[key] = _checked(name, value, default)
+            parts.setdefault(joint, {})[key] = checked(name, value, default)
     dependents = {joint: _dependent(joint, part) for joint, part in parts.items()}
     try:
         check_for_loops(dependents)
@@ -97,7 +97,7 @@ def _dependent(joint: str, part: Mapping[str, Any]) -> Mimic:
     return Mimic(part['parent'], part.get('factor', 1.0), part.get('offset', 0.0))
 
 
-def _checked(name: str, value: Any, default: Any) -> Any:
+def checked(name: str, value: Any, default: Any) -> Any:
     """Return a value as the type of the default, or raise ValueError."""
     if isinstance(default, tuple):
         texts = list(value or [])

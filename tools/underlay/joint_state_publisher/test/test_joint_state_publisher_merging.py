@@ -99,6 +99,12 @@ def test_missing_values_stay_as_they_were() -> None:
     assert states.effort == [3.0, 0.0, 0.0, 6.0, -6.0]
 
 
+def test_positions_that_are_no_number_are_named() -> None:
+    """Only those of joints that a source can set; velocities may be unknown."""
+    states = States(['knee', 'wheel', 'toe', 'other'], [nan, 0.1, nan, nan], velocity=[nan] * 4)
+    assert merged().not_finite(states) == ['knee']
+
+
 def test_source_that_contradicts_itself_changes_nothing() -> None:
     """A message with fewer positions than names is refused as a whole."""
     joints = merged()

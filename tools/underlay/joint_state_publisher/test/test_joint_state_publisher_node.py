@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 import signal
 
@@ -52,6 +53,19 @@ def test_merges_sources_of_any_reliability(probe: Probe, programs: Programs, arm
     probe.send_until(send, lambda: list(heard[-1].position) == [0.25, 0.5], 'nothing was merged')
     age_s = probe.node.get_clock().now().nanoseconds / 1e9 - heard[-1].header.stamp.sec
     assert abs(age_s) < 30
+
+
+def test_positions_that_are_no_number(probe: Probe, programs: Programs, arm: str) -> None:
+    """A source that tells NaN is named; what else it tells counts."""
+    program = programs.start(MODULE, arm, source_list='[commands]')
+    heard = probe.listen(JointState, '/joint_states')
+    sender = probe.sender(JointState, '/commands')
+    probe.send_until(
+        lambda: sender.publish(probe.state(elbow=math.nan, shoulder=0.5)),
+        lambda: heard and list(heard[-1].position) == [0.5, 0.0],
+        'nothing was merged',
+    )
+    says(probe, program, "/commands: no number, and left out, is the position of 'elbow'.")
 
 
 def test_description_from_the_topic(probe: Probe, programs: Programs) -> None:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any, TYPE_CHECKING
 
 from rviz_common.frames import Frames
+from rviz_common.inputs import on_click, on_input
 from rviz_common.work_queue import WorkQueue
 
 if TYPE_CHECKING:
@@ -49,14 +50,8 @@ class Context:
 
     def on_input(self, widget: Any, take: Callable[[Any], None]) -> None:
         """Pass on the value that a person gives to a widget; not those that a program sets."""
-
-        def pass_on(event: Any) -> None:
-            if event.client is not None:
-                value = event.target.value
-                self.queue.post(lambda: take(value))
-
-        widget.on_update(pass_on)
+        on_input(self.queue.post, widget, take)
 
     def on_click(self, button: Any, do: Callable[[], None]) -> None:
         """Do something when a button is pressed."""
-        button.on_click(lambda event: self.queue.post(do))
+        on_click(self.queue.post, button, do)

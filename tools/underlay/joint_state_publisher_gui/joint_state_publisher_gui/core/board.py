@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The sliders of a robot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from math import pi
+from random import Random
+
+from joint_state_publisher.free_joint import FreeJoint
+from joint_state_publisher.merged_joints import MergedJoints
+from joint_state_publisher_gui.core.joint_slider import JointSlider
+from joint_state_publisher_gui.core.limbs import Limb, limbs
+from joint_state_publisher_gui.core.poses import Pose
+from joint_state_publisher_gui.core.scale import Scale
+from urdf import Joint, RobotModel
+from urdf.did_you_mean import did_you_mean
+
+__all__ = ['Board']
+
+WIDEST = 1e4
+
+
+class Board:
+    """The sliders of all joints that follow no other, by limb, and what is done to all at once."""
+
+    def __init__(self, model: RobotModel, joints: MergedJoints) -> None:
+        """Make the sliders of a robot."""
+        self.robot = model.name
+        self.limbs: list[Limb] = limbs(model, joints.free)
+        self._moving = {joint.name for joint in model.moving_joints}
+        self.sliders = {
+            joint.name: JointSlider(
+                joint.name,
+                joints.free[joint.name],
+                _scale(joint, joints.free[joint.name]),
+                joints.defaults[joint.name],
+            )
+            for joint in model.moving_joints
+            if joint.name in joints.free
+        }
+
+    def found(self, text: str) -> list[Limb]:
+        """Return the limbs with those joints only that have all words of a text in the name."""
+        words = text.lower().split()
+        found = []
+        for limb in self.limbs:
+            joints = tuple(
+                name
+                for name in limb.joints
+                if all(word in f'{limb.title} {name}'.lower() for word in words)
+            )
+            if joints:
+                found.append(Limb(limb.title, limb.side, joints))
+        return found
+
+    def centre(self) -> None:
+        """Move all joints to where they are by default."""
+        for slider in self.sliders.values():
+            slider.move(slider.default)
+
+    def zero(self) -> None:
+        """Move all joints to 0, or as near as their limits allow."""
+        for slider in self.sliders.values():
+            slider.move(0.0)
+
+    def randomise(self, random: Random) -> None:
+        """Move all joints to anywhere within their limits."""
+        for slider in self.sliders.values():
+            slider.move(random.uniform(slider.scale.lower, slider.scale.upper))
+
+    def pose(self) -> dict[str, float]:
+        """Return the positions of all joints that have a slider."""
+        return {name: slider.position for name, slider in self.sliders.items()}
+
+    def apply(self, pose: Pose) -> list[str]:
+        """Move the joints that a pose names; return a sentence for each that it does not move."""
+        return list(self._apply(pose))
+
+    def _apply(self, pose: Mapping[str, float]) -> Iterator[str]:
+        for name, position in pose.items():
+            slider = self.sliders.get(name)
+            if slider is None:
+                why = 'follows another joint' if name in self._moving else 'is no moving joint'
+                yield (
+                    f"'{name}' is left out: it {why} of this robot."
+                    f'{did_you_mean(name, self.sliders)}'
+                )
+                continue
+            slider.move(position)
+            if slider.position != position:
+                yield f"'{name}' stops at its limit: {position:g} is not within the limits."
+
+
+def _scale(joint: Joint, free: FreeJoint) -> Scale:
+    """Return the scale of a slider, which is useful also where limits are not meant as such."""
+    is_angle = joint.kind != 'prismatic'
+    lower, upper = sorted((free.lower, free.upper))
+    if upper - lower <= WIDEST:
+        return Scale(lower, upper, is_angle)
+    middle, reach = min(max(0.0, lower), upper), pi if is_angle else 1.0
+    return Scale(max(lower, middle - reach), min(upper, middle + reach), is_angle)

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Poses of a robot that are kept in a file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import os
+from pathlib import Path
+import tempfile
+from typing import Any
+from urllib.parse import quote
+
+import yaml
+
+__all__ = ['Pose', 'PoseError', 'Poses', 'pose_file']
+
+Pose = Mapping[str, float]
+"""Positions in radians or metres by joint."""
+LONGEST_NAME = 60
+LARGEST_FILE = 4_000_000
+LARGEST = 1e12
+
+
+class PoseError(ValueError):
+    """Poses that cannot be read or kept, with the reason."""
+
+
+def pose_file(robot: str, folder: Path) -> Path:
+    """Return the file for the poses of a robot, whose name may have any characters."""
+    return folder / f'{quote(robot, safe=" ()")}.yaml'
+
+
+class Poses:
+    """Poses by name in a file, which is read each time, as others may write it too."""
+
+    def __init__(self, file: Path) -> None:
+        """Use a file, which need not be there."""
+        self.file = file
+
+    def read(self) -> dict[str, Pose]:
+        """Return the poses, or raise PoseError; none if there is no file."""
+        try:
+            if self.file.stat().st_size > LARGEST_FILE:
+                raise self._broken(f'it is larger than {LARGEST_FILE // 1_000_000} MB')
+            content = yaml.safe_load(self.file.read_text(encoding='utf-8'))
+        except FileNotFoundError:
+            return {}
+        except OSError as error:
+            raise self._broken(error.strerror or str(error)) from error
+        except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as error:
+            raise self._broken(' '.join(str(error).split())) from error
+        return self._poses({} if content is None else content)
+
+    def save(self, name: str, pose: Pose) -> str:
+        """Keep a pose; return its name without spaces around it."""
+        name = name.strip()
+        if not name:
+            raise PoseError('The pose is not saved: give it a name first.')
+        if len(name) > LONGEST_NAME or not name.isprintable():
+            raise PoseError(
+                f'The pose is not saved: its name must be at most {LONGEST_NAME} characters that '
+                'can be printed.'
+            )
+        self._write({**self.read(), name: dict(pose)})
+        return name
+
+    def delete(self, name: str) -> bool:
+        """Keep a pose no longer; tell if it was there."""
+        poses = self.read()
+        if name not in poses:
+            return False
+        del poses[name]
+        self._write(poses)
+        return True
+
+    def _poses(self, content: Any) -> dict[str, Pose]:
+        if not isinstance(content, dict):
+            raise self._broken('it must have poses by name')
+        return {str(name): self._pose(name, pose) for name, pose in content.items()}
+
+    def _pose(self, name: Any, pose: Any) -> Pose:
+        if not isinstance(pose, dict):
+            raise self._broken(f"the pose '{name}' must have positions by joint")
+        for joint, value in pose.items():
+            if not _is_position(value):
+                raise self._broken(f"'{value}' of '{joint}' in the pose '{name}' is no position")
+        return {str(joint): float(value) for joint, value in pose.items()}
+
+    def _broken(self, why: str) -> PoseError:
+        return PoseError(
+            f"The file of poses '{self.file}' cannot be used, and is left as it is: {why}. "
+            'Correct it, or move it away.'
+        )
+
+    def _write(self, poses: Mapping[str, Pose]) -> None:
+        """Replace the file as a whole, so that nobody ever sees a part of it."""
+        text = yaml.safe_dump(
+            {name: dict(pose) for name, pose in poses.items()},
+            sort_keys=False,
+            allow_unicode=True,
+        )
+        new: Path | None = None
+        try:
+            self.file.parent.mkdir(parents=True, exist_ok=True)
+            descriptor, path = tempfile.mkstemp(suffix='.new', dir=self.file.parent)
+            new = Path(path)
+            with os.fdopen(descriptor, 'w', encoding='utf-8') as stream:
+                stream.write(text)
+                stream.flush()
+                os.fsync(descriptor)
+            new.replace(self.file)
+        except OSError as error:
+            if new is not None:
+                new.unlink(missing_ok=True)
+            raise PoseError(
+                f"The poses are not saved, as '{self.file}' cannot be written: {error.strerror}."
+            ) from error
+
+
+def _is_position(value: Any) -> bool:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return False
+    return -LARGEST <= value <= LARGEST

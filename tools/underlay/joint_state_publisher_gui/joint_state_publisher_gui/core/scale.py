@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How a slider shows the positions of a joint."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, degrees, floor, log10
+
+__all__ = ['Scale']
+
+DECIMALS = 3
+MOST_DECIMALS = 9
+STEPS = 100
+"""How many places a slider has at least between its ends."""
+
+
+@dataclass(frozen=True)
+class Scale:
+    """
+    Positions from one limit to another in radians or metres, and those that a slider shows.
+
+    A slider shows few decimals, so that its ends are within the limits; who moves it to an end
+    means the limit.
+    """
+
+    lower: float
+    upper: float
+    is_angle: bool = True
+
+    @property
+    def decimals(self) -> int:
+        """Return how many decimals are shown: more than usual only within narrow limits."""
+        width = self.upper - self.lower
+        if width <= 0.0:
+            return MOST_DECIMALS
+        return min(max(DECIMALS, ceil(log10(STEPS / width))), MOST_DECIMALS)
+
+    @property
+    def step(self) -> float:
+        """Return the distance between two places of the slider."""
+        return float(10.0**-self.decimals)
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Return the ends of the slider."""
+        if self.upper - self.lower < self.step:
+            return self.lower, self.upper
+        factor = 10**self.decimals
+        # What is a limit but for the last bits of its binary form is shown as it is written.
+        first, last = self.lower * factor, self.upper * factor
+        return ceil(first - 1e-6) / factor, floor(last + 1e-6) / factor
+
+    def within(self, position: float) -> float:
+        """Return a position, or the limit if it is beyond."""
+        return min(max(position, self.lower), self.upper)
+
+    def shown(self, position: float) -> float:
+        """Return where the slider is for a position."""
+        first, last = self.ends
+        return min(max(round(position, self.decimals), first), last)
+
+    def meant(self, shown: float) -> float:
+        """Return which position a person means who moves the slider to somewhere."""
+        first, last = self.ends
+        if shown <= first:
+            return self.lower
+        return self.upper if shown >= last else shown
+
+    def in_words(self, position: float) -> str:
+        """Return a position in whole degrees or millimetres."""
+        number = degrees(position) if self.is_angle else position * 1000.0
+        return f'{round(number)}°' if self.is_angle else f'{round(number)}\u00a0mm'
+
+    def describe(self) -> str:
+        """Return the limits in both units."""
+        unit = 'rad' if self.is_angle else 'm'
+        return (
+            f'{self.lower:.{self.decimals}f} to {self.upper:.{self.decimals}f} {unit} '
+            f'({self.in_words(self.lower)} to {self.in_words(self.upper)})'
+        )

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the words in the name of a joint say about it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import re
+
+__all__ = ['SIDELESS', 'kind_of', 'short_name', 'side_of', 'words_of']
+
+KINDS = {
+    'hand': 'hand gripper finger thumb palm knuckle index ring pinky',
+    'arm': 'arm shoulder elbow wrist forearm upperarm',
+    'leg': 'leg hip knee ankle thigh calf shank shin foot toe',
+    'head': 'head neck eye jaw gaze',
+    'wheels': 'wheel caster',
+    'torso': 'torso waist spine chest trunk back abdomen',
+}
+"""Kinds of limbs with the words that mean them; the first kind with a word in a name counts."""
+SIDES = {'left': 'left', 'right': 'right', 'l': 'left', 'r': 'right'}
+CORNERS = {
+    f'{end}{side}': f'{name} {SIDES[side]}'
+    for end, name in (('f', 'front'), ('r', 'rear'), ('h', 'hind'), ('b', 'back'))
+    for side in 'lr'
+}
+CORNERS |= {word[::-1]: corner for word, corner in CORNERS.items() if word not in ('rr', 'rl')}
+ENDS = ('front', 'rear', 'hind')
+SIDELESS = ('head', 'torso', 'wheels')
+
+
+def words_of(name: str) -> list[str]:
+    """Return the words of a name such as `left_knee2` or `LHipYaw`, in small letters."""
+    words = re.findall(
+        r'[A-Z]+(?![a-z])|[A-Z]?[a-z]+', re.sub(r'([A-Z])([A-Z][a-z])', r'\1_\2', name)
+    )
+    return [word.lower() for word in words]
+
+
+def kind_of(words: Sequence[str]) -> str | None:
+    """Return the kind of limb that words mean, or None."""
+    for kind, known in KINDS.items():
+        if any(word.removesuffix('s') in known.split() for word in words):
+            return kind
+    return None
+
+
+def side_of(words: Sequence[str], kind: str | None) -> str | None:
+    """Return the side, or the corner of a robot with four legs, that words mean; or None."""
+    if kind in SIDELESS:
+        return None
+    for place, word in enumerate(words):
+        if word in CORNERS:
+            return CORNERS[word]
+        # A single letter means a side only where names begin or end.
+        if word in SIDES and (len(word) > 1 or place in (0, len(words) - 1)):
+            return ' '.join([*(end for end in ENDS if end in words), SIDES[word]])
+    return None
+
+
+def short_name(name: str, side: str | None) -> str:
+    """Return a name without the side with which it begins, as the title of its group has it."""
+    first, _, rest = name.partition('_')
+    is_side = side is not None and side_of([first.lower()], None) == side
+    return rest if is_side and rest else name

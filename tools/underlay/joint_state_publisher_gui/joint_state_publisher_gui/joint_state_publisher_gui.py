@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The node that publishes the positions of joints, which a page in the browser sets."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+import os
+from pathlib import Path
+import sys
+from typing import Any
+
+from joint_state_publisher.joint_state_publisher import JointStatePublisher
+from joint_state_publisher.merged_joints import MergedJoints
+from joint_state_publisher_gui.core.board import Board
+from joint_state_publisher_gui.page.joint_page import JointPage
+from joint_state_publisher_gui.parameters import EXTRAS, page_settings_of
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from robot_state_publisher.description_file import file_argument
+from rviz_common.page import Page, PortError
+from rviz_common.work_queue import WorkQueue
+from tf2_ros.program import run_node
+from urdf import RobotModel
+
+__all__ = ['JointStatePublisherGui', 'main']
+
+PROGRAM = 'joint_state_publisher_gui'
+FRAME_S = 0.1
+
+
+class JointStatePublisherGui(JointStatePublisher):
+    """Publishes the joint states of a robot, whose joints are moved in the browser."""
+
+    EXTRAS = EXTRAS
+
+    def __init__(self, file: str | None = None) -> None:
+        """Declare the parameters and serve the page; the URDF may be in a file."""
+        self._board: Board | None = None
+        self.joint_page: JointPage | None = None
+        super().__init__(file)
+        values = {name: self.get_parameter(name).value for name in EXTRAS}
+        if values['num_rows']:
+            self.get_logger().info(
+                "The parameter 'num_rows' means nothing here: the page scrolls."
+            )
+        self.page = _serve(values)
+        self.joint_page = JointPage(self.page.viser, self._make_queue(), _poses_folder())
+        if self._board is not None:
+            self.joint_page.show(self._board)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(FRAME_S, self.joint_page.refresh, clock=steady)
+        self.get_logger().info(f'The sliders are at {self.page.url}')
+
+    def _make_queue(self) -> WorkQueue:
+        """Return a queue whose work the node does as soon as there is some."""
+        queue = WorkQueue(lambda: wake.trigger())
+        wake = self.create_guard_condition(queue.run)
+        return queue
+
+    def _begin(self, model: RobotModel, joints: MergedJoints) -> None:
+        """Show the sliders of a robot."""
+        super()._begin(model, joints)
+        self._board = Board(model, joints)
+        if self.joint_page is not None:
+            self.joint_page.show(self._board)
+
+    def _left_out(self, sentence: str) -> None:
+        """Say it in the page too."""
+        super()._left_out(sentence)
+        if self.joint_page is not None:
+            self.joint_page.warn(sentence)
+
+    def _refused(self, sentence: str) -> None:
+        """Say it in the page too."""
+        super()._refused(sentence)
+        if self.joint_page is not None:
+            self.joint_page.notice.say(sentence)
+
+    def _report_silence(self, sentences: list[str]) -> None:
+        """Say it in the page too."""
+        super()._report_silence(sentences)
+        if self.joint_page is not None:
+            self.joint_page.warn(*sentences)
+
+    def destroy_node(self) -> None:
+        """Serve the page no longer, too."""
+        self.page.close()
+        super().destroy_node()
+
+
+def _serve(values: Mapping[str, Any]) -> Page:
+    """Serve the page, or raise ValueError."""
+    try:
+        return Page(PROGRAM, page_settings_of(values))
+    except PortError as error:
+        raise ValueError(str(error)) from error
+
+
+def _poses_folder() -> Path:
+    """Return where poses are kept."""
+    return Path(os.environ.get('ROS_HOME') or '~/.ros').expanduser() / PROGRAM
+
+
+def _make_node(words: list[str]) -> Node:
+    """Make the node from its arguments: none, or the file of a URDF."""
+    return JointStatePublisherGui(file_argument(PROGRAM, words))
+
+
+def main(args: Sequence[str] | None = None) -> None:
+    """Run the node."""
+    sys.exit(run_node(_make_node, args))
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sentences in the page."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from viser import GuiApi
+
+__all__ = ['Notice']
+
+MOST_LINES = 6
+LONGEST_LINE = 400
+STYLE = 'padding:0.1em 0.8em 0.6em; font-size:0.85em; line-height:1.35; overflow-wrap:anywhere'
+
+
+class Notice:
+    """A place of the page for sentences, whose names may come from anywhere."""
+
+    def __init__(self, gui: GuiApi) -> None:
+        """Say nothing yet."""
+        self._html = gui.add_html('')
+
+    @property
+    def content(self) -> str:
+        """Return what is said, in HTML."""
+        return str(self._html.content)
+
+    def say(self, *sentences: str) -> None:
+        """Say something instead of what was said before."""
+        lines = [line[:LONGEST_LINE] for line in sentences]
+        if len(lines) > MOST_LINES:
+            lines[MOST_LINES:] = [f'And {len(lines) - MOST_LINES} more like this.']
+        text = '<br>'.join(map(escape, lines))
+        content = f'<div style="{STYLE}">{text}</div>' if lines else ''
+        if self._html.content != content:
+            self._html.content = content

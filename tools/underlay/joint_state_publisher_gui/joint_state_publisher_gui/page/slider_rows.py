@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The sliders in the page."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from joint_state_publisher_gui.core.board import Board
+from joint_state_publisher_gui.core.limbs import Limb
+from joint_state_publisher_gui.page.notice import Notice
+from joint_state_publisher_gui.page.slider_row import SliderRow
+from rviz_common.inputs import on_input, Post
+
+if TYPE_CHECKING:
+    from viser import GuiFolderHandle, ViserServer
+
+__all__ = ['SliderRows']
+
+MOST_ROWS = 200
+OPEN_ROWS = 12
+"""Groups are open at first as long as they have no more joints than this together."""
+
+
+class SliderRows:
+    """Groups of sliders, of which a search shows some."""
+
+    def __init__(
+        self, server: ViserServer, post: Post, parent: GuiFolderHandle, board: Board
+    ) -> None:
+        """Add the field for the search and all sliders at the end of a folder."""
+        self._server = server
+        self._post = post
+        self._parent = parent
+        self._board = board
+        with parent:
+            self.search = server.gui.add_text('Search', '', hint='Words of the names of joints')
+            self._area = server.gui.add_folder(None)
+        on_input(post, self.search, self._search)
+        self.rows: list[SliderRow] = []
+        """The rows that are there."""
+        self._search('')
+
+    def refresh(self) -> None:
+        """Follow what has moved the joints, but not the person at the page."""
+        for row in self.rows:
+            row.refresh()
+
+    def _search(self, text: str) -> None:
+        """Show only what is searched for; all for an empty text."""
+        found = self._board.found(text)
+        with self._server.atomic():
+            self._area.remove()
+            with self._parent:
+                self._area = self._server.gui.add_folder(None)
+            self.rows = []
+            with self._area:
+                for limb in found:
+                    self._add(limb)
+                self._say_what_is_missing(sum(len(limb.joints) for limb in found))
+
+    def _say_what_is_missing(self, count: int) -> None:
+        """Say why there are no sliders, or not all that were found."""
+        notice = Notice(self._server.gui)
+        if not self._board.sliders:
+            notice.say('This robot has no joint that can be moved.')
+        elif not count:
+            notice.say('No joint has this in its name.')
+        elif count > len(self.rows):
+            notice.say(f'{len(self.rows)} of {count} joints are shown. Search for the others.')
+
+    def _add(self, limb: Limb) -> None:
+        """Add a group, which is open if it is not far down."""
+        names = limb.joints[: MOST_ROWS - len(self.rows)]
+        if not names:
+            return
+        is_open = len(self.rows) + len(limb.joints) <= OPEN_ROWS
+        gui = self._server.gui
+        with gui.add_folder(f'{limb.title} ({len(limb.joints)})', expand_by_default=is_open):
+            for name in names:
+                slider = self._board.sliders[name]
+                self.rows.append(SliderRow(gui, self._post, slider, limb.label(name)))

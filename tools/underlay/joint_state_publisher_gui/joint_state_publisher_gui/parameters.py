@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The parameters that the publisher with a page has in addition."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from joint_state_publisher.parameters import Extra
+from joint_state_publisher.settings import checked
+from rviz_common.page.settings import PageSettings
+
+__all__ = ['EXTRAS', 'page_settings_of']
+
+EXTRAS = {
+    'num_rows': Extra(0, 'Means nothing here: the page scrolls.'),
+    'host': Extra('127.0.0.1', 'The address at which the page is served.'),
+    'port': Extra(0, 'The port of the page; 0 is the first free one from 8080 on.'),
+    'token': Extra('', 'What must be known to open the page, if other machines can reach it.'),
+}
+
+
+def page_settings_of(values: Mapping[str, Any]) -> PageSettings:
+    """Return where the page is served, or raise ValueError."""
+    host = checked('host', values['host'], '')
+    token = checked('token', values['token'], '')
+    port = checked('port', values['port'], 0.0)
+    if not float(port).is_integer():
+        raise ValueError(f"The parameter 'port' must be a whole number, and not {port:g}.")
+    return PageSettings(host, int(port) or None, token)
