@@ -55,6 +55,7 @@ bench: build ## Measure what commands, launches, the graph, bags and transforms 
 	@$(RUN) python3 tools/benchmarks/bag.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/robot_state_publisher.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/tf2_lookups.py $(ARGS)
+	@$(RUN) python3 tools/benchmarks/rviz.py $(ARGS)
 
 docs: build ## Write docs/reference anew from the commands and launch files
 	@tools/in_environment python3 tools/reference/generate.py

@@ -22,4 +22,13 @@ setup(
     description='What RViz in the browser is made of: page, properties, displays and panels.',
     license='Apache-2.0',
     tests_require=['pytest'],
+    entry_points={
+        'rviz_common.panels': [
+            'rviz_common/Displays = rviz_common.panels.displays_panel:DisplaysPanel',
+            'rviz_common/Time = rviz_common.panels.time_panel:TimePanel',
+            'rviz_common/Tool Properties = '
+            'rviz_common.panels.tool_properties_panel:ToolPropertiesPanel',
+            'rviz_common/Views = rviz_common.panels.views_panel:ViewsPanel',
+        ],
+    },
 )

@@ -23,8 +23,20 @@ setup(
     license='Apache-2.0',
     tests_require=['pytest'],
     entry_points={
+        'rviz_common.tools': [
+            'rviz_default_plugins/Measure = rviz_default_plugins.tools.measure:Measure',
+            'rviz_default_plugins/PublishPoint = '
+            'rviz_default_plugins.tools.publish_point:PublishPoint',
+            'rviz_default_plugins/SetGoal = rviz_default_plugins.tools.set_goal:SetGoal',
+            'rviz_default_plugins/SetInitialPose = '
+            'rviz_default_plugins.tools.set_initial_pose:SetInitialPose',
+        ],
         'rviz_common.displays': [
             'rviz_default_plugins/Axes = rviz_default_plugins.displays.axes:Axes',
+            'rviz_default_plugins/Grid = rviz_default_plugins.displays.grid:Grid',
+            'rviz_default_plugins/RobotModel = '
+            'rviz_default_plugins.displays.robot_model:RobotModel',
+            'rviz_default_plugins/TF = rviz_default_plugins.displays.tf:TF',
         ],
     },
 )

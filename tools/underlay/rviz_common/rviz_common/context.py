@@ -32,6 +32,8 @@ class Context:
     page: Page
     frames: Frames
     queue: WorkQueue
+    visualizer: Any = None
+    """The `Visualizer` that owns all this; a test may do without."""
 
     @property
     def server(self) -> ViserServer:

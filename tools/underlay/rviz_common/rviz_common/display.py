@@ -10,7 +10,7 @@ from rviz_common.context import Context
 from rviz_common.properties import Flag, Property, Values
 from rviz_common.status import Level, Statuses
 
-__all__ = ['Display']
+__all__ = ['Display', 'name_of']
 
 COMMON = ('Class', 'Name', 'Value')
 
@@ -33,10 +33,9 @@ class Display:
         self, context: Context, root: str, given: Mapping[str, Any] | None = None
     ) -> None:
         """Take the properties that a file gives; nothing is shown yet."""
-        given = given or {}
         self.context = context
         self.root = root
-        self.name = str(given.get('Name') or self.CLASS.partition('/')[2])
+        self.name = self._first_name = name_of(given, self.CLASS)
         enabled = Flag('Enabled', True, 'Whether it is shown.')
         self.values = Values((enabled, *self.PROPERTIES), given)
         self.status = Statuses()
@@ -51,8 +50,11 @@ class Display:
     def to_file(self) -> dict[str, Any]:
         """Return what the file is to have."""
         written = self.values.to_file()
-        enabled = self.values['Enabled']
-        return {**written, 'Class': self.CLASS, 'Name': self.name, 'Value': enabled}
+        if 'Class' not in written or self.name != self._first_name:
+            written.update({'Class': self.CLASS, 'Name': self.name})
+        if 'Enabled' in written:
+            written['Value'] = self.values['Enabled']
+        return written
 
     def start(self) -> None:
         """Begin to show it."""
@@ -67,3 +69,8 @@ class Display:
         """Follow a property that has been changed while it is shown: begin anew, by default."""
         self.stop()
         self.start()
+
+
+def name_of(given: Mapping[str, Any] | None, class_name: str) -> str:
+    """Return the name that a file gives to an entry, or that of its class."""
+    return str((given or {}).get('Name') or class_name.partition('/')[2])

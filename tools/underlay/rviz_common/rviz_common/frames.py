@@ -6,6 +6,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from rclpy.time import Time
+from tf2_py._link import Sample
+from tf2_py._pose import inverse
+from tf2_py._pose import Pose as Numbers
 from tf2_ros import Buffer, TransformException
 
 __all__ = ['FIXED_FRAME', 'FrameError', 'Frames', 'Pose']
@@ -46,12 +49,62 @@ class Frames:
         target, source = self._named(target), self._named(source)
         if target == source:
             return Pose()
+        direct = None if stamp_ns else self._direct(target, source)
+        if direct is not None:
+            return direct
         try:
             found = self.buffer.lookup_transform(target, source, Time(nanoseconds=stamp_ns))
         except TransformException as error:
-            raise FrameError(str(error)) from error
+            raise FrameError(f'No transform from [{source}] to [{target}]: {error}') from error
         at, turn = found.transform.translation, found.transform.rotation
         return Pose((at.x, at.y, at.z), (turn.w, turn.x, turn.y, turn.z))
 
+    def find(self, target: str, source: str) -> Pose | None:
+        """
+        Return where a frame is in another one at the latest time, or None.
+
+        Without a reason, as reasons take long to find: ask `between` for it, and not too often.
+        """
+        target, source = self._named(target), self._named(source)
+        if target == source:
+            return Pose()
+        direct = self._direct(target, source)
+        if direct is not None:
+            return direct
+        if not all(map(self.buffer._frameExists, (target, source))):
+            return None
+        try:
+            return self.between(target, source)
+        except FrameError:
+            return None
+
+    def reason(self, target: str, source: str) -> str:
+        """Return why it is not known where a frame is in another one; '' if it is known."""
+        try:
+            self.between(target, source)
+        except FrameError as error:
+            return str(error)
+        return ''
+
+    def latest(self) -> dict[str, Sample]:
+        """Return the newest parent and pose of each frame that has one, by name."""
+        return self.buffer._latest_samples()
+
+    def _direct(self, target: str, source: str) -> Pose | None:
+        """Return the latest pose of a frame in its parent or child, where most are asked for."""
+        below = self.buffer._latest_sample(source)
+        if below is not None and below.parent == target:
+            return _pose(below.pose)
+        above = self.buffer._latest_sample(target)
+        if above is not None and above.parent == source:
+            return _pose(inverse(above.pose))
+        return None
+
     def _named(self, frame: str) -> str:
         return self.fixed_frame if frame == FIXED_FRAME else frame.lstrip('/')
+
+
+def _pose(numbers: Numbers) -> Pose:
+    """Return a pose of tf, whose quaternions have w last."""
+    x, y, z, qx, qy, qz, qw = numbers
+    return Pose((x, y, z), (qw, qx, qy, qz))

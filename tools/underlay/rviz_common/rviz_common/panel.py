@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from rviz_common.context import Context
+from rviz_common.display import name_of
 from rviz_common.properties import Property, Values
 
 __all__ = ['Panel']
@@ -30,9 +31,8 @@ class Panel:
 
     def __init__(self, context: Context, given: Mapping[str, Any] | None = None) -> None:
         """Take the properties that a file gives."""
-        given = given or {}
         self.context = context
-        self.name = str(given.get('Name') or self.CLASS.partition('/')[2])
+        self.name = name_of(given, self.CLASS)
         self.values = Values(self.PROPERTIES, given)
 
     @property
@@ -42,7 +42,10 @@ class Panel:
 
     def to_file(self) -> dict[str, Any]:
         """Return what the file is to have."""
-        return {**self.values.to_file(), 'Class': self.CLASS, 'Name': self.name}
+        written = self.values.to_file()
+        if 'Class' not in written:
+            written.update({'Class': self.CLASS, 'Name': self.name})
+        return written
 
     def start(self) -> None:
         """Add the widgets."""

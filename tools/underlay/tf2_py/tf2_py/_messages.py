@@ -9,6 +9,8 @@ from geometry_msgs.msg import TransformStamped
 from tf2_py._pose import Pose
 
 _NS_PER_S = 10**9
+Reading = tuple[str, str, int, Pose]
+"""The names of parent and child, the time in nanoseconds, and where the child is."""
 
 
 def nanoseconds(time: Any) -> int:
@@ -38,6 +40,17 @@ def pose_of(transform: Any) -> Pose:
         rotation.y,
         rotation.z,
         rotation.w,
+    )
+
+
+def reading_of(transform: Any) -> Reading:
+    """Return the names and numbers of a TransformStamped."""
+    header = transform.header
+    return (
+        header.frame_id,
+        transform.child_frame_id,
+        nanoseconds(header.stamp),
+        pose_of(transform.transform),
     )
 
 

@@ -3,15 +3,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 import logging
 import threading
-from typing import Any, Optional, TYPE_CHECKING
+from typing import Optional, TYPE_CHECKING
 
 from tf2_py import _listing, _refusals
 from tf2_py._complaints import Complaints
 from tf2_py._frame_store import FrameStore
 from tf2_py._link import Sample
-from tf2_py._messages import nanoseconds, pose_of, transform_message
+from tf2_py._messages import nanoseconds, Reading, reading_of, transform_message
 from tf2_py._pose import chain, normalized, Pose
 from tf2_py.exceptions import TransformException
 
@@ -48,7 +49,7 @@ class BufferCore:
         :param transform: where the child frame is in the frame of the header, at its time
         :param authority: who says so
         """
-        self._insert(transform, authority, is_static=False)
+        self._take([reading_of(transform)], authority, is_static=False)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
         """
@@ -57,7 +58,7 @@ class BufferCore:
         :param transform: where the child frame is in the frame of the header
         :param authority: who says so
         """
-        self._insert(transform, authority, is_static=True)
+        self._take([reading_of(transform)], authority, is_static=True)
 
     def lookup_transform_core(
         self, target_frame: str, source_frame: str, time: Time
@@ -170,6 +171,17 @@ class BufferCore:
         with self._lock:
             return self._store.names()
 
+    def _latest_sample(self, frame: str) -> Optional[Sample]:
+        """Return the newest that is known of a frame; one that does not move has time 0."""
+        with self._lock:
+            return self._store.latest(frame)
+
+    def _latest_samples(self) -> dict[str, Sample]:
+        """Return the newest that is known of each frame that has a parent."""
+        with self._lock:
+            latest = {frame: cache.latest() for frame, cache in self._store.known()}
+        return {frame: sample for frame, sample in latest.items() if sample is not None}
+
     def _chain(
         self,
         target_frame: str,
@@ -189,17 +201,22 @@ class BufferCore:
         """Say what is wrong with a transform."""
         logging.getLogger('tf2').warning(text)
 
-    def _insert(self, transform: Any, authority: str, is_static: bool) -> None:
-        parent = transform.header.frame_id.lstrip('/')
-        child = transform.child_frame_id.lstrip('/')
-        pose = pose_of(transform.transform)
+    def _take(self, readings: Iterable[Reading], authority: str, is_static: bool) -> None:
+        """Take names and numbers of transforms."""
+        for parent, child, stamp_ns, pose in readings:
+            self._insert(
+                parent.lstrip('/'), child.lstrip('/'), stamp_ns, pose, authority, is_static
+            )
+
+    def _insert(
+        self, parent: str, child: str, stamp_ns: int, pose: Pose, authority: str, is_static: bool
+    ) -> None:
         reason = _refusals.refusal(parent, child, pose, authority)
         unit = None if reason else normalized(pose)
         if unit is None:
             reason = reason or _refusals.bad_quaternion(child, pose, authority)
             self._complaints.add(reason, child, authority)
             return
-        stamp_ns = nanoseconds(transform.header.stamp)
         with self._lock:
             if self._store.changes_kind(child, is_static):
                 self._complaints.add(_refusals.both_kinds(child, authority), child, 'both')

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Any, Optional, TYPE_CHECKING, Union
 
@@ -12,7 +12,7 @@ from rclpy.duration import Duration
 from rclpy.logging import get_logger
 from rclpy.task import Future
 from tf2_py import BufferCore, TransformException
-from tf2_py._messages import nanoseconds
+from tf2_py._messages import nanoseconds, Reading
 from tf2_ros._waiting import Check, Waiting
 from tf2_ros.buffer_interface import BufferInterface
 
@@ -69,16 +69,6 @@ class Buffer(BufferCore, BufferInterface):
         what = 'jump back in time' if is_back else 'change between system and simulated time'
         self._warn(f'Detected {what}. Clearing TF buffer.')
         self.clear()
-
-    def set_transform(self, transform: TransformStamped, authority: str) -> None:
-        """Take a transform of a frame that moves."""
-        super().set_transform(transform, authority)
-        self._waiting.announce()
-
-    def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
-        """Take a transform that holds at all times."""
-        super().set_transform_static(transform, authority)
-        self._waiting.announce()
 
     def lookup_transform(
         self,
@@ -204,6 +194,10 @@ class Buffer(BufferCore, BufferInterface):
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
         await self.wait_for_transform_full_async(*arguments)
         return self.lookup_transform_full_core(*arguments)
+
+    def _take(self, readings: Iterable[Reading], authority: str, is_static: bool) -> None:
+        super()._take(readings, authority, is_static)
+        self._waiting.announce()
 
     def _look_up(
         self, look_up: Callable[[], TransformStamped], check: Check, timeout: Duration

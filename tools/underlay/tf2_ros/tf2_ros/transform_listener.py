@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any, Optional, TYPE_CHECKING, Union
 
 from rclpy.callback_groups import ReentrantCallbackGroup
 from tf2_msgs.msg import TFMessage
 from tf2_ros._background import Background
 from tf2_ros._qos import DYNAMIC, STATIC_LISTENER
+from tf2_ros._tf_bytes import TfReader
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -43,14 +45,13 @@ class TransformListener:
         """
         self.buffer = buffer
         self.node = node
-        self.group = ReentrantCallbackGroup()
+        self.group = self._group()
+        self._reader = TfReader() if self._is_plain() else None
         self.tf_sub: Any = None
         if not static_only:
-            self.tf_sub = self._subscribe('/tf', self.callback, DYNAMIC if qos is None else qos)
+            self.tf_sub = self._subscribe('/tf', False, DYNAMIC if qos is None else qos)
         self.tf_static_sub: Any = self._subscribe(
-            '/tf_static',
-            self.static_callback,
-            STATIC_LISTENER if static_qos is None else static_qos,
+            '/tf_static', True, STATIC_LISTENER if static_qos is None else static_qos
         )
         self._forget_at_jumps()
         self._background = Background(node) if spin_thread else None
@@ -75,10 +76,40 @@ class TransformListener:
                 self.node.destroy_subscription(subscription)
         self.tf_sub = self.tf_static_sub = None
 
-    def _subscribe(self, topic: str, callback: Any, qos: Union[QoSProfile, int]) -> Any:
-        return self.node.create_subscription(
-            TFMessage, topic, callback, qos, callback_group=self.group
+    def _group(self) -> ReentrantCallbackGroup:
+        """Return the group of the subscriptions."""
+        return ReentrantCallbackGroup()
+
+    def _is_plain(self) -> bool:
+        """Tell if nobody wants to see the messages on their way to the buffer."""
+        from tf2_py import BufferCore
+
+        names = 'set_transform', 'set_transform_static'
+        return (
+            isinstance(self.buffer, BufferCore)
+            and all(
+                getattr(type(self.buffer), each) is getattr(BufferCore, each) for each in names
+            )
+            and type(self).callback is TransformListener.callback
+            and type(self).static_callback is TransformListener.static_callback
         )
+
+    def _subscribe(self, topic: str, is_static: bool, qos: Union[QoSProfile, int]) -> Any:
+        callback: Any = self.static_callback if is_static else self.callback
+        if self._reader is not None:
+            callback = partial(self._take, self._reader, is_static)
+        return self.node.create_subscription(
+            TFMessage,
+            topic,
+            callback,
+            qos,
+            callback_group=self.group,
+            raw=self._reader is not None,
+        )
+
+    def _take(self, reader: TfReader, is_static: bool, data: bytes) -> None:
+        """Take the transforms of a message that nobody has made out of its bytes."""
+        self.buffer._take(reader.read(data), _AUTHORITY, is_static)
 
     def _forget_at_jumps(self) -> None:
         """Let a Buffer know the clock of the node; a BufferCore knows no clocks."""

@@ -43,7 +43,7 @@ def parse_xml(text: str) -> XmlElement:
     parser.StartElementHandler = start
     parser.EndElementHandler = lambda tag: open_elements.pop()
     try:
-        parser.Parse(text.encode(), True)
+        parser.Parse(text.encode(errors='replace'), True)
     except expat.ExpatError as error:
         raise _explained(error, open_elements) from error
     return document.children[0]

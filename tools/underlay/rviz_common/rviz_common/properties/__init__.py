@@ -13,7 +13,7 @@ from rviz_common.properties.property import (
     Vector,
     Whole,
 )
-from rviz_common.properties.topic_properties import qos_of, topic_properties
+from rviz_common.properties.topic_properties import qos_of, topic_path, topic_properties
 from rviz_common.properties.values import Values
 
 __all__ = [
@@ -29,5 +29,6 @@ __all__ = [
     'Vector',
     'Whole',
     'qos_of',
+    'topic_path',
     'topic_properties',
 ]

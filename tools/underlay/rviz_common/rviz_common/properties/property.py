@@ -121,8 +121,8 @@ class ColorOf(Property):
 
     def read(self, value: Any) -> tuple[int, int, int]:
         """Return the value, which a file has as `255; 0; 0`, or raise ValueError."""
+        words = value.split(';') if isinstance(value, str) else value
         try:
-            words = value.split(';') if isinstance(value, str) else value
             red, green, blue = (int(word) for word in words)
         except (TypeError, ValueError):
             raise ValueError(f"must be like '255; 0; 0', and not '{value}'") from None

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from rviz_common.properties.property import Choice, Property, Topic, Whole
@@ -11,7 +12,7 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rviz_common.properties.values import Values
 
-__all__ = ['qos_of', 'topic_properties']
+__all__ = ['qos_of', 'topic_path', 'topic_properties']
 
 BEST_EFFORT, RELIABLE, SYSTEM_DEFAULT = 'Best Effort', 'Reliable', 'System Default'
 TRANSIENT_LOCAL, VOLATILE = 'Transient Local', 'Volatile'
@@ -49,6 +50,11 @@ def topic_properties(
             (RELIABLE, BEST_EFFORT, SYSTEM_DEFAULT),
         ),
     )
+
+
+def topic_path(properties: Iterable[Property]) -> str:
+    """Return the path of the first property that is the name of a topic, or an empty one."""
+    return next((each.path for each in properties if isinstance(each, Topic)), '')
 
 
 def qos_of(values: Values, path: str = 'Topic') -> QoSProfile:

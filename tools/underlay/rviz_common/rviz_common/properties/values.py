@@ -16,19 +16,25 @@ class Values:
     """
     The values of some properties, by path; those that a file does not give have their defaults.
 
-    What a file has besides is kept, so that a file is written back without losses.
+    What a file has besides is kept, so that a file is written back without losses: of what a file
+    gives, only what has been changed since is written anew.
     """
 
     def __init__(
         self, properties: Iterable[Property], given: Mapping[str, Any] | None = None
     ) -> None:
-        """Take the values that a file gives; `refusals` says which of them cannot be used."""
+        """
+        Take the values that a file gives; `refusals` says which of them cannot be used.
+
+        Without any, all are new to the file, and are written.
+        """
         self.properties = {each.path: each for each in properties}
         self._given: dict[str, Any] = copy.deepcopy(dict(given or {}))
         self._values = {path: each.default for path, each in self.properties.items()}
         self.refusals: list[str] = []
         for path in self.properties:
             self._take(path)
+        self._changed: set[str] = set(self.properties) if given is None else set()
 
     def __getitem__(self, path: str) -> Any:
         """Return the value of a property."""
@@ -36,13 +42,17 @@ class Values:
 
     def __setitem__(self, path: str, value: Any) -> None:
         """Set a property, or raise ValueError with the reason."""
-        self._values[path] = self.properties[path].read(value)
+        value = self.properties[path].read(value)
+        if value != self._values[path]:
+            self._values[path] = value
+            self._changed.add(path)
 
     def to_file(self) -> dict[str, Any]:
-        """Return what a file is to have: what it had, with the values as they are now."""
+        """Return what a file is to have: what it had, with the values that have been changed."""
         written = copy.deepcopy(self._given)
-        for path, value in self._values.items():
-            _put(written, path, self.properties[path].write(value))
+        for path in self._values:
+            if path in self._changed:
+                _put(written, path, self.properties[path].write(self._values[path]))
         return written
 
     def unknown(self, known: Iterable[str]) -> list[str]:
@@ -55,7 +65,7 @@ class Values:
         if found is _MISSING:
             return
         try:
-            self[path] = found
+            self._values[path] = self.properties[path].read(found)
         except ValueError as error:
             self.refusals.append(f"'{path}' {error}.")
 

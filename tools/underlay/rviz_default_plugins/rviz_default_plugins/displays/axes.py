@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from rviz_common.display import Display
-from rviz_common.frames import FIXED_FRAME, FrameError
+from rviz_common.frames import FIXED_FRAME
 from rviz_common.properties import Frame, Number
-from rviz_common.status import Level
+from rviz_default_plugins.following import follow
 
 __all__ = ['Axes']
 
@@ -38,12 +38,4 @@ class Axes(Display):
 
     def update(self) -> None:
         """Move the axes to where their frame is."""
-        try:
-            pose = self.context.frames.pose(self.values['Reference Frame'])
-        except FrameError as error:
-            self.status.say('Transform', Level.ERROR, str(error))
-            self._axes.visible = False
-            return
-        self.status.forget('Transform')
-        self._axes.visible = True
-        self._axes.position, self._axes.wxyz = pose
+        follow(self, self._axes, self.values['Reference Frame'])

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Robots for the measurement of `rviz2`: descriptions, and transforms that change all the time.
+
+One process sends what a `robot_state_publisher` for each robot would, since those would need the
+cores on which `rviz2` is measured. `python3 rviz_robots.py COUNT RATE_HZ` runs until it is ended.
+"""
+
+from __future__ import annotations
+
+from math import sin
+import struct
+import sys
+import time
+from typing import Any
+
+from geometry_msgs.msg import TransformStamped
+import rclpy
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.serialization import serialize_message
+from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
+from urdf import parse_urdf, RobotModel
+from urdf.kinematics import joint_motion
+
+JOINTS = 23
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+PHASES = 50
+STAMP = struct.pack('<iI', 0x12345678, 0x23456789)
+BODY = '<visual><geometry><box size="0.1 0.1 0.2"/></geometry></visual>'
+
+
+def main() -> None:
+    """Send until the process is ended."""
+    count, rate_hz = int(sys.argv[1]), float(sys.argv[2])
+    rclpy.init()
+    node = rclpy.create_node('robots')
+    stand = [describe(node, f'robot_{index}', index) for index in range(count)]
+    static = node.create_publisher(TFMessage, '/tf_static', LATCHED)
+    static.publish(TFMessage(transforms=stand))
+    moving = node.create_publisher(TFMessage, '/tf', 100)
+    robots = [phases(f'robot_{index}') for index in range(count)]
+    begin_s, number = time.monotonic(), 0
+    while True:
+        for robot in robots:
+            moving.publish(stamped(robot[number % PHASES]))
+        number += 1
+        time.sleep(max(0.0, begin_s + number / rate_hz - time.monotonic()))
+
+
+def urdf() -> str:
+    """Return a robot of two arms and two legs, all joints of which turn."""
+    links = ''.join(f'<link name="link_{index}">{BODY}</link>' for index in range(JOINTS + 1))
+    joints = ''.join(
+        f'<joint name="joint_{index}" type="continuous"><parent link="link_{above(index)}"/>'
+        f'<child link="link_{index + 1}"/><origin xyz="{index % 4 / 20} 0 0.1"/>'
+        f'<axis xyz="{("1 0 0", "0 1 0", "0 0 1")[index % 3]}"/></joint>'
+        for index in range(JOINTS)
+    )
+    return f'<robot name="robot">{links}{joints}</robot>'
+
+
+def above(index: int) -> int:
+    """Return the link that a joint hangs from: six in a row make a limb."""
+    return 0 if index % 6 == 0 else index
+
+
+def describe(node: Any, name: str, index: int) -> TransformStamped:
+    """Publish the description of a robot; return where it stands."""
+    publisher = node.create_publisher(String, f'/{name}/robot_description', LATCHED)
+    publisher.publish(String(data=urdf()))
+    transform = TransformStamped(child_frame_id=f'{name}/link_0')
+    transform.header.frame_id = 'map'
+    transform.transform.translation.y = float(index)
+    return transform
+
+
+def phases(name: str) -> list[bytes]:
+    """Return the messages of a robot that moves, with a stamp that is to be replaced."""
+    model = parse_urdf(urdf())
+    return [serialize_message(pose_of(model, name, number)) for number in range(PHASES)]
+
+
+def pose_of(model: RobotModel, name: str, number: int) -> TFMessage:
+    """Return the transforms of one pose."""
+    transforms = []
+    for index, joint in enumerate(model.joints):
+        transform = TransformStamped(child_frame_id=f'{name}/{joint.child}')
+        transform.header.frame_id = f'{name}/{joint.parent}'
+        stamp = transform.header.stamp
+        stamp.sec, stamp.nanosec = struct.unpack('<iI', STAMP)
+        pose = joint_motion(joint)(0.5 * sin(6.283 * number / PHASES + index))
+        at, turn = transform.transform.translation, transform.transform.rotation
+        at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w = pose
+        transforms.append(transform)
+    return TFMessage(transforms=transforms)
+
+
+def stamped(message: bytes) -> bytes:
+    """Return a message with the time that it is."""
+    now_ns = time.time_ns()
+    return message.replace(STAMP, struct.pack('<iI', now_ns // 10**9, now_ns % 10**9))
+
+
+if __name__ == '__main__':
+    main()

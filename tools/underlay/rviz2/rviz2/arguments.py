@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The arguments of rviz2."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+
+__all__ = ['parse']
+
+
+def parse(words: Sequence[str]) -> argparse.Namespace:
+    """Return what the arguments mean; unclear ones end the program with a sentence."""
+    parser = argparse.ArgumentParser(
+        prog='rviz2',
+        allow_abbrev=False,
+        description='Show in a browser what a robot says and knows. The address is printed.',
+        epilog='Parameters of the node, after --ros-args -p: host:=ADDRESS (default 127.0.0.1; '
+        'another one needs a token), port:=NUMBER (default: the first free one from 8080 on), '
+        'token:=TEXT (made up where one is needed), use_sim_time:=true.',
+    )
+    parser.add_argument('-d', '--display-config', metavar='FILE', help='a .rviz file to show')
+    parser.add_argument(
+        '-f', '--fixed-frame', metavar='FRAME', help='the fixed frame, instead of that of the file'
+    )
+    ignored = parser.add_argument_group('without meaning in a browser, and ignored')
+    ignored.add_argument('-l', '--ogre-log', action='store_true')
+    ignored.add_argument('-s', '-t', '--splash-screen', metavar='FILE')
+    ignored.add_argument('--fullscreen', action='store_true')
+    return parser.parse_args(words)

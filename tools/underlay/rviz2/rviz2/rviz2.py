@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Show in a browser what a robot says and knows: `ros2 run rviz2 rviz2 -d FILE.rviz`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+import sys
+from typing import TYPE_CHECKING
+
+from rviz2.arguments import parse
+from rviz_common.config import ConfigError, Configuration
+from tf2_ros.program import run, spin
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rviz_common.page import Page
+
+__all__ = ['main']
+
+Job = tuple[argparse.Namespace, Configuration]
+
+
+def main(args: Sequence[str] | None = None) -> None:
+    """Run the program."""
+    sys.exit(run(_job, _show, args))
+
+
+def _job(words: list[str]) -> Job:
+    """Return what is to be shown; what cannot be read ends the program before anything starts."""
+    arguments = parse(words)
+    try:
+        if arguments.display_config is None:
+            configuration = Configuration.default()
+        else:
+            configuration = Configuration.read(arguments.display_config)
+    except ConfigError as error:
+        sys.stderr.write(f'{error}\n')
+        sys.exit(1)
+    return arguments, configuration
+
+
+def _show(job: Job) -> int:
+    """Show it until a signal comes; return the exit status."""
+    from rclpy.exceptions import ParameterException
+    from rviz2.page_parameters import page_settings
+    from rviz_common.guarded_node import GuardedNode
+    from rviz_common.page import Page, PortError
+
+    node = GuardedNode('rviz2')
+    try:
+        page = Page('RViz', page_settings(node))
+    except (ValueError, ParameterException, PortError) as error:
+        sys.stderr.write(f'{error}\n')
+        return 1
+    with page:
+        node.get_logger().info(f'RViz is at {page.url}')
+        _visualize(node, page, *job)
+    node.destroy_node()
+    return 0
+
+
+def _visualize(
+    node: Node, page: Page, arguments: argparse.Namespace, configuration: Configuration
+) -> None:
+    from rviz2.page_parameters import unknown_parameters
+    from rviz_common.visualizer import Visualizer
+    from rviz_common.visualizer.options import FIXED_FRAME
+
+    visualizer = Visualizer(node, page.viser, configuration, arguments.display_config or '')
+    if arguments.fixed_frame is not None:
+        visualizer.set_option(FIXED_FRAME, arguments.fixed_frame)
+    for sentence in unknown_parameters(node):
+        node.get_logger().warning(sentence)
+    spin(node)
+    visualizer.close()
+
+
+if __name__ == '__main__':
+    main()

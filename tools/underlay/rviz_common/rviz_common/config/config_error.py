@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is wrong with a file of displays."""
+
+from __future__ import annotations
+
+__all__ = ['ConfigError']
+
+
+class ConfigError(ValueError):
+    """A file that cannot be read or written, with the place and the reason."""
+
+    def __init__(self, source: str, line: int | None, reason: str) -> None:
+        """Begin the sentence with the place."""
+        self.source = source
+        self.line = line
+        self.reason = reason
+        place = source if line is None else f'{source}:{line}'
+        super().__init__(f'{place}: {reason}')

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a .rviz file says, by its sections."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import os
+from typing import Any
+
+from rviz_common.config.config_error import ConfigError
+from rviz_common.config.default import default_values
+from rviz_common.config.document import Document, Place
+from rviz_common.config.saving import replace_file
+from rviz_common.config.yaml_reading import read_yaml
+from rviz_common.config.yaml_writing import write_yaml
+
+__all__ = ['DISPLAYS', 'OPTIONS', 'PANELS', 'SAVED_VIEWS', 'TOOLS', 'VIEW', 'Configuration']
+
+MANAGER: Place = ('Visualization Manager',)
+DISPLAYS: Place = (*MANAGER, 'Displays')
+OPTIONS: Place = (*MANAGER, 'Global Options')
+TOOLS: Place = (*MANAGER, 'Tools')
+VIEW: Place = (*MANAGER, 'Views', 'Current')
+SAVED_VIEWS: Place = (*MANAGER, 'Views', 'Saved')
+PANELS: Place = ('Panels',)
+GROUP = 'rviz_common/Group'
+
+
+class Configuration:
+    """What a .rviz file says, by its sections; what is not understood is kept."""
+
+    def __init__(self, document: Document) -> None:
+        """Check the outer form of a file, or raise ConfigError."""
+        self.document = document
+        self._has(document.values, dict, ())
+        defaults: Any = default_values()
+        self.displays = self._entries(DISPLAYS, [])
+        self._check_groups(self.displays, DISPLAYS)
+        self.panels = self._entries(PANELS, defaults['Panels'])
+        self.tools = self._entries(TOOLS, defaults['Visualization Manager']['Tools'])
+        self.options: dict[str, Any] = self._find(OPTIONS, dict) or {}
+        self.view: dict[str, Any] = self._find(VIEW, dict) or {}
+        self.saved_views = self._entries(SAVED_VIEWS, [])
+        self._given: dict[Place, Any] = {
+            DISPLAYS: self.displays,
+            PANELS: self.panels,
+            TOOLS: self.tools,
+            OPTIONS: self.options,
+            VIEW: self.view,
+            SAVED_VIEWS: self.saved_views,
+        }
+
+    @classmethod
+    def default(cls) -> Configuration:
+        """Return what is shown without a file."""
+        return cls(Document('the default configuration', default_values()))
+
+    @classmethod
+    def read(cls, path: str) -> Configuration:
+        """Return what a file says, or raise ConfigError."""
+        try:
+            with open(path, encoding='utf-8-sig') as file:
+                text = file.read()
+        except OSError as error:
+            raise ConfigError(path, None, _unreadable(path, error)) from error
+        except UnicodeDecodeError as error:
+            raise ConfigError(path, None, f'The file is no text: {error}.') from error
+        return cls.parse(text, path)
+
+    @classmethod
+    def parse(cls, text: str, source: str) -> Configuration:
+        """Return what the text of a file says, or raise ConfigError."""
+        document = read_yaml(text, source)
+        if document.values is None:
+            raise ConfigError(source, None, 'The file is empty: this is no configuration of RViz.')
+        return cls(document)
+
+    def text(self, sections: Mapping[Place, Any]) -> str:
+        """Return the text of the file with sections as they are now; what is as it was is kept."""
+        values = self.document.values
+        for place, section in sections.items():
+            if section != self._given[place]:
+                values = _replaced(values, place, section)
+        return write_yaml(values)
+
+    def save(self, path: str, sections: Mapping[Place, Any]) -> None:
+        """Write the file, or raise ConfigError and leave it as it is."""
+        replace_file(path, self.text(sections))
+
+    def _entries(self, place: Place, default: list[dict[str, Any]]) -> list[dict[str, Any]]:
+        """Return a list of mappings; the default if there is none at all."""
+        found = self._at(place)
+        if found is _MISSING:
+            return default
+        entries: list[dict[str, Any]] = self._has(found, list, place) or []
+        for index, entry in enumerate(entries):
+            self._has(entry, dict, (*place, index), is_needed=True)
+            self._has(entry.get('Class'), str, (*place, index, 'Class'), is_needed=True)
+        return entries
+
+    def _check_groups(self, entries: list[dict[str, Any]], place: Place) -> None:
+        for index, entry in enumerate(entries):
+            if entry['Class'] == GROUP:
+                below = (*place, index, 'Displays')
+                self._check_groups(self._entries(below, []), below)
+
+    def _find(self, place: Place, kind: type) -> Any:
+        found = self._at(place)
+        return None if found is _MISSING else self._has(found, kind, place)
+
+    def _at(self, place: Place) -> Any:
+        found = self.document.values
+        for depth, name in enumerate(place):
+            if isinstance(name, str):
+                found = self._has(found, dict, place[:depth]) or {}
+                if name not in found:
+                    return _MISSING
+            found = found[name]
+        return found
+
+    def _has(self, value: Any, kind: type, place: Place, is_needed: bool = False) -> Any:
+        """Return a value if it has the kind, or raise ConfigError."""
+        if isinstance(value, kind) or (value is None and not is_needed):
+            return value
+        name = place[-1] if place else ''
+        subject = f"'{name}'" if isinstance(name, str) and name else 'This'
+        if value is None:
+            reason = f'{subject} is missing, but must be {KINDS[kind]}.'
+        else:
+            reason = f'{subject} must be {KINDS[kind]}, and not {_shown(value)}.'
+        raise ConfigError(self.document.source, self.document.line(place), reason)
+
+
+KINDS: dict[type, str] = {
+    dict: "a mapping (lines like 'Name: value')",
+    list: "a list (lines that begin with '- ')",
+    str: 'a text',
+}
+_MISSING = object()
+
+
+def _replaced(values: Any, place: Place, section: Any) -> Any:
+    """Return values with another section; the order remains."""
+    if not place:
+        return section
+    name = place[0]
+    below = dict(values or {})
+    below[str(name)] = _replaced(below.get(str(name)), place[1:], section)
+    return below
+
+
+def _shown(value: Any) -> str:
+    return KINDS.get(type(value), f"'{value}'")
+
+
+def _unreadable(path: str, error: OSError) -> str:
+    if isinstance(error, FileNotFoundError):
+        full = os.path.abspath(path)
+        return f'There is no such file. Looked for {full}.'
+    return f'The file cannot be read: {error.strerror}.'

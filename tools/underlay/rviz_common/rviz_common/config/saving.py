@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Write a file so that either the old or the new one is there, whatever happens."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+import os
+import stat
+import tempfile
+
+from rviz_common.config.config_error import ConfigError
+
+__all__ = ['replace_file']
+
+
+def replace_file(path: str, text: str) -> None:
+    """Replace what a file has, or raise ConfigError and leave it as it is."""
+    path = os.path.realpath(path)  # the file behind a link, not the link
+    try:
+        _replace(path, text.encode())
+    except OSError as error:
+        raise ConfigError(
+            path, None, f'The file cannot be written: {error.strerror}. It is as it was.'
+        ) from error
+
+
+def _replace(path: str, content: bytes) -> None:
+    directory, name = os.path.split(path)
+    handle, temporary = tempfile.mkstemp(prefix=f'.{name}.', dir=directory)
+    try:
+        with open(handle, 'wb') as file:
+            os.fchmod(handle, _mode(path))
+            file.write(content)
+            file.flush()
+            os.fsync(handle)
+        os.replace(temporary, path)
+    except BaseException:
+        with suppress(OSError):
+            os.unlink(temporary)
+        raise
+
+
+def _mode(path: str) -> int:
+    """Return the permissions of the file as it is, or those of new ones."""
+    with suppress(OSError):
+        return stat.S_IMODE(os.stat(path).st_mode)
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Read YAML as RViz writes it.
+
+RViz takes all scalars for texts, and asks what they mean only where they are used. So only what
+is written back the same is made a number here: `007` and `on` remain texts, `1e-05` is a number.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import re
+from typing import Any
+
+from rviz_common.config.config_error import ConfigError
+from rviz_common.config.document import Document, Place
+import yaml
+
+__all__ = ['read_yaml', 'scalar_value']
+
+MAXIMAL_DEPTH = 60
+MAXIMAL_COUNT = 500_000
+
+WHOLE = re.compile(r'[-+]?(0|[1-9][0-9]*)')
+NUMBER = re.compile(r'[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?')
+LEADING_ZERO = re.compile(r'[-+]?0[0-9]+')
+WORDS = {'': None, '~': None, 'null': None, 'true': True, 'false': False}
+Loader = getattr(yaml, 'CBaseLoader', yaml.BaseLoader)
+
+
+def read_yaml(text: str, source: str) -> Document:
+    """Return the values of a text, or raise ConfigError."""
+    reader = _Reader(text, source)
+    try:
+        return Document(source, reader.document(), reader.lines)
+    except yaml.MarkedYAMLError as error:
+        raise _unreadable(error, text, source) from error
+    except yaml.YAMLError as error:
+        said = ' '.join(str(error).split())
+        raise ConfigError(source, None, f'This is not YAML: {said}.') from error
+
+
+def scalar_value(text: str) -> Any:
+    """Return what a text without quotes means."""
+    if text.lower() in WORDS:
+        return WORDS[text.lower()]
+    if LEADING_ZERO.match(text):
+        return text
+    if WHOLE.fullmatch(text):
+        return int(text) if len(text) < 300 else text
+    if NUMBER.fullmatch(text):
+        number = float(text)
+        return number if abs(number) != float('inf') else text
+    return text
+
+
+class _Reader:
+    """Makes values of the events of a file, and remembers their lines."""
+
+    def __init__(self, text: str, source: str) -> None:
+        self.lines: dict[Place, int] = {}
+        self._events: Iterator[Any] = yaml.parse(text, Loader=Loader)
+        self._source = source
+        self._count = 0
+
+    def document(self) -> Any:
+        """Return the value of the first document, which must be the only one."""
+        next(self._events)
+        if isinstance(next(self._events), yaml.StreamEndEvent):
+            return None
+        value = self._value(next(self._events), ())
+        next(self._events)
+        more = next(self._events)
+        if not isinstance(more, yaml.StreamEndEvent):
+            raise ConfigError(self._source, _line(more), 'A second document begins here.')
+        return value
+
+    def _value(self, event: Any, place: Place) -> Any:
+        """Return the value that begins with an event."""
+        line = self.lines[place] = _line(event)
+        self._count += 1
+        if len(place) > MAXIMAL_DEPTH or self._count > MAXIMAL_COUNT:
+            raise ConfigError(self._source, line, 'The file is nested too deeply, or too large.')
+        if isinstance(event, yaml.MappingStartEvent):
+            return self._mapping(place)
+        if isinstance(event, yaml.SequenceStartEvent):
+            return self._sequence(place)
+        return self._scalar(event)
+
+    def _scalar(self, event: Any) -> Any:
+        if isinstance(event, yaml.AliasEvent):
+            reason = f"'*{event.anchor}' refers to another place: write here what stands there."
+            raise ConfigError(self._source, _line(event), reason)
+        return event.value if event.style else scalar_value(event.value)
+
+    def _sequence(self, place: Place) -> list[Any]:
+        values: list[Any] = []
+        while not isinstance(event := next(self._events), yaml.SequenceEndEvent):
+            values.append(self._value(event, (*place, len(values))))
+        return values
+
+    def _mapping(self, place: Place) -> dict[str, Any]:
+        values: dict[str, Any] = {}
+        while not isinstance(key := next(self._events), yaml.MappingEndEvent):
+            if not isinstance(key, yaml.ScalarEvent):
+                raise ConfigError(
+                    self._source, _line(key), 'A key must be a text, and not a tree.'
+                )
+            name, here = key.value, (*place, key.value)
+            if name in values:
+                self._refuse_second(name, _line(key), self.lines[here])
+            values[name] = self._value(next(self._events), here)
+            self.lines[here] = _line(key)
+        return values
+
+    def _refuse_second(self, name: str, line: int, first: int) -> None:
+        raise ConfigError(
+            self._source,
+            line,
+            f"'{name}' stands here and in line {first} already: remove one of them.",
+        )
+
+
+def _line(event: Any) -> int:
+    return int(event.start_mark.line + 1)
+
+
+def _unreadable(error: yaml.MarkedYAMLError, text: str, source: str) -> ConfigError:
+    """Say what cannot be read, and where."""
+    mark = error.problem_mark or error.context_mark
+    if mark is None:
+        return ConfigError(source, None, f'This is not YAML: {error}.')
+    lines = text.splitlines()
+    if mark.line < len(lines) and lines[mark.line].startswith('\t', mark.column):
+        return ConfigError(source, mark.line + 1, 'There is a tab. Indent with spaces only.')
+    said = ', '.join(each for each in (error.context, error.problem) if each)
+    return ConfigError(source, mark.line + 1, f'This is not YAML: {said}.')

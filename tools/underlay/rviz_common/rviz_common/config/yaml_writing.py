@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Write YAML in the form in which RViz writes it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rviz_common.config.yaml_reading import scalar_value
+import yaml
+
+__all__ = ['write_yaml']
+
+
+def write_yaml(values: Any) -> str:
+    """Return the text of values."""
+    text: str = yaml.dump(
+        values,
+        Dumper=_Dumper,
+        default_flow_style=False,
+        sort_keys=False,
+        allow_unicode=True,
+        width=1_000_000,
+    )
+    return text
+
+
+class _Dumper(yaml.SafeDumper):
+    """Indents lists as RViz does; all scalars are texts, some of them without quotes."""
+
+    yaml_implicit_resolvers: dict[Any, Any] = {}
+
+    def increase_indent(self, flow: bool = False, indentless: bool = False) -> None:
+        """Indent lists below their names, too."""
+        super().increase_indent(flow, False)
+
+    def ignore_aliases(self, data: Any) -> bool:
+        """Write what occurs twice, twice."""
+        return True
+
+
+def _scalar(dumper: yaml.SafeDumper, text: str, style: str | None = None) -> yaml.Node:
+    return dumper.represent_scalar('tag:yaml.org,2002:str', text, style)
+
+
+def _text(dumper: yaml.SafeDumper, text: str) -> yaml.Node:
+    """Put quotes around what would be read as something else."""
+    return _scalar(dumper, text, None if isinstance(scalar_value(text), str) else '"')
+
+
+_Dumper.add_representer(str, _text)
+_Dumper.add_representer(bool, lambda dumper, value: _scalar(dumper, str(value).lower()))
+_Dumper.add_representer(int, lambda dumper, value: _scalar(dumper, str(value)))
+_Dumper.add_representer(float, lambda dumper, value: _scalar(dumper, repr(value)))
+_Dumper.add_representer(type(None), lambda dumper, value: _scalar(dumper, '~'))

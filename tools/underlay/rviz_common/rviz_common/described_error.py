@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say where an error comes from."""
+
+from __future__ import annotations
+
+__all__ = ['described_error']
+
+
+def described_error(error: Exception) -> str:
+    """Return an error with the file and the line where it was raised."""
+    trace = error.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    place = '' if trace is None else f'{trace.tb_frame.f_code.co_filename}:{trace.tb_lineno}: '
+    return f'{place}{type(error).__name__}: {error}'

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Hear of transforms when a frame is to be drawn, and not in between."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from tf2_ros import Buffer, TransformListener
+
+__all__ = ['FrameListener']
+
+# More than robots say between two frames; what is older is lost.
+DEPTH = 1000
+MOVING = QoSProfile(depth=DEPTH)
+STATIC = QoSProfile(depth=DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class _Waiting(ReentrantCallbackGroup):
+    """Subscriptions that the executor leaves alone."""
+
+    def can_execute(self, entity: Any) -> bool:
+        """Tell the executor not to wait for them."""
+        return False
+
+
+class FrameListener(TransformListener):
+    """
+    Fills a buffer with all that has come whenever `take_all` is called.
+
+    For an executor to wake for each message takes longer than to take the transforms out of it.
+    """
+
+    def __init__(self, buffer: Buffer, node: Node) -> None:
+        """Subscribe."""
+        super().__init__(buffer, node, qos=MOVING, static_qos=STATIC)
+
+    def take_all(self) -> None:
+        """Take what has come since the last time, static transforms first."""
+        for subscription in (self.tf_static_sub, self.tf_sub):
+            for _ in range(DEPTH):
+                with subscription.handle:
+                    found = subscription.handle.take_message(subscription.msg_type, True)
+                if found is None:
+                    break
+                subscription.callback(found[0])
+
+    def _group(self) -> ReentrantCallbackGroup:
+        return _Waiting()

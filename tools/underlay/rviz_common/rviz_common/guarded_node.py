@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A node that goes on when a callback fails."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import functools
+from typing import Any
+
+from rclpy.node import Node
+from rviz_common.described_error import described_error
+from rviz_common.pace import Pace
+
+__all__ = ['GuardedNode']
+
+REPEAT_S = 10.0
+
+
+class GuardedNode(Node):
+    """
+    A node that goes on when a callback of a subscription or a timer fails.
+
+    The log says which one failed, and why.
+    """
+
+    def create_subscription(
+        self, msg_type: Any, topic: str, callback: Callable[..., Any], *args: Any, **more: Any
+    ) -> Any:
+        """Subscribe a topic."""
+        guarded = self._guarded(callback, f"A message of '{topic}'")
+        return super().create_subscription(msg_type, topic, guarded, *args, **more)
+
+    def create_timer(
+        self, timer_period_sec: float, callback: Callable[[], Any], *args: Any, **more: Any
+    ) -> Any:
+        """Have something done again and again."""
+        guarded = self._guarded(callback, 'What is to be done regularly')
+        return super().create_timer(timer_period_sec, guarded, *args, **more)
+
+    def _guarded(self, callback: Callable[..., Any], subject: str) -> Callable[..., Any]:
+        pace = Pace(REPEAT_S)
+
+        @functools.wraps(callback)
+        def guarded(*args: Any) -> None:
+            try:
+                callback(*args)
+            except Exception as error:  # whatever a display does, the others go on
+                if pace.is_due():
+                    said = f'{subject} has met an error: {described_error(error)}'
+                    self.get_logger().error(said)
+
+        return guarded

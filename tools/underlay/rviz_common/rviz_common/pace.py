@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Do something not for each frame, but now and then."""
+
+from __future__ import annotations
+
+import time
+
+__all__ = ['Pace']
+
+
+class Pace:
+    """Tells when it is time to do something again."""
+
+    def __init__(self, period_s: float = 0.5) -> None:
+        """Take how long to wait in between."""
+        self._period_s = period_s
+        self._next_s = 0.0
+
+    def is_due(self) -> bool:
+        """Tell if it is time, at most once a period."""
+        now_s = time.monotonic()
+        if now_s < self._next_s:
+            return False
+        self._next_s = now_s + self._period_s
+        return True
+
+    def hurry(self) -> None:
+        """Make it time now."""
+        self._next_s = 0.0

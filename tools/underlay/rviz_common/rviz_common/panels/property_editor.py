@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Widgets for the properties of something."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from contextlib import ExitStack
+import time
+from typing import Any
+
+from rviz_common.context import Context
+from rviz_common.panels.widgets import add_widget
+from rviz_common.properties import Choice, Flag, Property, Values
+
+__all__ = ['PropertyEditor']
+
+QUIET_S = 0.6
+"""Who types is not interrupted: a value takes effect when it has rested so long."""
+
+
+class PropertyEditor:
+    """Widgets for some properties; those whose paths have several names are in folders."""
+
+    def __init__(
+        self,
+        context: Context,
+        values: Values,
+        change: Callable[[str, Any], None],
+        without: Iterable[str] = (),
+    ) -> None:
+        """Add the widgets; `change` takes the path and the value that a person gives."""
+        self._values = values
+        self._change = change
+        self._context = context
+        self._waiting: dict[str, tuple[float, Any]] = {}
+        self._folders: dict[str, Any] = {}
+        shown = [each for each in values.properties.values() if each.path not in set(without)]
+        self._widgets = {each.path: self._add(each) for each in shown}
+        self._said = {each.path: values[each.path] for each in shown}
+
+    def update(self) -> None:
+        """Have what has been typed take effect, and show what a program has changed."""
+        now_s = time.monotonic()
+        for path, (due_s, value) in list(self._waiting.items()):
+            if now_s >= due_s:
+                del self._waiting[path]
+                self._set(path, value)
+        for path, said in self._said.items():
+            value = self._values[path]
+            if value != said and path not in self._waiting:
+                self._said[path] = value
+                self._widgets[path].value = value
+
+    def _add(self, of: Property) -> Any:
+        with ExitStack() as above:
+            names = of.path.split('/')[:-1]
+            for depth in range(len(names)):
+                above.enter_context(self._folder('/'.join(names[: depth + 1])))
+            widget = add_widget(self._context.gui, of, self._values[of.path])
+        delay_s = 0.0 if isinstance(of, (Flag, Choice)) else QUIET_S
+        self._context.on_input(widget, lambda value: self._take(of.path, value, delay_s))
+        return widget
+
+    def _folder(self, path: str) -> Any:
+        if path not in self._folders:
+            label = path.rpartition('/')[2]
+            self._folders[path] = self._context.gui.add_folder(label, expand_by_default=False)
+        return self._folders[path]
+
+    def _take(self, path: str, value: Any, delay_s: float) -> None:
+        self._waiting[path] = time.monotonic() + delay_s, value
+
+    def _set(self, path: str, value: Any) -> None:
+        """Set a property; what cannot be used is replaced by what is."""
+        try:
+            self._change(path, value)
+        except ValueError as error:
+            self._context.visualizer.notify('Not changed', f"'{path}' {error}.")
+            self._said[path] = value
+        else:
+            self._said[path] = self._values[path]

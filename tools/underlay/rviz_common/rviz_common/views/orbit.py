@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Look at a point from around it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import math
+from typing import Any
+
+from rviz_common.properties import Number, Values, Vector
+from rviz_common.views.camera_pose import CameraPose, Point
+from rviz_common.views.view_kind import COMMON, ViewKind
+
+__all__ = ['Orbit', 'ThirdPersonFollower', 'XYOrbit']
+
+STEEPEST = math.pi / 2 - 0.001
+"""Straight from above, the direction up would not be known."""
+
+
+class Orbit(ViewKind):
+    """Look at a point from around it."""
+
+    CLASS = 'rviz_default_plugins/Orbit'
+    NAME = 'Orbit'
+    PROPERTIES = (
+        *COMMON,
+        Number('Distance', 10.0, 'From the point, in metres.', 0.01, 1e6),
+        Vector('Focal Point', (0.0, 0.0, 0.0), 'The point, from the target frame on.'),
+        Number('Yaw', 0.785, 'The angle about the vertical axis.'),
+        Number('Pitch', 0.785, 'The angle above the ground.'),
+    )
+
+    def camera(self, values: Values) -> CameraPose:
+        """Return where the camera is."""
+        focus = self.focus(values['Focal Point'])
+        yaw, distance = values['Yaw'], values['Distance']
+        pitch = min(max(values['Pitch'], -STEEPEST), STEEPEST)
+        across = distance * math.cos(pitch)
+        position = (
+            focus[0] + across * math.cos(yaw),
+            focus[1] + across * math.sin(yaw),
+            focus[2] + distance * math.sin(pitch),
+        )
+        return CameraPose(position, focus, near=values['Near Clip Distance'])
+
+    def properties(self, camera: CameraPose) -> Mapping[str, Any]:
+        """Return the properties of a camera."""
+        focus = self.seen(camera)
+        dx, dy, dz = (a - b for a, b in zip(camera.position, focus))
+        distance = math.sqrt(dx * dx + dy * dy + dz * dz)
+        return {
+            'Distance': max(distance, 0.01),
+            'Focal Point': focus,
+            'Yaw': math.atan2(dy, dx) % math.tau,
+            'Pitch': math.atan2(dz, math.hypot(dx, dy)),
+        }
+
+    def focus(self, point: Point) -> Point:
+        """Return the point that is looked at."""
+        return point
+
+    def seen(self, camera: CameraPose) -> Point:
+        """Return the point that a camera looks at."""
+        return camera.look_at
+
+
+class XYOrbit(Orbit):
+    """Look at a point of the ground from around it."""
+
+    CLASS = 'rviz_default_plugins/XYOrbit'
+    NAME = 'XYOrbit'
+
+    def focus(self, point: Point) -> Point:
+        """Return the point that is looked at."""
+        return point[0], point[1], 0.0
+
+    def seen(self, camera: CameraPose) -> Point:
+        """Return the point of the ground that a camera looks at, if it looks at any."""
+        (x, y, z), (to_x, to_y, to_z) = camera.position, camera.look_at
+        drop = z - to_z
+        share = z / drop if abs(drop) > 1e-6 else -1.0
+        if not 0.0 < share < 1000.0:
+            return to_x, to_y, 0.0
+        return x + share * (to_x - x), y + share * (to_y - y), 0.0
+
+
+class ThirdPersonFollower(XYOrbit):
+    """Look at a point of the ground, from behind what moves."""
+
+    CLASS = 'rviz_default_plugins/ThirdPersonFollower'
+    NAME = 'ThirdPersonFollower'

@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is shown: displays, tools, views and panels, as a file says."""
+
+from rviz_common.visualizer.entry import Entry
+from rviz_common.visualizer.group import Group
+from rviz_common.visualizer.visualizer import Visualizer
+
+__all__ = ['Entry', 'Group', 'Visualizer']

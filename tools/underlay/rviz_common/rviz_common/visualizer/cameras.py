@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Have browsers look at the scene as a view says."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rviz_common.context import Context
+from rviz_common.frames import FrameError, Pose
+from rviz_common.views import CameraPose, View
+from rviz_common.views.camera_pose import Point
+
+__all__ = ['WORLD', 'Cameras']
+
+WORLD = '/world'
+"""The path of the scene below which all is drawn that is in the fixed frame."""
+
+
+class Cameras:
+    """
+    Has browsers look at the scene as a view says.
+
+    A camera that follows a frame rests, and the world moves the other way: so whoever turns the
+    scene meanwhile is not disturbed.
+    """
+
+    def __init__(self, context: Context, view: View) -> None:
+        """Look as a view says; browsers that come later do so from the beginning."""
+        self._context = context
+        self._world = context.scene.add_frame(WORLD, show_axes=False)
+        self._at = Pose().position
+        self.reason = ''
+        self.show(view)
+
+    @property
+    def origin(self) -> Point:
+        """Return the place, in the fixed frame, of what the camera follows."""
+        return self._at
+
+    def show(self, view: View) -> None:
+        """Have all browsers look as a view says."""
+        self.view = view
+        pose = view.camera()
+        initial = self._context.server.initial_camera
+        initial.up = pose.up
+        _apply(initial, pose)
+        for client in self._context.server.get_clients().values():
+            client.camera.up_direction = pose.up
+            _apply(client.camera, pose)
+
+    def update(self) -> None:
+        """Follow the target frame."""
+        try:
+            at = self._context.frames.pose(self.view.target).position
+        except FrameError as error:
+            self.reason = str(error)
+            return
+        self.reason = ''
+        if at != self._at:
+            self._at = at
+            x, y, z = at
+            self._world.position = (-x, -y, -z)
+
+    def seen_by(self, client_id: int | None) -> CameraPose | None:
+        """Return how a browser looks at the scene, the first one by default."""
+        clients = self._context.server.get_clients()
+        client = clients.get(client_id) if client_id is not None else None
+        client = client or next(iter(clients.values()), None)
+        return None if client is None else _pose(client.camera)
+
+
+def _apply(camera: Any, pose: CameraPose) -> None:
+    """Set the camera of a browser, or the one that browsers begin with."""
+    camera.position = pose.position
+    camera.look_at = pose.look_at
+    camera.fov, camera.near, camera.far = pose.fov, pose.near, pose.far
+
+
+def _pose(camera: Any) -> CameraPose:
+    """Return how a browser looks at the scene."""
+    return CameraPose(
+        _point(camera.position),
+        _point(camera.look_at),
+        _point(camera.up_direction),
+        camera.fov,
+        camera.near,
+        camera.far,
+    )
+
+
+def _point(vector: Any) -> Point:
+    x, y, z = (float(part) for part in vector)
+    return x, y, z

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An entry of the tree of displays."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import Any
+
+from rviz_common.status import Level, Statuses
+
+__all__ = ['Entry']
+
+
+class Entry(ABC):
+    """An entry of the tree of displays: a display, a group, or what nobody knows."""
+
+    name: str
+    class_name: str
+
+    @property
+    @abstractmethod
+    def is_enabled(self) -> bool:
+        """Tell if it is to be shown."""
+
+    @property
+    @abstractmethod
+    def status(self) -> Statuses:
+        """Return what it has to say."""
+
+    @property
+    def level(self) -> Level:
+        """Return how bad it is, with all that is below it."""
+        return self.status.level
+
+    @abstractmethod
+    def enable(self, is_enabled: bool) -> None:
+        """Have it shown, or no longer."""
+
+    @abstractmethod
+    def appear(self, is_shown_above: bool) -> None:
+        """Show it if it is enabled and so is all above it; else show it no longer."""
+
+    @abstractmethod
+    def update(self) -> None:
+        """Draw the next frame."""
+
+    @abstractmethod
+    def to_file(self) -> dict[str, Any]:
+        """Return what the file is to have."""

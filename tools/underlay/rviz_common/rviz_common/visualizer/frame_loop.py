@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Do something for each frame, in the thread of a node."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from rclpy.clock import Clock, ClockType
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ['FrameLoop']
+
+FASTEST_HZ = 60.0
+
+
+class FrameLoop:
+    """
+    Does something for each frame, in the thread in which the node works.
+
+    The clock is a steady one, so that frames go on while a simulator rests.
+    """
+
+    def __init__(self, node: Node, frame: Callable[[], None], rate_hz: float) -> None:
+        """Begin to draw frames, as soon as the node works."""
+        self._node = node
+        self._frame = frame
+        self._clock = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(_period_s(rate_hz), frame, clock=self._clock)
+
+    def set_rate(self, rate_hz: float) -> None:
+        """Draw so many frames in a second from now on, up to 60."""
+        self._timer.timer_period_ns = int(_period_s(rate_hz) * 1e9)
+
+    def close(self) -> None:
+        """Draw no more frames."""
+        self._node.destroy_timer(self._timer)
+
+
+def _period_s(rate_hz: float) -> float:
+    return 1.0 / min(max(rate_hz, 1.0), FASTEST_HZ)

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether frames are known, and what is missing if they are not."""
+
+from __future__ import annotations
+
+from collections import Counter
+import re
+from typing import TYPE_CHECKING
+
+from rviz_common.status import Level, Statuses
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rviz_common.frames import Frames
+
+__all__ = ['FrameWatch']
+
+SUBJECT = 'Fixed Frame'
+TOPICS = ('/tf', '/tf_static')
+PARENT = re.compile(r'^Frame (.*) exists with parent (.*)\.$', re.MULTILINE)
+SHOWN = 4
+
+
+class FrameWatch:
+    """Says whether frames can be placed in the fixed frame, and what is missing."""
+
+    def __init__(self, node: Node, frames: Frames, status: Statuses) -> None:
+        """Say it in a status."""
+        self._node = node
+        self._frames = frames
+        self._status = status
+
+    def update(self) -> None:
+        """Look at the frames again."""
+        level, sentence = self._judge()
+        self._status.say(SUBJECT, level, sentence)
+
+    def names(self) -> list[str]:
+        """Return the names of all frames that are known."""
+        return sorted(self._frames.buffer._getFrameStrings())
+
+    def _judge(self) -> tuple[Level, str]:
+        fixed, names = self._frames.fixed_frame, self.names()
+        if not fixed:
+            return Level.ERROR, 'No fixed frame is chosen. Choose one of the options above.'
+        if not names:
+            return self._of_silence()
+        if fixed not in names:
+            return Level.ERROR, _unknown(fixed, names)
+        return self._of_trees(fixed, names)
+
+    def _of_silence(self) -> tuple[Level, str]:
+        """Say why there are no frames at all."""
+        talking = [topic for topic in TOPICS if self._node.count_publishers(topic)]
+        fixed = self._frames.fixed_frame
+        if not talking:
+            return Level.WARN, (
+                f"Nobody publishes to {' or '.join(TOPICS)}: only what is in '{fixed}' itself can "
+                'be shown. Start robot_state_publisher, or whatever knows where the robot is.'
+            )
+        return Level.WARN, (
+            f'There is a publisher of {" and ".join(talking)}, but no transform has come yet.'
+        )
+
+    def _of_trees(self, fixed: str, names: list[str]) -> tuple[Level, str]:
+        """Say which frames no transform connects with the fixed one."""
+        parents = dict(PARENT.findall(self._frames.buffer.all_frames_as_string()))
+        roots = Counter(_root(name, parents) for name in names)
+        own = _root(fixed, parents)
+        connected = roots.pop(own)
+        if not roots:
+            return Level.OK, f'{connected} frames are known.'
+        others = ', '.join(
+            f"'{root}' and the {count - 1} below it" if count > 1 else f"'{root}'"
+            for root, count in sorted(roots.items())[:SHOWN]
+        )
+        return Level.WARN, (
+            f"No transform from '{fixed}' to {others}: nobody publishes between '{own}' and "
+            f"'{sorted(roots)[0]}', so that what is there cannot be shown."
+        )
+
+
+def _root(name: str, parents: dict[str, str]) -> str:
+    """Return the topmost frame above one."""
+    seen = {name}
+    while name in parents and parents[name] not in ('NO_PARENT', *seen):
+        name = parents[name]
+        seen.add(name)
+    return name
+
+
+def _unknown(fixed: str, names: list[str]) -> str:
+    """Say that there is no such frame, and which there are."""
+    from launch._did_you_mean import did_you_mean
+
+    meant = did_you_mean(fixed, names)
+    listed = ', '.join(names[:SHOWN]) + (', ...' if len(names) > SHOWN else '')
+    hint = f' {meant}' if meant else f' The frames are: {listed}.'
+    return f"There is no frame '{fixed}': nobody publishes a transform from or to it.{hint}"

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the pointer is on the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from rviz_common.context import Context
+from rviz_common.tool import Point
+from rviz_common.visualizer.cameras import WORLD
+
+__all__ = ['Ground', 'ground_point']
+
+SIZE_M = 2000.0
+THICKNESS_M = 1e-4
+FARTHEST_M = 1e5
+
+
+class Ground:
+    """
+    An invisible plane below the scene, which says where it is clicked and dragged.
+
+    It is there only while somebody wants to know; else a drag turns the scene.
+    """
+
+    def __init__(
+        self,
+        context: Context,
+        origin: Callable[[], Point],
+        click: Callable[[Point], None],
+        drag: Callable[[Point, Point, bool], None],
+    ) -> None:
+        """Take who is to know of clicks and drags; `origin` is what the camera follows."""
+        self._context = context
+        self._origin = origin
+        self._click = click
+        self._drag = drag
+        self._plane: Any = None
+        self._scene: Any = context.scene
+
+    def watch(self, is_wanted: bool) -> None:
+        """Begin or cease to say where the pointer is."""
+        if is_wanted and self._plane is None:
+            self._plane = self._add()
+            # Not of the plane: what can be clicked is painted over where the pointer is.
+            self._scene.on_click()(self._on_click)
+        elif not is_wanted and self._plane is not None:
+            self._scene.remove_click_callback(self._on_click)
+            self._plane.remove()
+            self._plane = None
+
+    def _add(self) -> Any:
+        plane = self._scene.add_box(
+            f'{WORLD}/ground',
+            dimensions=(SIZE_M, SIZE_M, THICKNESS_M),
+            opacity=0.0,
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+        plane.on_drag('left')(self._on_drag)
+        return plane
+
+    # Callbacks of viser keep their order only if they are coroutines.
+
+    async def _on_click(self, event: Any) -> None:
+        point = self._point(event.ray_origin, event.ray_direction)
+        if point is not None:
+            self._context.queue.post(lambda: self._click(point))
+
+    async def _on_drag(self, event: Any) -> None:
+        eye = tuple(float(part) for part in event.client.camera.position)
+        start, end = (
+            self._point(eye, [b - a for a, b in zip(eye, position)])
+            for position in (event.start_position, event.end_position)
+        )
+        is_over = event.phase == 'end'
+        if start is not None:
+            self._context.queue.post(lambda: self._drag(start, end or start, is_over))
+
+    def _point(self, origin: Sequence[float], direction: Sequence[float]) -> Point | None:
+        """Return where a ray of the scene meets the ground, in the fixed frame."""
+        moved = [part + offset for part, offset in zip(origin, self._origin())]
+        return ground_point(moved, direction)
+
+
+def ground_point(origin: Sequence[float], direction: Sequence[float]) -> Point | None:
+    """Return where a ray meets the plane z = 0, or None if it does not."""
+    if abs(direction[2]) < 1e-9:
+        return None
+    length = -origin[2] / direction[2]
+    x, y = (float(origin[i] + length * direction[i]) for i in (0, 1))
+    if length < 0.0 or not max(abs(x), abs(y)) < FARTHEST_M:
+        return None
+    return x, y, 0.0

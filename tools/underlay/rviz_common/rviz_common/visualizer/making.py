@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Make the displays that a file lists."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import itertools
+from typing import Any
+
+from rviz_common.context import Context
+from rviz_common.plugins import DISPLAYS, load_plugin
+from rviz_common.visualizer.display_entry import DisplayEntry
+from rviz_common.visualizer.entry import Entry
+from rviz_common.visualizer.group import Group
+from rviz_common.visualizer.unknown_entry import UnknownEntry
+
+__all__ = ['Maker']
+
+
+class Maker:
+    """Makes entries of what a file gives; each display has a path of the scene for itself."""
+
+    def __init__(self, context: Context, root: str) -> None:
+        """Take the path of the scene below which all is drawn."""
+        self._context = context
+        self._root = root
+        self._numbers = itertools.count(1)
+
+    def entry(self, given: Mapping[str, Any]) -> Entry:
+        """Return the entry that a file gives; it is not shown yet."""
+        if given['Class'] == Group.CLASS:
+            below = given.get('Displays') or []
+            return Group(given, [self.entry(each) for each in below])
+        try:
+            kind = load_plugin(DISPLAYS, given['Class'])
+        except LookupError:
+            return UnknownEntry(
+                given, f"No package offers displays of the class '{given['Class']}'."
+            )
+        except ImportError as error:
+            return UnknownEntry(given, f"'{given['Class']}' cannot be used: {error}")
+        try:
+            return DisplayEntry(kind(self._context, self._path(), given))
+        except Exception as error:  # whatever a display does, the others go on
+            return UnknownEntry(
+                given, f"'{given['Class']}' cannot be made: {type(error).__name__}: {error}"
+            )
+
+    def new(self, class_name: str) -> DisplayEntry:
+        """Return a display of a class with its defaults, or raise LookupError."""
+        return DisplayEntry(load_plugin(DISPLAYS, class_name)(self._context, self._path()))
+
+    def _path(self) -> str:
+        return f'{self._root}/{next(self._numbers)}'

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say what of a file is not known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any, TYPE_CHECKING
+
+from rviz_common.config import Configuration
+from rviz_common.config.configuration import DISPLAYS
+from rviz_common.config.document import Place
+from rviz_common.visualizer.display_entry import DisplayEntry
+from rviz_common.visualizer.entry import Entry
+from rviz_common.visualizer.group import Group
+from rviz_common.visualizer.options import UNUSED_OPTIONS
+from rviz_common.visualizer.unknown_entry import UnknownEntry
+
+if TYPE_CHECKING:
+    from rviz_common.visualizer.visualizer import Visualizer
+
+__all__ = ['surprises']
+
+
+def surprises(shown: Visualizer) -> Iterator[str]:
+    """Return a sentence for all of a file that is not known, or cannot be used."""
+    source = shown.configuration.document.source
+    view = shown.cameras.view
+    yield from _about_displays(shown.configuration, shown.displays.children)
+    yield from _about_classes('tools', source, shown.tools.unknown)
+    yield from _about_classes('panels', source, shown.panels.unknown)
+    yield from _about_classes('views', source, [] if view.is_known else [view.class_name])
+    for name in shown.options.unknown(UNUSED_OPTIONS):
+        yield f"{source}: The global option '{name}' is not known. The file keeps it."
+    yield from (f'{source}: Of the global options, {each}' for each in shown.options.refusals)
+    yield from (f'{source}: Of the view, {each}' for each in view.values.refusals)
+    for tool in shown.tools.tools:
+        yield from (f'{source}: Of {tool.CLASS}, {each}' for each in tool.values.refusals)
+
+
+def _about_displays(configuration: Configuration, entries: list[Entry]) -> Iterator[str]:
+    """Return a sentence for each class, and for each display, of which something is not known."""
+    classes: dict[str, list[str]] = {}
+    document = configuration.document
+    for place, entry in _placed(entries, DISPLAYS):
+        if isinstance(entry, UnknownEntry):
+            where = document.where(place)
+            classes.setdefault(entry.class_name, []).append(f"'{entry.name}' ({where})")
+        elif isinstance(entry, DisplayEntry):
+            yield from _about_properties(document.where(place), entry)
+    for class_name, names in classes.items():
+        yield (
+            f"No package offers displays of the class '{class_name}': {', '.join(names)} left "
+            'out. The file keeps what it says.'
+        )
+
+
+def _about_classes(what: str, source: str, classes: Iterable[str]) -> Iterator[str]:
+    """Return a sentence for each class of other entries that is not known."""
+    for name in dict.fromkeys(classes):
+        yield f"{source}: No package offers {what} of the class '{name}'. The file keeps it."
+
+
+def _about_properties(where: str, entry: DisplayEntry) -> Iterator[str]:
+    display: Any = entry.display
+    if display.unknown:
+        listed = ', '.join(f"'{name}'" for name in display.unknown)
+        yield (
+            f"{where}: The display '{entry.name}' ({entry.class_name}) does not know {listed}. "
+            'The file keeps it.'
+        )
+    for refusal in display.values.refusals:
+        yield f"{where}: Of the display '{entry.name}' ({entry.class_name}), {refusal}"
+
+
+def _placed(entries: list[Entry], above: Place) -> Iterator[tuple[Place, Entry]]:
+    """Return all entries with their places in the file."""
+    for index, entry in enumerate(entries):
+        yield (*above, index), entry
+        if isinstance(entry, Group):
+            yield from _placed(entry.children, (*above, index, 'Displays'))

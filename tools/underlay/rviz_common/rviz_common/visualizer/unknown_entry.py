@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A display of a class that no package offers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import copy
+from typing import Any
+
+from rviz_common.status import Level, Statuses
+from rviz_common.visualizer.entry import Entry
+
+__all__ = ['UnknownEntry']
+
+
+class UnknownEntry(Entry):
+    """A display of a class that no package offers: it is kept for the file."""
+
+    def __init__(self, given: Mapping[str, Any], reason: str) -> None:
+        """Take what the file says, and why it cannot be shown."""
+        self._given = copy.deepcopy(dict(given))
+        self.class_name = str(given['Class'])
+        self._first_name = self.name = str(given.get('Name') or self.class_name)
+        self._status = Statuses()
+        self._status.say('Class', Level.WARN, reason)
+
+    @property
+    def is_enabled(self) -> bool:
+        """Tell what the file says."""
+        return bool(self._given.get('Enabled', True))
+
+    @property
+    def status(self) -> Statuses:
+        """Return why it is not shown."""
+        return self._status
+
+    def enable(self, is_enabled: bool) -> None:
+        """Have the file say so."""
+        self._given['Enabled'] = self._given['Value'] = is_enabled
+
+    def appear(self, is_shown_above: bool) -> None:
+        """Show nothing."""
+
+    def update(self) -> None:
+        """Draw nothing."""
+
+    def to_file(self) -> dict[str, Any]:
+        """Return what the file said."""
+        written = copy.deepcopy(self._given)
+        if self.name != self._first_name:
+            written['Name'] = self.name
+        return written

@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is shown: displays, tools, views and panels, as a file says."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+import os
+from typing import Any, TYPE_CHECKING
+
+from rclpy.exceptions import InvalidHandle
+from rviz_common.config import ConfigError, Configuration
+from rviz_common.config.configuration import (
+    DISPLAYS,
+    PANELS,
+    SAVED_VIEWS,
+    TOOLS,
+    VIEW,
+)
+from rviz_common.config.configuration import (
+    OPTIONS as OPTIONS_PLACE,
+)
+from rviz_common.config.document import Place
+from rviz_common.context import Context
+from rviz_common.described_error import described_error
+from rviz_common.frame_listener import FrameListener
+from rviz_common.frames import Frames
+from rviz_common.pace import Pace
+from rviz_common.panels.file_folder import FileFolder
+from rviz_common.panels.head import Head
+from rviz_common.panels.panel_tabs import PanelTabs
+from rviz_common.properties import topic_path, Values
+from rviz_common.status import Statuses
+from rviz_common.views import View
+from rviz_common.visualizer.background import paint
+from rviz_common.visualizer.cameras import Cameras, WORLD
+from rviz_common.visualizer.entry import Entry
+from rviz_common.visualizer.frame_loop import FrameLoop
+from rviz_common.visualizer.global_status import FrameWatch
+from rviz_common.visualizer.group import Group
+from rviz_common.visualizer.making import Maker
+from rviz_common.visualizer.options import (
+    BACKGROUND,
+    FIXED_FRAME,
+    FRAME_RATE,
+    OPTIONS,
+)
+from rviz_common.visualizer.reports import surprises
+from rviz_common.visualizer.tool_box import ToolBox
+from rviz_common.work_queue import WorkQueue
+from tf2_ros import Buffer
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from viser import ViserServer
+
+__all__ = ['Visualizer']
+
+
+class Visualizer:
+    """
+    Shows what a file says, in a page.
+
+    All is done in the thread in which the node works, from the moment when it does.
+    """
+
+    def __init__(
+        self, node: Node, server: ViserServer, configuration: Configuration, path: str = ''
+    ) -> None:
+        """Show what a configuration says; `path` is the file that it is from."""
+        self._buffer = Buffer()
+        self._listener = FrameListener(self._buffer, node)
+        frames = Frames(self._buffer)
+        self.context = Context(node, server, frames, WorkQueue(self._rouse), self)
+        self.status = Statuses()
+        self.watch = FrameWatch(node, frames, self.status)
+        self._wake = node.create_guard_condition(self._work)
+        self._logger = node.get_logger()
+        self._pace = Pace()
+        self._maker = Maker(self.context, f'{WORLD}/displays')
+        self._open(configuration, path)
+        self._files = FileFolder(self.context)
+        self._loop = FrameLoop(node, self.frame, self.options[FRAME_RATE])
+
+    def load(self, configuration: Configuration, path: str = '') -> None:
+        """Show what another file says, and no longer what the last one said."""
+        self._close()
+        self._open(configuration, path)
+        self._loop.set_rate(self.options[FRAME_RATE])
+
+    def save(self, path: str) -> None:
+        """Write what is shown to a file, or raise ConfigError."""
+        path = os.path.expanduser(path.strip())
+        if not path.endswith('.rviz'):
+            raise ConfigError(path or 'The file', None, 'Its name must end with .rviz.')
+        self.configuration.save(path, self._sections())
+        self.path = path
+
+    def text(self) -> str:
+        """Return what a file of what is shown would have."""
+        return self.configuration.text(self._sections())
+
+    def set_option(self, path: str, value: Any) -> None:
+        """Set an option, or raise ValueError with the reason."""
+        self.options[path] = value
+        self._apply(path)
+
+    def add(self, class_name: str, topic: str = '') -> Entry:
+        """Add a display of a class with its defaults, or raise LookupError."""
+        entry = self._maker.new(class_name)
+        path = topic_path(entry.display.PROPERTIES)
+        if topic and path:
+            entry.display.values[path] = topic
+        self.displays.add(entry)
+        self.revision += 1
+        return entry
+
+    def remove(self, entry: Entry) -> None:
+        """Remove a display or a group."""
+        if self.displays.remove(entry):
+            self.revision += 1
+
+    def frame(self) -> None:
+        """Draw the next frame."""
+        self._listener.take_all()
+        if self._pace.is_due():
+            self.watch.update()
+        with self.context.server.atomic():
+            self.cameras.update()
+            self.displays.update()
+            self.head.update()
+            self.panels.update()
+
+    def notify(self, title: str, text: str) -> None:
+        """Show a message in all browsers, and log it."""
+        self._logger.info(f'{title}: {text}')
+        for client in self.context.server.get_clients().values():
+            client.add_notification(title, text, auto_close_seconds=10.0)
+
+    def close(self) -> None:
+        """Show nothing any longer."""
+        self._loop.close()
+        self._close()
+        self._files.close()
+        self._listener.unregister()
+        self.context.node.destroy_guard_condition(self._wake)
+
+    def _open(self, configuration: Configuration, path: str) -> None:
+        self.configuration, self.path = configuration, path
+        self.revision = 0
+        self.options = Values(OPTIONS, configuration.options)
+        for option in (BACKGROUND, FIXED_FRAME):
+            self._apply(option)
+        self.cameras = Cameras(self.context, View(configuration.view))
+        self.saved_views = [View(each) for each in configuration.saved_views]
+        self.displays = Group({}, [self._maker.entry(each) for each in configuration.displays])
+        self.tools = ToolBox(self.context, lambda: self.cameras.origin, configuration.tools)
+        self.displays.appear(True)
+        self.watch.update()
+        self.head = Head(self.context, self)
+        self.panels = PanelTabs(self.context, configuration.panels)
+        for sentence in surprises(self):
+            self._logger.warning(sentence)
+
+    def _close(self) -> None:
+        self.panels.close()
+        self.head.close()
+        self.tools.close()
+        self.displays.appear(False)
+        self.context.scene.remove_by_name(WORLD)
+
+    def _apply(self, option: str) -> None:
+        """Make an option take effect."""
+        value = self.options[option]
+        if option == FIXED_FRAME:
+            self.context.frames.fixed_frame = value.strip().lstrip('/')
+            self.watch.update()
+        elif option == FRAME_RATE:
+            self._loop.set_rate(value)
+        else:
+            paint(self.context.server, value)
+
+    def _sections(self) -> dict[Place, Any]:
+        """Return the sections of the file that may have been changed."""
+        return {
+            DISPLAYS: [each.to_file() for each in self.displays.children],
+            OPTIONS_PLACE: self.options.to_file(),
+            PANELS: self.panels.to_file(),
+            SAVED_VIEWS: [view.to_file() for view in self.saved_views],
+            TOOLS: self.tools.to_file(),
+            VIEW: self.cameras.view.to_file(),
+        }
+
+    def _work(self) -> None:
+        """Do what widgets have posted."""
+        try:
+            self.context.queue.run()
+        except Exception as error:  # whatever a widget does, all else goes on
+            self._logger.error(f'What was entered failed: {described_error(error)}')
+            self._rouse()  # for what still waits
+
+    def _rouse(self) -> None:
+        """Have posted work done soon; a browser may post some until the page is closed."""
+        with suppress(InvalidHandle):
+            self._wake.trigger()

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of where the pointer is, and of which tool is in use."""
+
+import asyncio
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from rviz_common.tool import Point, Tool
+from rviz_common.visualizer import Visualizer
+from rviz_common.visualizer.ground import ground_point
+from rviz_common.visualizer.tool_box import ToolBox
+
+Show = Callable[..., Visualizer]
+
+
+class Probe(Tool):
+    """A tool that remembers, and is done after a click."""
+
+    CLASS = 'test/Probe'
+    NAME = 'Probe'
+    HINT = 'Probe.'
+
+    def __init__(self, *given: Any) -> None:
+        """Begin with nothing."""
+        super().__init__(*given)
+        self.said: list[Any] = []
+
+    def take_up(self) -> None:
+        """Say so."""
+        self.said.append('up')
+
+    def lay_down(self) -> None:
+        """Say so."""
+        self.said.append('down')
+
+    def click(self, point: Point) -> bool:
+        """Say where."""
+        self.said.append(point)
+        return True
+
+    def drag(self, start: Point, end: Point, is_over: bool) -> bool:
+        """Fail."""
+        raise RuntimeError('no drag')
+
+
+@pytest.fixture
+def shown(show: Show, monkeypatch: pytest.MonkeyPatch) -> Visualizer:
+    """Show a file with two tools of the test, one that is not known and one of browsers."""
+    monkeypatch.setattr(
+        'rviz_common.visualizer.tool_box.load_plugin', lambda group, name: {'a/P': Probe}[name]
+    )
+    manager = 'Visualization Manager:\n  Tools:\n'
+    entries = ('a/P', 'a/P', 'x/Y', 'rviz_default_plugins/MoveCamera')
+    return show(manager + ''.join(f'    - Class: {name}\n' for name in entries))
+
+
+def said(tool: Tool | None) -> list[Any]:
+    """Return what a tool of the test remembers."""
+    assert isinstance(tool, Probe)
+    return tool.said
+
+
+def test_one_tool_is_in_use(shown: Visualizer) -> None:
+    """Who takes another one lays the last one down; the plane is there only for tools."""
+    box = shown.tools
+    first, second = box.tools
+    scene = shown.context.scene
+    assert scene.get_handle_by_name('/world/ground') is None
+    box.use(first)
+    assert scene.get_handle_by_name('/world/ground') is not None
+    box.use(second)
+    assert said(first) == ['up', 'down'] and said(second) == ['up']
+    box.use(None)
+    assert said(second) == ['up', 'down']
+    assert scene.get_handle_by_name('/world/ground') is None
+    assert box.unknown == ['x/Y']
+    assert [each['Class'] for each in box.to_file()][2:] == [
+        'x/Y',
+        'rviz_default_plugins/MoveCamera',
+    ]
+
+
+def test_clicks_reach_the_tool_in_the_thread_of_the_node(shown: Visualizer) -> None:
+    """The callback only posts; the point is in the fixed frame, wherever the camera is."""
+    box: ToolBox = shown.tools
+    tool = box.tools[0]
+    box.use(tool)
+    shown.cameras._at = (10.0, 20.0, 0.0)
+    event = SimpleNamespace(ray_origin=(0.0, 0.0, 2.0), ray_direction=(0.5, 0.0, -1.0))
+    asyncio.run(box._ground._on_click(event))
+    assert said(tool) == ['up']
+    shown.context.queue.run()
+    assert said(tool) == ['up', (11.0, 20.0, 0.0), 'down']
+    assert box.in_use is None
+
+
+def test_a_tool_that_fails_is_laid_down(shown: Visualizer, capfd: Any) -> None:
+    """The log says why."""
+    tool = shown.tools.tools[0]
+    shown.tools.use(tool)
+    camera = SimpleNamespace(position=(0.0, 0.0, 4.0))
+    event = SimpleNamespace(
+        client=SimpleNamespace(camera=camera),
+        start_position=(1.0, 0.0, 0.0),
+        end_position=(1.0, 1.0, 2.0),
+        phase='update',
+    )
+    asyncio.run(shown.tools._ground._on_drag(event))
+    shown.context.queue.run()
+    assert shown.tools.in_use is None
+    assert "Tool 'Probe' failed: " in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ('origin', 'direction', 'point'),
+    [
+        ((0, 0, 2), (0.5, 0, -1), (1.0, 0.0, 0.0)),
+        ((0, 0, 2), (0.5, 0, 1), None),  # towards the sky
+        ((0, 0, 2), (1, 0, 0), None),  # along the horizon
+        ((0, 0, 2), (1, 0, -1e-7), None),  # farther than anything
+        ((0, 0, 2), (float('nan'), 0, -1), None),
+        ((3, 1, -2), (0, 0, 1), (3.0, 1.0, 0.0)),  # from below
+    ],
+)
+def test_rays_meet_the_ground(origin: Any, direction: Any, point: Point | None) -> None:
+    """A ray that goes up, or nearly along the ground, is nowhere."""
+    assert ground_point(origin, direction) == point

@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The robot that a URDF describes, as it stands now."""
+
+from __future__ import annotations
+
+from threading import Thread
+import time
+from typing import Any
+
+from rviz_common.display import Display
+from rviz_common.frames import Frames, Pose
+from rviz_common.properties import Choice, Flag, Number, Text, topic_properties
+from rviz_common.status import Level
+from rviz_default_plugins.parts import Parts
+from rviz_default_plugins.robot.description import DescriptionTopic, read_description
+from rviz_default_plugins.robot.mesh_shelf import MeshShelf
+from rviz_default_plugins.robot.missing_links import say_missing
+from rviz_default_plugins.robot.robot_scene import Look, MAX_SHAPES, RobotScene
+from urdf import Joint, Mesh, parse_urdf, UrdfError
+from urdf import RobotModel as Robot
+
+__all__ = ['RobotModel']
+
+FILE, TOPIC = 'File', 'Topic'
+MAX_LINKS = 2000
+ALL_LINKS = 'Links/All Links Enabled'
+REASONS_S = 0.5
+
+
+class RobotModel(Display):
+    """The robot that a URDF describes; transforms say where its links are."""
+
+    CLASS = 'rviz_default_plugins/RobotModel'
+    PROPERTIES = (
+        Flag('Visual Enabled', True, 'Show what the links look like.'),
+        Flag('Collision Enabled', False, 'Show what the links collide with.'),
+        Number('Alpha', 1.0, 'How opaque the robot is, from 0 to 1.', 0.0, 1.0),
+        Number('Update Interval', 0.0, 'Seconds between movements; 0 is each frame.', 0.0),
+        Choice('Description Source', TOPIC, 'Where the URDF comes from.', (TOPIC, FILE)),
+        Text('Description File', '', 'The file of the URDF: a path, file:// or package://.'),
+        *topic_properties(
+            'std_msgs/msg/String', '/robot_description', path='Description Topic', depth=1
+        ),
+        Text('TF Prefix', '', 'What comes before the links in names of frames, without a slash.'),
+        Flag(ALL_LINKS, True, 'Show the links that the file does not name.'),
+    )
+    UNUSED = ('Mass Properties',)
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        """Take the properties that a file gives; nothing is shown yet."""
+        super().__init__(*arguments, **options)
+        self._links = Parts(super().to_file().get('Links'))
+        self._links.all_shown = self.values[ALL_LINKS]
+        self._shelf = MeshShelf()
+
+    def to_file(self) -> dict[str, Any]:
+        """Return what the file is to have, with what it says of single links."""
+        written = super().to_file()
+        return {**written, 'Links': {**written['Links'], **self._links.to_file()}}
+
+    def start(self) -> None:
+        """Ask for the description."""
+        self._model: Robot | None = None
+        self._robot: RobotScene | None = None
+        self._awaited: object = None
+        self._text = ''
+        self._next_s = self._next_reasons_s = 0.0
+        self._topic: DescriptionTopic | None = None
+        if self.values['Description Source'] == FILE:
+            self._read_file()
+        else:
+            self._topic = DescriptionTopic(self, self._take)
+
+    def stop(self) -> None:
+        """Show the robot no longer."""
+        if self._topic is not None:
+            self._topic.close()
+        self._awaited = None
+        self._remove()
+        self.status.clear()
+
+    def update(self) -> None:
+        """Move the links to where they are."""
+        now_s = time.monotonic()
+        robot = self._robot
+        if robot is None or now_s < self._next_s:
+            return
+        self._next_s = now_s + self.values['Update Interval']
+        frames, prefix = self.context.frames, self._prefix
+        root = frames.find(frames.fixed_frame, prefix + robot.model.root)
+        unknown = robot.place(root, _poses(frames, prefix))
+        if now_s >= self._next_reasons_s:
+            self._next_reasons_s = now_s + REASONS_S
+            self._say_reasons(robot.model, root, unknown)
+
+    def on_change(self, path: str) -> None:
+        """Begin anew only for another description; draw what is known again for the rest."""
+        if path.startswith('Description'):
+            super().on_change(path)
+            return
+        if path == ALL_LINKS:
+            self._links.show_all(self.values[ALL_LINKS])
+        self._next_s = self._next_reasons_s = 0.0
+        if path not in ('TF Prefix', 'Update Interval') and self._model is not None:
+            self._prepare(self._model)
+
+    @property
+    def _prefix(self) -> str:
+        prefix: str = self.values['TF Prefix'].strip('/')
+        return f'{prefix}/' if prefix else ''
+
+    def _read_file(self) -> None:
+        name = self.values['Description File']
+        try:
+            self._take(read_description(name), name)
+        except ValueError as error:
+            self.status.say('URDF', Level.ERROR, str(error))
+
+    def _take(self, text: str, source: str) -> None:
+        """Show the robot of a description; if it is broken, the one before stays."""
+        if text == self._text:
+            return
+        self._text = text
+        try:
+            model = parse_urdf(text, source)
+            _check_size(model, source)
+        except UrdfError as error:
+            stays = ' The robot from before stays.' if self._model else ''
+            self.status.say('URDF', Level.ERROR, f'{error}{stays}')
+            return
+        self.status.say('URDF', Level.OK, model.describe())
+        self._prepare(model)
+
+    def _prepare(self, model: Robot) -> None:
+        """Draw a robot, at once or as soon as its meshes have been read in the background."""
+        self._awaited = awaited = object()
+        self._model, look = model, self._look()
+        shelf = MeshShelf(self._shelf)
+        names = _mesh_names(model, look)
+        if not names:
+            self._draw(model, look, shelf)
+            return
+
+        def finish() -> None:
+            if self._awaited is awaited:
+                self._draw(model, look, shelf)
+
+        def read() -> None:
+            shelf.read(names)
+            self.context.queue.post(finish)
+
+        Thread(target=read, name='meshes', daemon=True).start()
+
+    def _draw(self, model: Robot, look: Look, shelf: MeshShelf) -> None:
+        self._remove()
+        self._shelf = shelf
+        self._robot = RobotScene(self.context.scene, self.root, model, look, shelf.meshes)
+        self._say('Meshes', ' '.join(shelf.complaints))
+        too_many = self._robot.left_out
+        self._say(
+            'Bodies',
+            f'{MAX_SHAPES + too_many} bodies are too many: {MAX_SHAPES} are shown.'
+            if too_many
+            else '',
+        )
+
+    def _remove(self) -> None:
+        if self._robot is not None:
+            self._robot.remove()
+        self._robot = None
+
+    def _look(self) -> Look:
+        return Look(
+            self.values['Visual Enabled'],
+            self.values['Collision Enabled'],
+            self.values['Alpha'],
+            self._links,
+        )
+
+    def _say_reasons(self, model: Robot, root: Pose | None, unknown: list[Joint]) -> None:
+        frames, frame = self.context.frames, self._prefix + model.root
+        reason = '' if root else frames.reason(frames.fixed_frame, frame)
+        self._say('Transform', reason and f'The robot is not shown: {reason}', Level.ERROR)
+        say_missing(self.status, unknown, model, frames.latest(), self._prefix)
+
+    def _say(self, subject: str, sentence: str, level: Level = Level.WARN) -> None:
+        """Say something, or nothing any longer."""
+        if sentence:
+            self.status.say(subject, level, sentence)
+        else:
+            self.status.forget(subject)
+
+
+def _check_size(model: Robot, source: str) -> None:
+    if len(model.links) > MAX_LINKS:
+        reason = f'{len(model.links)} links are too many: at most {MAX_LINKS} are shown.'
+        raise UrdfError(reason, source=source)
+
+
+def _poses(frames: Frames, prefix: str) -> Any:
+    def pose_of(joint: Joint) -> Pose | None:
+        return frames.find(prefix + joint.parent, prefix + joint.child)
+
+    return pose_of
+
+
+def _mesh_names(model: Robot, look: Look) -> list[str]:
+    shapes = [shape for link in model.links for _, shape in look.shapes(link)]
+    return [shape.geometry.file for shape in shapes if isinstance(shape.geometry, Mesh)]

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The lines of a grid."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ['GridSize', 'lines']
+
+AXES = {'XY': (0, 1, 2), 'XZ': (0, 2, 1), 'YZ': (1, 2, 0)}
+"""Which coordinates go along the grid, and which across it."""
+
+
+@dataclass(frozen=True)
+class GridSize:
+    """How many square cells a grid has along its plane and across it, and how long they are."""
+
+    cells: int
+    layers: int
+    cell_m: float
+
+    @property
+    def line_count(self) -> int:
+        """Return how many lines it takes."""
+        across = (self.cells + 1) ** 2 if self.layers else 0
+        return 2 * (self.cells + 1) * (self.layers + 1) + across
+
+    def within(self, limit: int) -> GridSize:
+        """Return the largest grid of such cells that has fewer lines than a limit."""
+        layers = min(self.layers, limit // 8)
+        fitting, too_many = 1, self.cells + 1
+        while too_many - fitting > 1:
+            cells = (fitting + too_many) // 2
+            if GridSize(cells, layers, self.cell_m).line_count <= limit:
+                fitting = cells
+            else:
+                too_many = cells
+        return GridSize(fitting, layers, self.cell_m)
+
+
+def lines(size: GridSize, plane: str) -> NDArray[np.float32]:
+    """Return beginnings and ends, in an array of N x 2 x 3, about the origin."""
+    first, second, across = AXES[plane]
+    steps = _steps(size.cells, size.cell_m)
+    heights = _steps(size.layers, size.cell_m)
+    both_ends = steps[[0, -1]]
+    groups = [
+        _group(first, both_ends, second, steps, across, heights),
+        _group(second, both_ends, first, steps, across, heights),
+    ]
+    if size.layers:
+        groups.append(_group(across, heights[[0, -1]], first, steps, second, steps))
+    return np.concatenate(groups)
+
+
+def _steps(count: int, length: float) -> NDArray[np.float32]:
+    half = count / 2.0
+    return np.linspace(-half * length, half * length, count + 1, dtype=np.float32)
+
+
+def _group(
+    along: int,
+    ends: NDArray[np.float32],
+    first: int,
+    first_steps: NDArray[np.float32],
+    second: int,
+    second_steps: NDArray[np.float32],
+) -> NDArray[np.float32]:
+    """Return parallel lines, one for each pair of steps."""
+    a, b = (each.ravel() for each in np.meshgrid(first_steps, second_steps))
+    found = np.empty((len(a), 2, 3), np.float32)
+    found[:, :, along] = ends
+    found[:, :, first] = a[:, None]
+    found[:, :, second] = b[:, None]
+    return found

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a file says of the links of a robot, or of the frames of tf, one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from rviz_common.properties import Flag, Number, Property
+
+__all__ = ['Parts']
+
+SHOWN = Flag('Value', True)
+ALPHA = Number('Alpha', 1.0, '', 0.0, 1.0)
+AXES = Flag('Show Axes', False)
+
+
+class Parts:
+    """
+    The settings of named parts of something, below one name of a file.
+
+    A part that the file does not name is shown if all are to be shown.
+    """
+
+    def __init__(self, given: Mapping[str, Any] | None) -> None:
+        """Take what the file has; what cannot be used counts as not given."""
+        self._given: dict[str, Any] = dict(given) if isinstance(given, Mapping) else {}
+        self.all_shown = True
+
+    def show_all(self, are_shown: bool) -> None:
+        """Show all parts, or none of them, whatever has been said of each."""
+        self.all_shown = are_shown
+        for settings in self._given.values():
+            if isinstance(settings, dict):
+                settings['Value'] = are_shown
+
+    def is_shown(self, name: str) -> bool:
+        """Tell if a part is to be shown."""
+        return bool(self._setting(name, SHOWN, self.all_shown))
+
+    def alpha(self, name: str) -> float:
+        """Return how opaque a part is to be."""
+        return float(self._setting(name, ALPHA, ALPHA.default))
+
+    def has_axes(self, name: str) -> bool:
+        """Tell if a part is to be shown with its axes."""
+        return bool(self._setting(name, AXES, AXES.default))
+
+    def to_file(self) -> dict[str, Any]:
+        """Return what the file is to have of the parts."""
+        return {name: each for name, each in self._given.items() if isinstance(each, dict)}
+
+    def _setting(self, name: str, setting: Property, default: Any) -> Any:
+        settings = self._given.get(name)
+        if not isinstance(settings, Mapping) or setting.path not in settings:
+            return default
+        try:
+            return setting.read(settings[setting.path])
+        except ValueError:
+            return default

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find the file that a URDF names."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+from rviz_default_plugins.robot.mesh_error import MeshError
+from urdf.did_you_mean import did_you_mean
+
+__all__ = ['KINDS', 'find_file', 'find_mesh', 'folder_of']
+
+KINDS = ('.stl', '.obj', '.glb', '.gltf', '.ply', '.dae')
+
+
+def find_mesh(name: str) -> Path:
+    """Return the file of a mesh, or raise MeshError."""
+    path = find_file(name)
+    if path.suffix.lower() not in KINDS:
+        raise MeshError(f"'{name}' is of no kind that can be shown: {', '.join(KINDS)}.")
+    if not path.is_file():
+        raise MeshError(f"'{name}' is not there: {path} is no file.{_meant(path)}")
+    return path
+
+
+def folder_of(name: str) -> Path:
+    """Return the folder whose files a mesh may use: its package, or else the one that it is in."""
+    path = find_file(name)
+    scheme, _, rest = name.partition('://')
+    return _share(name, rest.partition('/')[0]) if scheme == 'package' else path.parent
+
+
+def find_file(name: str) -> Path:
+    """
+    Return the path that `package://`, `file://` or an absolute path leads to.
+
+    Nothing is fetched from other machines. A path below a package stays there; its parts may be
+    symbolic links, as colcon installs them with --symlink-install.
+    """
+    if os.path.isabs(name):
+        return Path(name)
+    scheme, _, rest = name.partition('://')
+    if not rest:
+        raise MeshError(
+            f"'{name}' does not say where it is. Write package://PACKAGE/{name.lstrip('./')}."
+        )
+    if scheme == 'package':
+        return _in_package(name, *rest.partition('/')[::2])
+    if scheme == 'file':
+        return _local(name)
+    raise MeshError(
+        f"'{name}' is not fetched: only files of this machine are shown. Put it into a package, "
+        'and name it package://PACKAGE/FILE.'
+    )
+
+
+def _local(name: str) -> Path:
+    parts = urlsplit(name)
+    if parts.netloc not in ('', 'localhost'):
+        raise MeshError(
+            f"'{name}' is on the machine '{parts.netloc}'. Write file:/// and an absolute path."
+        )
+    return Path(unquote(parts.path))
+
+
+def _in_package(name: str, package: str, inside: str) -> Path:
+    if '..' in unquote(inside).split('/') or os.path.isabs(unquote(inside)):
+        raise MeshError(f"'{name}' leads out of package '{package}'. Name a file inside of it.")
+    return _share(name, package) / unquote(inside)
+
+
+def _share(name: str, package: str) -> Path:
+    """Return where a package has its files."""
+    from ament_index_python.packages import (
+        get_package_share_directory,
+        get_packages_with_prefixes,
+        PackageNotFoundError,
+    )
+
+    try:
+        return Path(get_package_share_directory(package))
+    except (PackageNotFoundError, ValueError):
+        meant = did_you_mean(package, get_packages_with_prefixes())
+        raise MeshError(
+            f"'{name}' is in package '{package}', which is not installed.{meant} Build it, and "
+            'source the workspace before the start.'
+        ) from None
+
+
+def _meant(path: Path) -> str:
+    """Ask if the file beside it is meant whose name is close."""
+    try:
+        beside = [each.name for each in path.parent.iterdir()]
+    except OSError:
+        return ''
+    return did_you_mean(path.name, beside)

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The nodes of the scene that a robot consists of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+from urllib.parse import quote
+
+from rviz_common.frames import Pose
+from rviz_default_plugins.parts import Parts
+from rviz_default_plugins.robot.link_node import LinkNode
+from rviz_default_plugins.robot.mesh import DrawnMesh
+from rviz_default_plugins.robot.shape_drawing import draw_shape
+from urdf import Joint, Link, RobotModel, Shape
+
+if TYPE_CHECKING:
+    from viser import SceneApi
+
+__all__ = ['MAX_SHAPES', 'Look', 'RobotScene', 'downwards']
+
+MAX_SHAPES = 3000
+AXES_M = 0.1
+
+
+@dataclass(frozen=True)
+class Look:
+    """What of a robot is shown, and how."""
+
+    visuals: bool = True
+    collisions: bool = False
+    alpha: float = 1.0
+    links: Parts = field(default_factory=lambda: Parts(None))
+
+    def shapes(self, link: Link) -> list[tuple[str, Shape]]:
+        """Return the bodies of a link that are shown, by name."""
+        if not self.links.is_shown(link.name):
+            return []
+        visuals = link.visuals if self.visuals else ()
+        collisions = link.collisions if self.collisions else ()
+        return [
+            *((f'visual_{index}', each) for index, each in enumerate(visuals)),
+            *((f'collision_{index}', each) for index, each in enumerate(collisions)),
+        ]
+
+
+class RobotScene:
+    """
+    The links of a robot as nodes of the scene, each below the node of its parent link.
+
+    So a joint that turns is one rotation that is sent, however much hangs from it. A link without
+    a place is not seen, and neither is what hangs from it.
+    """
+
+    def __init__(
+        self,
+        scene: SceneApi,
+        path: str,
+        model: RobotModel,
+        look: Look,
+        meshes: Mapping[str, DrawnMesh],
+    ) -> None:
+        """Add the nodes."""
+        self.model = model
+        self.left_out = 0
+        self._drawn = 0
+        self._scene, self._look, self._meshes = scene, look, meshes
+        self._top = scene.add_frame(path, show_axes=False)
+        links = {link.name: link for link in model.links}
+        paths = {model.root: f'{path}/{_named(model.root)}'}
+        self._root = self._add(links[model.root], paths[model.root])
+        self._below: list[tuple[Joint, LinkNode]] = []
+        for joint in downwards(model):
+            node_path = paths[joint.child] = f'{paths[joint.parent]}/{_named(joint.child)}'
+            self._below.append((joint, self._add(links[joint.child], node_path)))
+
+    def place(self, root: Pose | None, pose_of: Callable[[Joint], Pose | None]) -> list[Joint]:
+        """Move the links; return the joints whose pose is not known."""
+        self._root.place(root)
+        unknown = []
+        for joint, node in self._below:
+            pose = pose_of(joint)
+            node.place(pose)
+            if pose is None:
+                unknown.append(joint)
+        return unknown
+
+    def remove(self) -> None:
+        """Remove the nodes."""
+        self._top.remove()
+
+    def _add(self, link: Link, path: str) -> LinkNode:
+        has_axes = self._look.links.has_axes(link.name)
+        handle = self._scene.add_frame(
+            path,
+            show_axes=has_axes,
+            axes_length=AXES_M,
+            axes_radius=AXES_M / 10.0,
+            visible=False,
+        )
+        alpha = self._look.alpha * self._look.links.alpha(link.name)
+        for name, shape in self._look.shapes(link):
+            if self._drawn >= MAX_SHAPES:
+                self.left_out += 1
+                continue
+            self._drawn += 1
+            draw_shape(self._scene, f'{path}/{name}', shape, alpha, self._meshes)
+        return LinkNode(handle)
+
+
+def downwards(model: RobotModel) -> Iterator[Joint]:
+    """Yield the joints of a robot, each after the one that it hangs from."""
+    below: dict[str, list[Joint]] = {}
+    for joint in model.joints:
+        below.setdefault(joint.parent, []).append(joint)
+    waiting = [model.root]
+    while waiting:
+        for joint in below.get(waiting.pop(), []):
+            yield joint
+            waiting.append(joint.child)
+
+
+def _named(link: str) -> str:
+    """Return the name of a link as part of a path, which has a meaning for slashes."""
+    return quote(link, safe='')

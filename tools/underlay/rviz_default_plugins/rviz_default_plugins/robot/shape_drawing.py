@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Draw the bodies of links."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, TYPE_CHECKING
+
+import numpy as np
+from rviz_default_plugins.robot.mesh import DrawnMesh
+from urdf import Box, Capsule, Color, Cylinder, Mesh, Shape, Sphere
+from urdf.kinematics import rotation_of
+
+if TYPE_CHECKING:
+    from viser import SceneApi
+
+__all__ = ['draw_shape']
+
+GREY: Color = (0.7, 0.7, 0.7, 1.0)
+
+
+def draw_shape(
+    scene: SceneApi, path: str, shape: Shape, alpha: float, meshes: Mapping[str, DrawnMesh]
+) -> None:
+    """Draw a body at a path of the scene; a mesh that nobody could read is left out."""
+    x, y, z, w = rotation_of(shape.origin.rpy)
+    place: dict[str, Any] = {'position': shape.origin.xyz, 'wxyz': (w, x, y, z)}
+    body = shape.geometry
+    if isinstance(body, Mesh):
+        mesh = meshes.get(body.file)
+        if mesh is not None:
+            _draw_mesh(scene, path, mesh, body, shape.color, alpha, place)
+        return
+    look = _look(shape.color or GREY, alpha)
+    if isinstance(body, Box):
+        scene.add_box(path, dimensions=body.size, **look, **place)
+    elif isinstance(body, Sphere):
+        scene.add_icosphere(path, radius=body.radius, **look, **place)
+    elif isinstance(body, Cylinder):
+        scene.add_cylinder(path, radius=body.radius, height=body.length, **look, **place)
+    else:
+        _draw_capsule(scene, path, body, look, place)
+
+
+def _look(color: Color, alpha: float) -> dict[str, Any]:
+    """Return colour and opacity; what is opaque is drawn faster if it says so."""
+    opacity = color[3] * alpha
+    return {
+        'color': tuple(round(255 * part) for part in color[:3]),
+        'opacity': None if opacity >= 1.0 else opacity,
+    }
+
+
+def _draw_capsule(
+    scene: SceneApi, path: str, body: Capsule, look: dict[str, Any], place: dict[str, Any]
+) -> None:
+    from trimesh.creation import capsule
+
+    mesh = capsule(height=body.length, radius=body.radius)
+    centred = np.asarray(mesh.vertices) - mesh.bounds.mean(axis=0)
+    scene.add_mesh_simple(path, centred, mesh.faces, **look, **place)
+
+
+def _draw_mesh(
+    scene: SceneApi,
+    path: str,
+    mesh: DrawnMesh,
+    body: Mesh,
+    color: Color | None,
+    alpha: float,
+    place: dict[str, Any],
+) -> None:
+    """Draw a mesh with the colours of its file; without any, with that of the URDF."""
+    for index, surface in enumerate(mesh.surfaces):
+        name = f'{path}_{index}'
+        if surface.glb is not None and alpha >= 1.0:
+            scene.add_glb(name, surface.glb, scale=body.scale, **place)
+            continue
+        scene.add_mesh_simple(
+            name,
+            surface.vertices,
+            surface.faces,
+            scale=body.scale,
+            flat_shading=mesh.is_flat,
+            side='double',
+            **_look(surface.color or color or GREY, alpha),
+            **place,
+        )

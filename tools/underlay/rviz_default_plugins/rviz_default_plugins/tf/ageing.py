@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How long nothing has been heard of frames."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from enum import Enum
+
+from tf2_py._link import Sample
+
+__all__ = ['Age', 'Ageing']
+
+
+class Age(Enum):
+    """How fresh a frame is: shown, shown grey, or not shown."""
+
+    FRESH = 'fresh'
+    OLD = 'old'
+    GONE = 'gone'
+
+
+class Ageing:
+    """
+    Watches when frames are heard of; those that do not move never grow old.
+
+    A frame is old after a third of the time-out. What has the same stamp as before is not new.
+    """
+
+    def __init__(self) -> None:
+        """Begin without frames."""
+        self._heard: dict[str, tuple[int, float]] = {}
+
+    def hear(self, samples: Mapping[str, Sample], now_s: float) -> None:
+        """Take the newest samples."""
+        before = self._heard
+        self._heard = heard = {}
+        for frame, sample in samples.items():
+            known = before.get(frame)
+            is_same = known is not None and known[0] == sample.stamp_ns
+            heard[frame] = known if known and is_same else (sample.stamp_ns, now_s)
+
+    def age(self, frame: str, now_s: float, timeout_s: float) -> Age:
+        """Return how fresh a frame is; one that is only known as a parent is fresh."""
+        stamp_ns, heard_s = self._heard.get(frame, (0, now_s))
+        age_s = now_s - heard_s
+        if not stamp_ns or age_s <= timeout_s / 3.0:
+            return Age.FRESH
+        return Age.OLD if age_s <= timeout_s else Age.GONE

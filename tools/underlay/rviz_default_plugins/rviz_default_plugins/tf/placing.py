@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where all frames are in one of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from tf2_py._link import Sample
+from tf2_py._pose import chain, IDENTITY, inverse, Pose
+
+__all__ = ['placed', 'roots']
+
+MAX_LINKS = 1000
+
+
+def roots(samples: Mapping[str, Sample]) -> dict[str, tuple[str, Pose]]:
+    """Return the root above each frame, and where the frame is in it; none for loops."""
+    found: dict[str, tuple[str, Pose]] = {}
+    for frame in samples:
+        _climb(frame, samples, found)
+    return found
+
+
+def placed(
+    samples: Mapping[str, Sample], fixed: str
+) -> tuple[dict[str, Pose], dict[str, list[str]]]:
+    """Return the poses of frames in a fixed one; and, by their root, those that have none."""
+    found = roots(samples)
+    root, fixed_pose = found.get(fixed, (fixed, IDENTITY))
+    to_fixed = inverse(fixed_pose)
+    poses: dict[str, Pose] = {}
+    others: dict[str, list[str]] = {}
+    for frame, (top, pose) in found.items():
+        if top == root:
+            poses[frame] = chain(to_fixed, pose)
+        else:
+            others.setdefault(top, []).append(frame)
+    return poses, others
+
+
+def _climb(frame: str, samples: Mapping[str, Sample], found: dict[str, tuple[str, Pose]]) -> None:
+    """Find the root above a frame, and of all frames on the way."""
+    way: list[str] = []
+    top = frame
+    while top not in found:
+        sample = samples.get(top)
+        if sample is None:
+            found[top] = top, IDENTITY
+            break
+        if len(way) > MAX_LINKS:
+            return
+        way.append(top)
+        top = sample.parent
+    for each in reversed(way):
+        sample = samples[each]
+        root, above = found[sample.parent]
+        found[each] = root, chain(above, sample.pose)

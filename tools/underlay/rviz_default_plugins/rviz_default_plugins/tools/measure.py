@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say how far two points are from each other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import math
+from typing import Any
+
+from rviz_common.context import Context
+from rviz_common.properties import ColorOf
+from rviz_common.tool import Point, Tool
+
+__all__ = ['Measure']
+
+ABOVE_M = 0.02
+"""The line is a little above the ground, so that it is seen."""
+
+
+class Measure(Tool):
+    """Shows how far two points of the ground are from each other."""
+
+    CLASS = 'rviz_default_plugins/Measure'
+    NAME = 'Measure'
+    HINT = 'Click on two points of the ground, or drag from one to the other.'
+    PROPERTIES = (ColorOf('Line color', (128, 128, 0), 'The color of the line.'),)
+
+    def __init__(
+        self, context: Context, root: str, given: Mapping[str, Any] | None = None
+    ) -> None:
+        """Take the properties that a file gives."""
+        super().__init__(context, root, given)
+        self._first: Point | None = None
+        self._drawn: list[Any] = []
+
+    def lay_down(self) -> None:
+        """Be in use no longer."""
+        self._first = None
+        self._clear()
+
+    def click(self, point: Point) -> bool:
+        """Take the first point, or the second one."""
+        if self._first is None:
+            self._first = point
+            self._clear()
+        else:
+            self._show(self._first, point)
+            self._first = None
+        return False
+
+    def drag(self, start: Point, end: Point, is_over: bool) -> bool:
+        """Show the line while it is drawn."""
+        self._first = None
+        self._show(start, end)
+        return False
+
+    def _show(self, start: Point, end: Point) -> None:
+        import numpy as np
+
+        self._clear()
+        ends = [(*point[:2], point[2] + ABOVE_M) for point in (start, end)]
+        middle = tuple((a + b) / 2.0 for a, b in zip(*ends))
+        scene = self.context.scene
+        self._drawn = [
+            scene.add_line_segments(
+                f'{self.root}/line',
+                np.array([ends], np.float32),
+                self.values['Line color'],
+                thickness=3.0,
+                thickness_units='screen',
+            ),
+            scene.add_label(
+                f'{self.root}/text', f'{math.dist(start, end):.3f} m', position=middle
+            ),
+        ]
+
+    def _clear(self) -> None:
+        for handle in self._drawn:
+            handle.remove()
+        self._drawn = []

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What tools have in common that publish a pose on the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import math
+from typing import Any
+
+from geometry_msgs.msg import Pose
+from rviz_common.context import Context
+from rviz_common.tool import Point
+from rviz_default_plugins.tools.pose_arrow import heading, PoseArrow
+from rviz_default_plugins.tools.publishing import Publishing
+
+__all__ = ['PoseTool']
+
+
+class PoseTool(Publishing):
+    """Publishes a pose: press where, drag to where it looks, and release."""
+
+    HINT = 'Press on the ground where it is to be, drag to where it is to look, and release.'
+
+    def __init__(
+        self, context: Context, root: str, given: Mapping[str, Any] | None = None
+    ) -> None:
+        """Take the properties that a file gives."""
+        super().__init__(context, root, given)
+        self._arrow = PoseArrow(context, root)
+
+    def lay_down(self) -> None:
+        """Be in use no longer."""
+        self._arrow.hide()
+
+    def click(self, point: Point) -> bool:
+        """Publish a pose that looks along x."""
+        self.publish(self.message(point, 0.0))
+        return True
+
+    def drag(self, start: Point, end: Point, is_over: bool) -> bool:
+        """Show the pose, and publish it in the end."""
+        yaw = heading(start, end)
+        self._arrow.show(start, yaw)
+        if is_over:
+            self.publish(self.message(start, yaw))
+        return is_over
+
+    def message(self, point: Point, yaw: float) -> Any:
+        """Return what is to be published."""
+        raise NotImplementedError
+
+    def fill(self, pose: Pose, point: Point, yaw: float) -> None:
+        """Put the pose into a message."""
+        pose.position.x, pose.position.y, pose.position.z = point
+        pose.orientation.z, pose.orientation.w = math.sin(yaw / 2.0), math.cos(yaw / 2.0)

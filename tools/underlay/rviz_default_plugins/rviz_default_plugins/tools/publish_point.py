@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say where a point is."""
+
+from __future__ import annotations
+
+from geometry_msgs.msg import PointStamped
+from rviz_common.properties import Flag, topic_properties
+from rviz_common.tool import Point
+from rviz_default_plugins.tools.publishing import Publishing
+
+__all__ = ['PublishPoint']
+
+
+class PublishPoint(Publishing):
+    """Publishes the point of the ground that is clicked."""
+
+    CLASS = 'rviz_default_plugins/PublishPoint'
+    NAME = 'Publish Point'
+    HINT = 'Click on the ground.'
+    MESSAGE = PointStamped
+    PROPERTIES = (
+        *topic_properties('geometry_msgs/msg/PointStamped', 'clicked_point'),
+        Flag('Single click', True, 'Whether the tool is laid down after one click.'),
+    )
+
+    def click(self, point: Point) -> bool:
+        """Publish the point."""
+        message = self.stamped()
+        message.point.x, message.point.y, message.point.z = point
+        self.publish(message)
+        return bool(self.values['Single click'])
+
+    def drag(self, start: Point, end: Point, is_over: bool) -> bool:
+        """Take the end of a drag for a click."""
+        return self.click(end) if is_over else False

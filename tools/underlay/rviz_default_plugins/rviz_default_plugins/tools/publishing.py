@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What tools have in common that publish messages."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+from rviz_common.properties import qos_of
+from rviz_common.tool import Tool
+
+__all__ = ['Publishing']
+
+
+class Publishing(Tool):
+    """Publishes messages to the topic of its properties."""
+
+    MESSAGE: ClassVar[type]
+    _publisher: Any = None
+
+    def begin(self) -> None:
+        """Advertise the topic early, so that those who listen are found before the first use."""
+        topic = self.values['Topic/Value']
+        try:
+            self._publisher = self.context.node.create_publisher(
+                self.MESSAGE, topic, qos_of(self.values)
+            )
+        except Exception as error:  # rclpy has no one exception for bad names
+            self.context.node.get_logger().error(
+                f"Tool '{self.NAME}' cannot publish to '{topic}': {error}"
+            )
+
+    def close(self) -> None:
+        """Publish no longer."""
+        if self._publisher is not None:
+            self.context.node.destroy_publisher(self._publisher)
+            self._publisher = None
+
+    def stamped(self) -> Any:
+        """Return a message of now in the fixed frame."""
+        message = self.MESSAGE()
+        message.header.stamp = self.context.node.get_clock().now().to_msg()
+        message.header.frame_id = self.context.frames.fixed_frame
+        return message
+
+    def publish(self, message: Any) -> None:
+        """Publish a message, and say so."""
+        logger = self.context.node.get_logger()
+        if self._publisher is None:
+            logger.error(f"Tool '{self.NAME}' has no topic to publish to.")
+            return
+        self._publisher.publish(message)
+        count = self._publisher.get_subscription_count()
+        heard = f'{count} listen' if count else 'but nobody listens'
+        logger.info(f'{self.NAME}: published to {self._publisher.topic_name}, {heard}.')

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say where the robot is."""
+
+from __future__ import annotations
+
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from rviz_common.properties import Number, topic_properties
+from rviz_common.tool import Point
+from rviz_default_plugins.tools.pose_tool import PoseTool
+
+__all__ = ['SetInitialPose']
+
+COVARIANCES = {'Covariance x': 0, 'Covariance y': 7, 'Covariance yaw': 35}
+"""Where each is in the six by six matrix."""
+
+
+class SetInitialPose(PoseTool):
+    """Publishes where the robot is, and how sure that is."""
+
+    CLASS = 'rviz_default_plugins/SetInitialPose'
+    NAME = '2D Pose Estimate'
+    MESSAGE = PoseWithCovarianceStamped
+    PROPERTIES = (
+        *topic_properties('geometry_msgs/msg/PoseWithCovarianceStamped', 'initialpose'),
+        Number('Covariance x', 0.5**2, 'The variance along x, in square metres.', 0.0),
+        Number('Covariance y', 0.5**2, 'The variance along y, in square metres.', 0.0),
+        Number('Covariance yaw', 0.06853891909122467, 'That of the angle, in rad².', 0.0),
+    )
+
+    def message(self, point: Point, yaw: float) -> PoseWithCovarianceStamped:
+        """Return the estimate."""
+        message = self.stamped()
+        self.fill(message.pose.pose, point, yaw)
+        for path, index in COVARIANCES.items():
+            message.pose.covariance[index] = self.values[path]
+        return message

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Transforms out of the bytes of messages, without the messages.
+
+To make the message of 23 transforms takes rclpy 0.3 ms, which a listener pays for all that moves.
+A broadcaster sends the same names again and again, so that all numbers are at the same places.
+"""
+
+from __future__ import annotations
+
+import struct
+
+from rclpy.serialization import deserialize_message
+from tf2_msgs.msg import TFMessage
+from tf2_py._messages import Reading, reading_of
+
+__all__ = ['TfReader']
+
+_NS_PER_S = 10**9
+_ORDERS = {b'\x00\x00': '>', b'\x00\x01': '<'}
+_MAX_LAYOUTS = 100
+_FIELDS = 13  # of a transform: the stamp, two names with their lengths, and seven numbers
+_BEGIN = 16  # of the first name, after the encapsulation, the count and a stamp
+
+
+class TfReader:
+    """Reads serialized messages of transforms."""
+
+    def __init__(self) -> None:
+        """Create a reader that knows no layouts."""
+        self._layouts: dict[tuple[int, bytes], _Layout] = {}
+
+    def read(self, data: bytes) -> list[Reading]:
+        """Return the transforms of a message."""
+        try:
+            return self._read(data)
+        except (IndexError, KeyError, struct.error, UnicodeDecodeError):
+            message = deserialize_message(data, TFMessage)
+            return [reading_of(transform) for transform in message.transforms]
+
+    def _read(self, data: bytes) -> list[Reading]:
+        order = _ORDERS[data[:2]]
+        end = _end_of_names(data, order)
+        key = len(data), data[_BEGIN:end]
+        layout = self._layouts.get(key)
+        readings = layout.read(data) if layout is not None else None
+        if readings is not None:
+            return readings
+        if len(self._layouts) >= _MAX_LAYOUTS:
+            self._layouts.clear()
+        layout = self._layouts[key] = _Layout(data, order)
+        return layout.read(data) or []
+
+
+def _end_of_names(data: bytes, order: str) -> int:
+    """Return where the names of the first transform end; they tell robots apart."""
+    (parent,) = struct.unpack_from(f'{order}I', data, _BEGIN)
+    child_at = _BEGIN + _aligned(4 + parent, 4)
+    (child,) = struct.unpack_from(f'{order}I', data, child_at)
+    return child_at + 4 + int(child)
+
+
+class _Layout:
+    """Where the numbers are in messages with the same names."""
+
+    def __init__(self, data: bytes, order: str) -> None:
+        """Take a message."""
+        (count,) = struct.unpack_from(f'{order}I', data, 4)
+        parts, at = [order, '4xI'], 4
+        texts: list[bytes] = []
+        for _ in range(count):
+            parts.append(f'{_aligned(at, 4) - at}xiI')
+            at = _aligned(at, 4) + 8
+            for _ in range(2):
+                begin = _aligned(at, 4)
+                (length,) = struct.unpack_from(f'{order}I', data, 4 + begin)
+                parts.append(f'{begin - at}xI{length}s')
+                (text,) = struct.unpack_from(f'{length}s', data, 8 + begin)
+                at = begin + 4 + length
+                texts.append(text)
+            parts.append(f'{_aligned(at, 8) - at}x7d')
+            at = _aligned(at, 8) + 56
+        self._unpack = struct.Struct(''.join(parts)).unpack_from
+        parents, children = texts[::2], texts[1::2]
+        self._given = tuple(tuple(map(len, each)) for each in (parents, children))
+        self._texts = tuple(parents), tuple(children)
+        self._names = list(zip(map(_name, parents), map(_name, children)))
+
+    def read(self, data: bytes) -> list[Reading] | None:
+        """Return the transforms of a message, or None if it has other names."""
+        values = self._unpack(data)
+        given = values[3::_FIELDS], values[5::_FIELDS]
+        texts = values[4::_FIELDS], values[6::_FIELDS]
+        if values[0] != len(self._names) or given != self._given or texts != self._texts:
+            return None
+        stamps = zip(values[1::_FIELDS], values[2::_FIELDS])
+        poses = zip(*(values[at::_FIELDS] for at in range(7, 14)))
+        return [
+            (parent, child, seconds * _NS_PER_S + nanoseconds, pose)
+            for (parent, child), (seconds, nanoseconds), pose in zip(self._names, stamps, poses)
+        ]
+
+
+def _name(text: bytes) -> str:
+    return text.rstrip(b'\0').decode()
+
+
+def _aligned(at: int, size: int) -> int:
+    return (at + size - 1) // size * size
