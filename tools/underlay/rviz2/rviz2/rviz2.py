@@ -67,7 +67,7 @@ def _visualize(
     from rviz_common.visualizer import Visualizer
     from rviz_common.visualizer.options import FIXED_FRAME
 
-    visualizer = Visualizer(node, page.viser, configuration, arguments.display_config or '')
+    visualizer = Visualizer(node, page, configuration, arguments.display_config or '')
     if arguments.fixed_frame is not None:
         visualizer.set_option(FIXED_FRAME, arguments.fixed_frame)
     for sentence in unknown_parameters(node):

@@ -63,7 +63,7 @@ def show(node: Node, page: Page) -> Iterator[Callable[..., Visualizer]]:
 
     def show(text: str, path: str = '') -> Visualizer:
         configuration = Configuration.parse(text, path or 'test.rviz')
-        shown.append(Visualizer(node, page.viser, configuration, path))
+        shown.append(Visualizer(node, page, configuration, path))
         return shown[-1]
 
     yield show

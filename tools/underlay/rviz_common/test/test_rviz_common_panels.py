@@ -67,7 +67,7 @@ class Notices:
 def context(page: Page) -> Context:
     """Return a context without a node."""
     node: Any = None
-    return Context(node, page.viser, Frames(Buffer()), WorkQueue(), Notices())
+    return Context(node, page, Frames(Buffer()), WorkQueue(), Notices())
 
 
 def test_there_is_a_widget_for_each_kind_of_property(context: Context) -> None:

@@ -299,6 +299,6 @@ def test_work_that_fails_harms_no_other(show: Show, spin_until: Any, capfd: Any)
 
 def test_browsers_may_post_work_to_the_last(node: Node, page: Page) -> None:
     """What comes after the end is not done, and is no error."""
-    shown = Visualizer(node, page.viser, Configuration.default())
+    shown = Visualizer(node, page, Configuration.default())
     shown.close()
     shown.context.queue.post(lambda: 1 // 0)

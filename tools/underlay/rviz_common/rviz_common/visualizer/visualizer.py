@@ -51,7 +51,7 @@ from tf2_ros import Buffer
 
 if TYPE_CHECKING:
     from rclpy.node import Node
-    from viser import ViserServer
+    from rviz_common.page import Page
 
 __all__ = ['Visualizer']
 
@@ -64,13 +64,13 @@ class Visualizer:
     """
 
     def __init__(
-        self, node: Node, server: ViserServer, configuration: Configuration, path: str = ''
+        self, node: Node, page: Page, configuration: Configuration, path: str = ''
     ) -> None:
         """Show what a configuration says; `path` is the file that it is from."""
         self._buffer = Buffer()
         self._listener = FrameListener(self._buffer, node)
         frames = Frames(self._buffer)
-        self.context = Context(node, server, frames, WorkQueue(self._rouse), self)
+        self.context = Context(node, page, frames, WorkQueue(self._rouse), self)
         self.status = Statuses()
         self.watch = FrameWatch(node, frames, self.status)
         self._wake = node.create_guard_condition(self._work)
