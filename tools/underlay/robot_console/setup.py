@@ -22,4 +22,13 @@ setup(
     description='A console for robots: panels for RViz in the browser.',
     license='Apache-2.0',
     tests_require=['pytest'],
+    entry_points={
+        'rviz_common.displays': [
+            'robot_console/CommandedRobot = robot_console.displays.commanded_robot:CommandedRobot',
+        ],
+        'rviz_common.panels': [
+            'robot_console/Joints = robot_console.panels.joints_panel:JointsPanel',
+            'robot_console/Plots = robot_console.panels.plots_panel:PlotsPanel',
+        ],
+    },
 )
