@@ -76,7 +76,7 @@ def page() -> Iterator[Page]:
 def context(page: Page) -> Context:
     """Return a context with a node that publishes nothing."""
     node: Any = FakeNode()
-    return Context(node, page.viser, Frames(Buffer(), 'odom'), WorkQueue())
+    return Context(node, page, Frames(Buffer(), 'odom'), WorkQueue())
 
 
 def begun(kind: Any, context: Context, given: Any = None) -> tuple[Any, Publisher]:

@@ -69,6 +69,14 @@ class CommandedRobot(RobotModel):
         self._commands = None
         super().stop()
 
+    def on_change(self, path: str) -> None:
+        """Begin anew for other topics; draw what is known again for the rest."""
+        if path == NAMESPACE.path or path.startswith(COMMANDS):
+            self.stop()
+            self.start()
+        else:
+            super().on_change(path)
+
     def topic_of(self, path: str) -> str:
         """Return the topic that a property says, of the robot that the namespace says."""
         return below(self.values['Namespace'], super().topic_of(path))

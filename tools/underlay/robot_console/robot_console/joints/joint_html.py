@@ -48,7 +48,7 @@ HEAD = (
 
 
 def table_html(groups: Iterable[RowGroup]) -> str:
-    """Return the table; joints beyond 300 are left out, and counted."""
+    """Return the table, or none without joints; those beyond 300 are left out, and counted."""
     parts = []
     left = MAX_ROWS
     left_out = 0
@@ -60,8 +60,8 @@ def table_html(groups: Iterable[RowGroup]) -> str:
             parts.append(f'<tr class=g><td colspan=5>{escape(group.title)}')
             parts.extend(map(_row, rows))
     more = f'<tr><td colspan=5>{left_out} more; search for some.' if left_out else ''
-    body = ''.join(parts) or '<tr><td colspan=5>No joint has this in its name.'
-    return f'<table class=joints>{HEAD}{body}{more}</table>'
+    body = ''.join(parts)
+    return f'<table class=joints>{HEAD}{body}{more}</table>' if body else ''
 
 
 def notes_html(notes: Iterable[tuple[str, bool]]) -> str:

@@ -61,8 +61,10 @@ class JointsPanel(Panel):
             return
         self._take()
         now_s = time.time()
-        rows = table_html(self._table.groups(now_s, self._search.value))
-        self._notes.content = notes_html(self._said(now_s))
+        search = self._search.value
+        rows = table_html(self._table.groups(now_s, search))
+        found = [] if rows or not search else [(f"No joint has '{search}' in its name.", True)]
+        self._notes.content = notes_html([*self._said(now_s), *found])
         self._rows.content = rows
 
     def close(self) -> None:

@@ -33,6 +33,7 @@ class SeriesChooser:
         self._samples = Samples(self._node, plot.full_name)
         gui, context = plot.context.gui, plot.context
         self._presets = PresetButtons(plot, self._samples, self.say)
+        self._said = gui.add_html('')
         with gui.add_folder('Series'):
             self._topic = gui.add_dropdown('Topic', (NOTHING,))
             context.on_input(self._topic, self._choose_topic)
@@ -42,7 +43,6 @@ class SeriesChooser:
             context.on_click(gui.add_button('Add this path'), self._add_path)
             self._listed = gui.add_dropdown('Remove', (NOTHING,))
             context.on_input(self._listed, self._remove)
-        self._said = gui.add_html('')
 
     def update(self) -> None:
         """Offer the topics that there are."""

@@ -95,7 +95,9 @@ def test_colours_of_the_description(stage: Stage, ghost: Any) -> None:
 
 def test_namespace(stage: Stage) -> None:
     """The topics are those of the robot that the namespace says."""
-    stage.show(CommandedRobot, {'Namespace': 'robot1'})
+    ghost = stage.show(CommandedRobot)
+    ghost.values['Namespace'] = 'robot1'
+    ghost.on_change('Namespace')
     assert {topic for topic, _, _ in stage.node.subscriptions} == {
         '/robot1/robot_description',
         '/robot1/joint_commands',
