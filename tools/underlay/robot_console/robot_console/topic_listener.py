@@ -37,11 +37,16 @@ class TopicListener:
         self._heard: dict[str, PolledTopic] = {}
 
     def listen(self, topics: Collection[str]) -> dict[str, str]:
-        """Hear these topics only; return why some of them are not heard yet."""
+        """Hear these topics only; return why nothing comes on some of them."""
         for topic in set(self._heard).difference(topics):
             self._heard.pop(topic).close()
         missing = [topic for topic in topics if topic not in self._heard]
-        return self._subscribe_all(missing) if missing else {}
+        reasons = self._subscribe_all(missing) if missing else {}
+        for topic in self._heard:
+            name = self._full_name(topic)
+            if not self._node.count_publishers(name):
+                reasons[topic] = f'Nobody publishes {name}.'
+        return reasons
 
     def take_all(self) -> None:
         """Pass on what has come since the last time, in the order in which it came."""
@@ -74,7 +79,7 @@ class TopicListener:
         from rclpy.qos import QoSProfile, ReliabilityPolicy
 
         if not types:
-            raise ValueError(f'Nobody publishes {name} yet.')
+            raise ValueError(f'Nobody publishes {name}.')
         if len(types) > 1:
             raise ValueError(f'{name} has several types: {", ".join(types)}.')
 

@@ -107,11 +107,23 @@ def test_messages_keep_their_order(robot_node: Node, work_until: Work) -> None:
 def test_nobody_publishes(show_panel: Any, work_until: Work) -> None:
     """A topic that nobody publishes is named; so is a path that cannot be read."""
     panel = show_panel(PlotsPanel, Series='nothing.x')
-    work_until(panel, lambda: 'Nobody publishes /nothing yet.' in panel._legend.content)
+    work_until(panel, lambda: 'Nobody publishes /nothing.' in panel._legend.content)
     broken = show_panel(PlotsPanel, Series='nothing')
     assert (
         'Series of the file: &#x27;nothing&#x27; names no field' in broken._chooser._said.content
     )
+
+
+def test_only_heard(show_panel: Any, work_until: Work, robot_node: Node) -> None:
+    """A topic that others only hear is not taken for one that is published."""
+    robot_node.create_subscription(JointState, 'states', lambda message: None, 10)
+    panel = show_panel(PlotsPanel, Series='states.position[0]')
+    work_until(panel, lambda: 'Nobody publishes /states.' in panel._legend.content)
+    states = robot_node.create_publisher(JointState, 'states', 10)
+    message = JointState(name=['knee'], position=[1.0])
+    work_until(panel, lambda: newest(panel) == [1.0], lambda: states.publish(message))
+    work_until(panel, lambda: 'Nobody' not in panel._legend.content)
+    robot_node.destroy_subscription(next(iter(robot_node.subscriptions)))
 
 
 def test_wrong_field(show_panel: Any, work_until: Work, robot: Callable[[], None]) -> None:
