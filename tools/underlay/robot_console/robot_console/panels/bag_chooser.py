@@ -43,6 +43,7 @@ class BagChooser:
         self._chosen = chosen
         self._pace = Pace(PERIOD_S)
         self._is_looking = False
+        self._wanted = ''
         self._bags: dict[str, Bag] = {}
         self._list: Any = context.gui.add_dropdown('Recording', [NONE])
         self._text: Any = context.gui.add_markdown('')
@@ -50,8 +51,10 @@ class BagChooser:
 
     def add_details(self) -> None:
         """Add the widget with the topics, which may stand elsewhere."""
-        with self._context.gui.add_folder('Topics', expand_by_default=False):
-            self._details: Any = self._context.gui.add_markdown('')
+        gui = self._context.gui
+        self._topics: Any = gui.add_folder('Topics', expand_by_default=False, visible=False)
+        with self._topics:
+            self._details: Any = gui.add_markdown('')
 
     @property
     def bag(self) -> Bag | None:
@@ -65,8 +68,9 @@ class BagChooser:
             self._is_looking = True
             threading.Thread(target=self._look, daemon=True).start()
 
-    def hurry(self) -> None:
-        """Look soon, since there is something new."""
+    def choose(self, path: str) -> None:
+        """Choose a new recording, as soon as it is seen."""
+        self._wanted = path
         self._pace.hurry()
 
     def _look(self) -> None:
@@ -83,6 +87,9 @@ class BagChooser:
             self._bags = found
             before = self._list.value
             assign(self._list, options=tuple(found) or (NONE,))
+            for label in (each for each, bag in found.items() if bag.path == self._wanted):
+                self._wanted = ''
+                assign(self._list, value=label)
             if self._list.value != before:
                 self._chosen()
         self._describe()
@@ -101,6 +108,7 @@ class BagChooser:
             head += f'\n\n{self._shelf.left_out_count} older ones are not listed.'
         assign(self._text, content=head)
         assign(self._details, content=details)
+        assign(self._topics, visible=bool(details))
 
 
 def _label(bag: Bag) -> str:

@@ -27,7 +27,7 @@ class MemoryFolder:
         folder: str,
         namespace: str,
         limits: tuple[float, float],
-        done: Callable[[], None],
+        done: Callable[[str], None],
     ) -> None:
         """Add the widgets; the limits are seconds and MiB."""
         self._folder, self._namespace, self._done = folder, namespace, done
@@ -105,5 +105,5 @@ class MemoryFolder:
         else:
             name = os.path.basename(saved['folder'])
             text = f'✔ Saved **{escaped(name)}**: {saved["messages"]} messages'
+            self._done(saved['folder'])
         assign(self._result, content=text, visible=True)
-        self._done()
