@@ -14,10 +14,12 @@ __all__ = ['Badge']
 SUBJECT = 'Playing'
 RECORDED = 'What is shown is recorded, not live.'
 MIXED = 'Recorded and live are mixed.'
-# Above the scene, and not among the widgets, which a person may scroll or fold away.
+# Above the scene, and not among the widgets, which a person may scroll or fold away; these are
+# 24em wide.
 STYLE = (
-    'position: fixed; top: 0.8em; left: 50%; transform: translateX(-50%); z-index: 1000; '
-    'max-width: 90vw; padding: 0.45em 1em; border-radius: 4px; pointer-events: none; '
+    'position: fixed; top: 0.8em; left: max(9em, 50vw - 12em); transform: translateX(-50%); '
+    'z-index: 1000; width: max-content; max-width: 17em; '
+    'padding: 0.45em 1em; border-radius: 4px; pointer-events: none; '
     'color: #fff; font-size: 0.9em; line-height: 1.35; text-align: center; '
     'overflow-wrap: anywhere; background: '
 )

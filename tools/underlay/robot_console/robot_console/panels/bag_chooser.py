@@ -10,7 +10,7 @@ from typing import Any
 
 from robot_console.assigning import assign
 from robot_console.recordings.shelf import Bag, Shelf
-from robot_console.recordings.words import about, clock_text
+from robot_console.recordings.words import about, clock_text, topics_table
 from rviz_common.context import Context
 from rviz_common.panels.marks import escaped
 from rviz_common.panels.pace import Pace
@@ -54,7 +54,7 @@ class BagChooser:
         gui = self._context.gui
         self._topics: Any = gui.add_folder('Topics', expand_by_default=False, visible=False)
         with self._topics:
-            self._details: Any = gui.add_markdown('')
+            self._details: Any = gui.add_html('')
 
     @property
     def bag(self) -> Bag | None:
@@ -101,14 +101,15 @@ class BagChooser:
     def _describe(self) -> None:
         bag = self._bags.get(self._list.value)
         if bag is None:
-            head, details = f'No recordings in {escaped(_short(self._shelf.folder))} yet.', ''
+            head = f'No recordings in {escaped(_short(self._shelf.folder))} yet.'
         else:
-            head, details = about(bag)
+            head = about(bag)
+        topics = bag.topics if bag is not None else ()
         if self._shelf.left_out_count:
             head += f'\n\n{self._shelf.left_out_count} older ones are not listed.'
         assign(self._text, content=head)
-        assign(self._details, content=details)
-        assign(self._topics, visible=bool(details))
+        assign(self._details, content=topics_table(topics))
+        assign(self._topics, visible=bool(topics))
 
 
 def _label(bag: Bag) -> str:
