@@ -209,7 +209,7 @@ def test_play(world: World) -> None:
     world.play._press('Play')
     world.run(lambda: len(world.heard) > 2, 'nothing is played')
     assert world.heard[:3] == ['0', '1', '2'] and world.buffer.clears == 1
-    assert 'old. What is shown is recorded, not live.' in world.status.items()[0][2]
+    assert 'old. This is recorded, not live.' in world.status.items()[0][2]
     world.play._press('Pause')
     world.run(lambda: 'Paused' in world.play._text.content, 'it goes on')
     world.heard.clear()

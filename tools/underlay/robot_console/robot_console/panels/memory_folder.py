@@ -37,7 +37,7 @@ class MemoryFolder:
         gui = context.gui
         with gui.add_folder(f'Messages: last {self._seconds:g} s'):
             self._on: Any = gui.add_checkbox(
-                'Keep', False, hint=f'In memory, up to {self._max_mib:g} MiB.'
+                'Keep messages', False, hint=f'In memory, up to {self._max_mib:g} MiB.'
             )
             self._button: Any = gui.add_button('Save', disabled=True)
             self._text: Any = gui.add_markdown('', visible=False)
