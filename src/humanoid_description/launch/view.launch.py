@@ -23,7 +23,7 @@ def generate_launch_description() -> LaunchDescription:
     model = PathJoinSubstitution([share, 'urdf', 'humanoid.urdf.xacro'])
     view = PathJoinSubstitution([share, 'config', 'robot_view.rviz'])
     gui, prefix = LaunchConfiguration('gui'), LaunchConfiguration('prefix')
-    urdf = ['xacro ', model]
+    urdf = ['xacro "', model, '"']
     for argument in ('scale', 'prefix', 'upper_body_only'):
         urdf += [f' {argument}:=', LaunchConfiguration(argument)]
     description = {'robot_description': ParameterValue(Command(urdf), value_type=str)}

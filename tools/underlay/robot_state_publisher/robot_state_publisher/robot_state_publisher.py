@@ -64,8 +64,8 @@ class RobotStatePublisher(Node):
         if not self._settings.robot_description.strip() and file is None:
             raise ValueError(
                 "Node 'robot_state_publisher' needs the parameter robot_description, the text of "
-                'a URDF. In a launch file: parameters=[{"robot_description": '
-                'ParameterValue(Command(["xacro ", path]), value_type=str)}].'
+                "a URDF. In a launch file: parameters=[{'robot_description': "
+                """ParameterValue(Command(['xacro "', path, '"']), value_type=str)}]."""
             )
         return self._settings.model(file or 'robot_description')
 
