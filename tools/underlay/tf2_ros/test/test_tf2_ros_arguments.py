@@ -45,6 +45,8 @@ def test_old_style() -> None:
         ([*FRAMES, '--yaw', '1', '--qw', '1'], '--qw and --yaw exclude each other'),
         ([*FRAMES, '--qw', '2'], 'the quaternion (0 0 0 2) has the length 2 instead of 1'),
         (['--frame-id', 'a', '--child-frame-id', '/a'], "'a' cannot be placed in itself"),
+        (['--frame-id', '', '--child-frame-id', 'a'], "'' and 'a' are to be frames: none can be"),
+        (['--frame-id', 'a', '--child-frame-id', '/'], "'a' and '/' are to be frames"),
         (['1', '2', 'foo', 'bar'], '4 arguments are neither x y z yaw pitch roll frame_id'),
         ('1 2 3 4 5 six foo bar'.split(), "'six' is not a number"),
     ],

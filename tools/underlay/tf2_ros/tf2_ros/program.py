@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+import errno
 import os
 import signal
 import sys
@@ -90,11 +91,22 @@ def _run(
         return 1
     try:
         return work(parsed) or 0
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return BROKEN_PIPE_STATUS
+    except OSError as error:
+        return _status_of_lost_output(error)
     finally:
         rclpy.try_shutdown()
+
+
+def _status_of_lost_output(error: OSError) -> int:
+    """Drop what nobody reads or no disk has room for; raise other errors again."""
+    if error.errno not in (errno.EPIPE, errno.ENOSPC):
+        raise error
+    # The interpreter would try once more at the end, and complain.
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if error.errno == errno.EPIPE:
+        return BROKEN_PIPE_STATUS
+    sys.stderr.write(f'The output cannot be written: {error.strerror}\n')
+    return 1
 
 
 def spin(node: Node, timeout_s: float | None = None) -> bool:

@@ -121,3 +121,26 @@ def test_interrupt(tmp_path: Path, environment: dict[str, str]) -> None:
     viewer.send_signal(signal.SIGINT)
     _, errors = viewer.communicate(timeout=TIMEOUT_S)
     assert viewer.returncode == 0 and 'Traceback' not in errors
+
+
+@pytest.mark.parametrize('seconds', ['nan', 'inf', '-1', 'long'])
+def test_no_time_to_listen(environment: dict[str, str], seconds: str) -> None:
+    """A time that is none is named, and the status is 2."""
+    process = start(environment, 'tf2_tools.view_frames', f'--wait-time={seconds}')
+    _, errors = process.communicate(timeout=TIMEOUT_S)
+    assert process.returncode == 2 and 'Traceback' not in errors
+    assert f"'{seconds}' is no time in seconds: give a number from 0" in errors
+
+
+def test_closed_output(environment: dict[str, str], tmp_path: Path) -> None:
+    """The files are written also if nobody wants to read."""
+    words = [sys.executable, '-m', 'tf2_tools.view_frames', '-t', '0', '-o', str(tmp_path / 'f')]
+    result = subprocess.run(
+        ['sh', '-c', 'exec "$0" "$@" >&-', *words],
+        env=environment,
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=TIMEOUT_S,
+    )
+    assert result.returncode == 0 and 'Traceback' not in result.stderr
+    assert (tmp_path / 'f.gv').exists()
