@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+import os
 from pathlib import Path
+import signal
 import sys
 
 from humanoid_description.errors import DescriptionError
@@ -20,6 +22,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except DescriptionError as error:
         print(error, file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return 128 + signal.SIGINT
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -85,8 +89,22 @@ def _check(text: str, source: str) -> int:
     from humanoid_description.report import report
 
     outcomes = check_robot(load_robot(text, source))
-    print(report(source, outcomes))
-    return int(any(outcome.defects for outcome in outcomes))
+    shown = _show(report(source, outcomes))
+    return shown or int(any(outcome.defects for outcome in outcomes))
+
+
+def _show(text: str) -> int:
+    """Print a text; return another exit status than 0 if nobody gets it."""
+    try:
+        print(text, flush=True)
+    except OSError as error:
+        # The interpreter would try once more at the end, and complain.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if isinstance(error, BrokenPipeError):
+            return 128 + signal.SIGPIPE
+        print(f'The result cannot be written: {error.strerror}.', file=sys.stderr)
+        return 1
+    return 0
 
 
 if __name__ == '__main__':

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+import subprocess
+import sys
 from xml.etree import ElementTree
 
 from ament_index_python.packages import get_package_share_directory
@@ -117,6 +119,21 @@ def unknown_type(robot: Element) -> None:
     joint(robot, 'waist_yaw').set('type', 'revolut')
 
 
+def mimics(follower: str, leader: str) -> Break:
+    """Return what lets a joint follow another."""
+
+    def break_it(robot: Element) -> None:
+        ElementTree.SubElement(joint(robot, follower), 'mimic', joint=leader)
+
+    return break_it
+
+
+def circle(robot: Element) -> None:
+    """Let two joints follow each other, and a third one of them."""
+    for pair in (('head_yaw', 'waist_yaw'), ('waist_yaw', 'head_yaw'), ('head_pitch', 'head_yaw')):
+        mimics(*pair)(robot)
+
+
 def other_frame(robot: Element) -> None:
     """Name a frame as REP 120 does not."""
     link(robot, 'l_wrist').set('name', 'left_wrist')
@@ -213,6 +230,18 @@ BROKEN: dict[str, tuple[Break, str]] = {
         unknown_type,
         "Joint 'waist_yaw' is of the unknown type 'revolut'. Did you mean 'revolute'?",
     ),
+    'unknown leader': (
+        mimics('left_elbow', 'right_elbo'),
+        "Joint 'left_elbow' mimics 'right_elbo', which is no joint. Did you mean 'right_elbow'?",
+    ),
+    'fixed leader': (
+        mimics('left_elbow', 'camera_link_fixed'),
+        "Joint 'left_elbow' mimics 'camera_link_fixed', which has no position: it is fixed.",
+    ),
+    'circle': (
+        circle,
+        "in a circle, so that nothing moves them: 'waist_yaw', 'head_yaw', 'head_pitch'.",
+    ),
     'other frame': (
         other_frame,
         "The frame 'l_wrist' is missing, which REP 120 names. Did you mean 'left_wrist'?",
@@ -253,7 +282,7 @@ def test_humanoid_is_sound(
 ) -> None:
     """The humanoid passes every check in every size, whole or without legs."""
     assert main(['--scale', scale, *more]) == 0
-    assert capsys.readouterr().out.endswith('is sound: 16 checks passed.\n')
+    assert capsys.readouterr().out.endswith('is sound: 17 checks passed.\n')
 
 
 @pytest.mark.parametrize('name', BROKEN)
@@ -275,7 +304,7 @@ def test_broken_file(urdf: str, tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert main([str(path)]) == 1
     out = capsys.readouterr().out
     assert "- Link 'base_link' has a mass of 0 kg." in out
-    assert out.endswith(f'{path} has 1 defect: 7 checks passed, 8 skipped.\n')
+    assert out.endswith(f'{path} has 1 defect: 8 checks passed, 8 skipped.\n')
 
 
 def test_other_robot(capsys: pytest.CaptureFixture[str]) -> None:
@@ -284,7 +313,7 @@ def test_other_robot(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([f'{share}/urdf/simple_arm.urdf']) == 0
     out = capsys.readouterr().out
     assert "skipped: the robot 'simple_arm' is not the humanoid" in out
-    assert out.endswith('is sound: 8 checks passed, 8 skipped.\n')
+    assert out.endswith('is sound: 9 checks passed, 8 skipped.\n')
 
 
 def test_xacro_file(capsys: pytest.CaptureFixture[str]) -> None:
@@ -329,3 +358,41 @@ def test_broken_xacro(
     path.write_text(content)
     assert main([str(path)]) == 1
     assert capsys.readouterr().err == f'xacro cannot expand {path}: {reason}\n'
+
+
+def test_long_chain_of_frames() -> None:
+    """Thousands of fixed links below a moving one are no obstacle; none has a mass."""
+    parts = ['<link name="l0"/>', *(f'<link name="l{i}"/>' for i in range(1, 1500))]
+    for i in range(1, 1500):
+        kind = 'fixed' if i > 1 else 'continuous'
+        ends = f'<parent link="l{i - 1}"/><child link="l{i}"/>'
+        parts.append(f'<joint name="j{i}" type="{kind}">{ends}</joint>')
+    outcomes = check_robot(load_robot(f'<robot name="r">{"".join(parts)}</robot>', 'chain.urdf'))
+    defects = [defect for outcome in outcomes for defect in outcome.defects]
+    assert len(defects) == 1 and defects[0].startswith("Link 'l1' is moved by joint 'j1', but has")
+
+
+@pytest.mark.parametrize(
+    ('redirection', 'status', 'errors'),
+    [
+        ('>/dev/full', 1, 'The result cannot be written: No space left on device.\n'),
+        ('| true', 141, ''),
+        ('>&-', 0, ''),
+    ],
+)
+def test_output_that_nobody_gets(redirection: str, status: int, errors: str) -> None:
+    """A full disk is named; a reader that is gone is none of our business."""
+    command = f'"$0" -m humanoid_description.check_model {redirection}; exit "${{PIPESTATUS[0]}}"'
+    words = ['bash', '-c', command, sys.executable]
+    result = subprocess.run(words, stderr=subprocess.PIPE, text=True, check=False)
+    assert (result.returncode, result.stderr) == (status, errors)
+
+
+def test_interrupted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ctrl-C ends the program without a word."""
+
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr('humanoid_description.expansion.humanoid_urdf', interrupt)
+    assert main([]) == 130
