@@ -58,12 +58,12 @@ def _urdf(arguments: argparse.Namespace) -> tuple[str, str]:
     except OSError as error:
         raise DescriptionError(f'{path} cannot be read: {error.strerror}.') from error
     except UnicodeDecodeError as error:
-        raise DescriptionError(f'{path} is no text file.') from error
+        raise DescriptionError(f'{path} is no text in UTF-8.') from error
 
 
 def _file(path: Path) -> str:
     """Return the URDF in a file, or what a xacro file expands to."""
-    text = path.read_text()
+    text = path.read_text(encoding='utf-8')
     if path.suffix != '.xacro':
         return text
     from humanoid_description.expansion import expand

@@ -29,15 +29,21 @@ def expand(path: Path, arguments: Mapping[str, str]) -> str:
 
     try:
         document = xacro.process_file(str(path), mappings=dict(arguments))
-    except (xacro.XacroException, ExpatError) as error:
-        reason = ' '.join(str(error).split()).rstrip('.')
-        raise DescriptionError(f'xacro cannot expand {_places()}: {reason}.') from error
+    except (xacro.XacroException, ExpatError, RecursionError) as error:
+        raise DescriptionError(f'xacro cannot expand {_places()}: {_reason(error)}.') from error
     text: str = document.toprettyxml(indent='  ')
     return text
 
 
+def _reason(error: Exception) -> str:
+    """Return in one line why xacro has stopped."""
+    if isinstance(error, RecursionError):
+        return 'a file includes itself, or a macro calls itself, without an end'
+    return ' '.join(str(error).split()).rstrip('.')
+
+
 def _places() -> str:
-    """Name the file in which xacro has stopped, and those that include it."""
+    """Name the file in which xacro has stopped, and those that include it, each once."""
     import xacro
 
-    return ', included from '.join(map(str, reversed(xacro.filestack)))
+    return ', included from '.join(dict.fromkeys(map(str, reversed(xacro.filestack))))

@@ -348,6 +348,11 @@ def test_nothing_to_check(
             '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">${b}</robot>',
             "name 'b' is not defined when evaluating expression 'b'.",
         ),
+        (
+            '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="m">'
+            '<xacro:m/></xacro:macro><xacro:m/></robot>',
+            'a file includes itself, or a macro calls itself, without an end.',
+        ),
     ],
 )
 def test_broken_xacro(
@@ -358,6 +363,28 @@ def test_broken_xacro(
     path.write_text(content)
     assert main([str(path)]) == 1
     assert capsys.readouterr().err == f'xacro cannot expand {path}: {reason}\n'
+
+
+def test_file_that_includes_itself(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A circle of files is told with each of them once."""
+    one, two = tmp_path / 'one.xacro', tmp_path / 'two.xacro'
+    text = (
+        '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:include {}/></robot>'
+    )
+    one.write_text(text.format('filename="two.xacro"'))
+    two.write_text(text.format('filename="one.xacro"'))
+    assert main([str(one)]) == 1
+    error = capsys.readouterr().err
+    assert error.count(str(one)) == error.count(str(two)) == 1
+    assert 'a file includes itself' in error
+
+
+def test_text_that_is_not_in_utf_8(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Whatever the machine's language is, models are read as UTF-8."""
+    path = tmp_path / 'latin.urdf'
+    path.write_bytes('<robot name="Bär"/>'.encode('latin-1'))
+    assert main([str(path)]) == 1
+    assert capsys.readouterr().err == f'{path} is no text in UTF-8.\n'
 
 
 def test_long_chain_of_frames() -> None:
