@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import os
+from pathlib import Path
 import signal
 import subprocess
 import threading
@@ -13,6 +15,15 @@ import pytest
 Start = Callable[..., subprocess.Popen[str]]
 TIMEOUT_S = 60.0
 PUBLISHER = 'tf2_ros.static_transform_publisher'
+OLDER_THREAD = """
+import sys
+import threading
+
+threading.Thread(target=threading.Event().wait, daemon=True).start()
+from tf2_ros.tf2_monitor import main
+
+sys.exit(main())
+"""
 ARGUMENTS = ['--x', '1', '--yaw', '0.5', '--frame-id', 'map', '--child-frame-id', 'odom']
 
 
@@ -107,3 +118,16 @@ def test_full_disk(start_program: Start) -> None:
         _, errors = monitor.communicate(timeout=TIMEOUT_S)
     assert errors == 'The output cannot be written: No space left on device\n'
     assert monitor.returncode == 1
+
+
+def test_impatience(start_program: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Several signals do no more than one, also if there is a thread that does not block them."""
+    (tmp_path / 'older_thread.py').write_text(OLDER_THREAD)
+    monkeypatch.setenv('PYTHONPATH', str(tmp_path), prepend=os.pathsep)
+    for numbers in ([signal.SIGINT] * 3, [signal.SIGTERM, signal.SIGINT] * 2):
+        monitor = start_program('older_thread')
+        read_until(monitor.stdout, 'Gathering data')
+        for number in numbers:
+            monitor.send_signal(number)
+        _, errors = monitor.communicate(timeout=TIMEOUT_S)
+        assert (monitor.returncode, errors) == (0, '')

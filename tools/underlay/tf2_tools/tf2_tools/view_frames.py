@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import argparse
 from datetime import datetime
+from functools import partial
 import sys
 from typing import TYPE_CHECKING
 
 from tf2_ros.argument_types import number_in
-from tf2_ros.program import run, spin
+from tf2_ros.program import run, spin, wait_for_signal
 from tf2_tools.drawing import draw, write_graph
 
 if TYPE_CHECKING:
@@ -62,7 +63,7 @@ def _view(args: argparse.Namespace) -> int:
     except OSError as error:
         logger.error(f'{path}.gv cannot be written: {error.strerror}. Give another --output')
         return 1
-    problem = draw(path)
+    problem = draw(path, partial(wait_for_signal, 0.0))
     if problem:
         logger.warning(problem)
     _say_what_is_missing(node, buffer)
