@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 from ament_index_python.packages import get_package_share_directory
 from humanoid_description.check_model import main
 from humanoid_description.checks import check_robot
+from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot
 import pytest
 
@@ -160,6 +161,71 @@ def other_range(robot: Element) -> None:
     limit.attrib.update(left.attrib)
 
 
+def slightly_longer_leg(robot: Element) -> None:
+    """Make one leg longer by a tenth of a millimetre."""
+    part(joint(robot, 'right_ankle_pitch'), 'origin').set('xyz', '0 0 -0.3001')
+
+
+def other_strength(robot: Element) -> None:
+    """Let one knee be slower."""
+    part(joint(robot, 'left_knee'), 'limit').set('velocity', '1.5')
+
+
+def other_kind(robot: Element) -> None:
+    """Let one elbow turn without an end."""
+    joint(robot, 'right_elbow').set('type', 'continuous')
+
+
+def other_centre(robot: Element) -> None:
+    """Put the weight of one thigh aside."""
+    part(link(robot, 'left_thigh'), 'inertial/origin').set('xyz', '0.01 0 -0.15')
+
+
+def other_inertia(robot: Element) -> None:
+    """Give one thigh another moment."""
+    inertia = part(link(robot, 'left_thigh'), 'inertial/inertia')
+    inertia.set('ixx', str(1.01 * float(inertia.attrib['ixx'])))
+
+
+def one_body(robot: Element) -> None:
+    """Give one hand a mass, and the other none."""
+    link(robot, 'l_gripper').append(part(link(robot, 'left_foot'), 'inertial'))
+
+
+def third_arm(robot: Element) -> None:
+    """Add a link on the left side only."""
+    ElementTree.SubElement(robot, 'link', name='left_tail')
+    ElementTree.SubElement(robot, 'joint', name='tail', type='fixed').extend(
+        [Element('parent', link='base_link'), Element('child', link='left_tail')]
+    )
+
+
+def no_velocity(robot: Element) -> None:
+    """Take the speed from a joint."""
+    part(joint(robot, 'head_pitch'), 'limit').set('velocity', '0')
+
+
+def slightly_impossible_inertia(robot: Element) -> None:
+    """Give a thigh a moment that is too large by a hundredth."""
+    inertia = part(link(robot, 'left_thigh'), 'inertial/inertia')
+    inertia.attrib.update(ixx='1', iyy='1', izz='2.02', ixy='0', ixz='0', iyz='0')
+
+
+def somewhat_heavy_torso(robot: Element) -> None:
+    """Make the torso heavier by a thirtieth of the robot."""
+    part(link(robot, 'torso'), 'inertial/mass').set('value', '13.4')
+
+
+def hands_apart(robot: Element) -> None:
+    """Let the arms not turn inwards."""
+    for side in ('left', 'right'):
+        yaw = part(joint(robot, f'{side}_shoulder_yaw'), 'limit')
+        yaw.attrib.update(lower='-0.01', upper='0.01')
+        roll = part(joint(robot, f'{side}_shoulder_roll'), 'limit')
+        lower, upper = ('0.6', '0.7') if side == 'left' else ('-0.7', '-0.6')
+        roll.attrib.update(lower=lower, upper=upper)
+
+
 def heavy_foot(robot: Element) -> None:
     """Make one foot heavier."""
     part(link(robot, 'left_foot'), 'inertial/mass').set('value', '1.5')
@@ -256,6 +322,32 @@ BROKEN: dict[str, tuple[Break, str]] = {
         "Joints 'left_ankle_pitch' and 'right_ankle_pitch' are not at mirrored places: "
         '(0, 0, -0.3) and (0, 0, -0.32).',
     ),
+    'slightly longer leg': (slightly_longer_leg, '(0, 0, -0.3) and (0, 0, -0.3001).'),
+    'other strength': (
+        other_strength,
+        "Joints 'left_knee' and 'right_knee' have no mirrored ranges and strengths",
+    ),
+    'other kind': (
+        other_kind,
+        "Joints 'left_elbow' and 'right_elbow' are of different types, revolute and continuous.",
+    ),
+    'other centre': (
+        other_centre,
+        "Links 'left_thigh' and 'right_thigh' have no mirrored centres of mass",
+    ),
+    'other inertia': (
+        other_inertia,
+        "Links 'left_thigh' and 'right_thigh' have no mirrored inertia.",
+    ),
+    'one body': (one_body, "Links 'l_gripper' and 'r_gripper': only one of them has a mass."),
+    'third arm': (
+        third_arm,
+        "There is the link 'left_tail', but no 'right_tail' on the other side.",
+    ),
+    'no velocity': (no_velocity, "Joint 'head_pitch' has 0 as velocity limit"),
+    'slightly impossible inertia': (slightly_impossible_inertia, 'the inertia of no real body'),
+    'somewhat heavy torso': (somewhat_heavy_torso, 'kg; at its height of 1.35 m it should weigh'),
+    'hands apart': (hands_apart, 'the hands cannot meet in front of it'),
     'other range': (
         other_range,
         "Joints 'left_shoulder_roll' and 'right_shoulder_roll' have no mirrored ranges",
@@ -295,6 +387,16 @@ def test_broken_model(name: str, urdf: str) -> None:
     outcomes = check_robot(load_robot(text, 'broken.urdf'))
     defects = [defect for outcome in outcomes for defect in outcome.defects]
     assert any(sentence in defect for defect in defects), defects
+
+
+def test_broken_model_with_prefix() -> None:
+    """The sides are compared also when all names begin with something else."""
+    robot = ElementTree.fromstring(humanoid_urdf(prefix='r1_'))
+    part(link(robot, 'r1_left_foot'), 'inertial/mass').set('value', '1.5')
+    outcomes = check_robot(load_robot(ElementTree.tostring(robot, encoding='unicode'), 'r1.urdf'))
+    assert any(
+        "Links 'r1_left_foot' and 'r1_right_foot'" in d for o in outcomes for d in o.defects
+    )
 
 
 def test_broken_file(urdf: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -80,6 +80,7 @@ def test_what_is_not_of_the_robot() -> None:
     """Comments, and elements for simulators, may hold whatever they want."""
     text = (
         '<robot name="r"><!-- a --><link name="a"/><gazebo><mass/></gazebo>'
-        '<ros2_control name="c"><joint name="j"/></ros2_control></robot>'
+        '<ros2_control name="c"><joint name="j"/></ros2_control>'
+        '<transmission name="t"><joint name="j"/></transmission><mujoco><mass/></mujoco></robot>'
     )
     assert [link.name for link in load_robot(text, 'm.urdf').links] == ['a']
