@@ -71,4 +71,5 @@ def test_normalized() -> None:
         1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0,
     )  # fmt: skip
     assert _pose.normalized((0.0,) * 7) is None
+    assert _pose.normalized((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.01)) is None
     assert _pose.normalized((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0)) is None

@@ -44,6 +44,7 @@ def test_old_style() -> None:
         ([*FRAMES, '--x', 'nan'], "'nan' is not a finite number"),
         ([*FRAMES, '--yaw', '1', '--qw', '1'], '--qw and --yaw exclude each other'),
         ([*FRAMES, '--qw', '2'], 'the quaternion (0 0 0 2) has the length 2 instead of 1'),
+        ([*FRAMES, '--qw', '0.99'], 'the quaternion (0 0 0 0.99) has the length 0.99 instead'),
         (['--frame-id', 'a', '--child-frame-id', '/a'], "'a' cannot be placed in itself"),
         (['--frame-id', '', '--child-frame-id', 'a'], "'' and 'a' are to be frames: none can be"),
         (['--frame-id', 'a', '--child-frame-id', '/'], "'a' and '/' are to be frames"),

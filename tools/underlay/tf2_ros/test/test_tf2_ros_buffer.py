@@ -117,6 +117,19 @@ def test_waiting_for_unknown_frames_is_cheap(
     assert found == (False, 'unknown') and len(explained) == 1
 
 
+def test_futures_are_not_kept(buffer: Buffer) -> None:
+    """What is done or cancelled is forgotten, and nothing gets a result twice."""
+    done = buffer.wait_for_transform_async('map', 'base', at(0))
+    cancelled = buffer.wait_for_transform_async('map', 'hand', at(0))
+    cancelled.cancel()
+    results: list[bool] = []
+    done.set_result = results.append
+    for time_s in (5.0, 6.0):
+        buffer.set_transform(stamped('odom', 'base', time_s), 'test')
+    assert results == [True]
+    assert not buffer._waiting._futures
+
+
 def test_coroutines(buffer: Buffer) -> None:
     """The asynchronous look-ups return the transforms."""
     assert numbers(asyncio.run(buffer.lookup_transform_async('map', 'odom', at(0))))[2] == 3
