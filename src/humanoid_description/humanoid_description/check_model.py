@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+import os
 from pathlib import Path
+import signal
 import sys
 
 from humanoid_description.errors import DescriptionError
@@ -20,6 +22,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except DescriptionError as error:
         print(error, file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return 128 + signal.SIGINT
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -54,12 +58,12 @@ def _urdf(arguments: argparse.Namespace) -> tuple[str, str]:
     except OSError as error:
         raise DescriptionError(f'{path} cannot be read: {error.strerror}.') from error
     except UnicodeDecodeError as error:
-        raise DescriptionError(f'{path} is no text file.') from error
+        raise DescriptionError(f'{path} is no text in UTF-8.') from error
 
 
 def _file(path: Path) -> str:
     """Return the URDF in a file, or what a xacro file expands to."""
-    text = path.read_text()
+    text = path.read_text(encoding='utf-8')
     if path.suffix != '.xacro':
         return text
     from humanoid_description.expansion import expand
@@ -85,8 +89,22 @@ def _check(text: str, source: str) -> int:
     from humanoid_description.report import report
 
     outcomes = check_robot(load_robot(text, source))
-    print(report(source, outcomes))
-    return int(any(outcome.defects for outcome in outcomes))
+    shown = _show(report(source, outcomes))
+    return shown or int(any(outcome.defects for outcome in outcomes))
+
+
+def _show(text: str) -> int:
+    """Print a text; return another exit status than 0 if nobody gets it."""
+    try:
+        print(text, flush=True)
+    except OSError as error:
+        # The interpreter would try once more at the end, and complain.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if isinstance(error, BrokenPipeError):
+            return 128 + signal.SIGPIPE
+        print(f'The result cannot be written: {error.strerror}.', file=sys.stderr)
+        return 1
+    return 0
 
 
 if __name__ == '__main__':

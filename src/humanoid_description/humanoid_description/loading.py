@@ -72,4 +72,5 @@ def _joint(joint: Any) -> Joint:
         joint.axis,
         # URDF takes an end of the range that is not given as zero.
         limit and Limits(limit.lower or 0.0, limit.upper or 0.0, limit.effort, limit.velocity),
+        joint.mimic and joint.mimic.joint,
     )

@@ -64,6 +64,7 @@ class Joint:
     pose: Array
     axis: Array
     limits: Limits | None = None
+    mimics: str | None = None
 
     @property
     def is_driven(self) -> bool:

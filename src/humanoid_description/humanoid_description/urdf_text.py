@@ -19,6 +19,14 @@ NUMBERS = {
     'box': {'size': 3},
     'cylinder': {'radius': 1, 'length': 1},
     'sphere': {'radius': 1},
+    'mesh': {'scale': 3},
+    'color': {'rgba': 4},
+    'dynamics': {'damping': 1, 'friction': 1},
+    'mimic': {'multiplier': 1, 'offset': 1},
+    'calibration': {'rising': 1, 'falling': 1},
+    'safety_controller': dict.fromkeys(
+        ('soft_lower_limit', 'soft_upper_limit', 'k_position', 'k_velocity'), 1
+    ),
 }
 # What an element must have: attributes, and elements in it.
 ATTRIBUTES = {
@@ -27,6 +35,7 @@ ATTRIBUTES = {
     'joint': ('name', 'type'),
     'parent': ('link',),
     'child': ('link',),
+    'mimic': ('joint',),
     'mass': ('value',),
     'inertia': tuple(NUMBERS['inertia']),
     'box': ('size',),

@@ -60,10 +60,13 @@ def look_at_moving_links(robot: Robot) -> tuple[str, Iterable[str]]:
 
 def _has_mass(robot: Robot, name: str) -> bool:
     """Tell whether a link, or one that is fixed to it, has a body."""
-    if robot.link[name].body:
-        return True
-    fixed = [j.child for j in robot.joints if j.parent == name and j.kind == 'fixed']
-    return any(_has_mass(robot, child) for child in fixed)
+    waiting = [name]
+    while waiting:
+        link = waiting.pop()
+        if robot.link[link].body:
+            return True
+        waiting += [j.child for j in robot.joints if j.parent == link and j.kind == 'fixed']
+    return False
 
 
 BODIES = (

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from humanoid_common.naming import did_you_mean
 from humanoid_description.checks.outcome import Check
@@ -62,4 +62,42 @@ def _shown(value: float | None) -> str:
     return 'no' if value is None else f'{value:g} as'
 
 
-JOINTS = (Check('types and axes', look_at_kinds), Check('limits', look_at_limits))
+def look_at_mimics(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Find joints that follow what does not move, or each other."""
+    mimics = {joint.name: joint.mimics for joint in robot.joints if joint.mimics}
+    defects = [d for name, leader in mimics.items() for d in _wrong_leader(robot, name, leader)]
+    return f'{len(mimics)} followers', [*defects, *_circles(mimics)]
+
+
+def _wrong_leader(robot: Robot, name: str, leader: str) -> Iterator[str]:
+    """Yield a sentence if what a joint follows has no position."""
+    if leader not in robot.joint:
+        hint = did_you_mean(leader, robot.joint) or 'Correct the name.'
+        yield f"Joint '{name}' mimics '{leader}', which is no joint. {hint}"
+    elif not robot.joint[leader].is_driven:
+        kind = robot.joint[leader].kind
+        yield f"Joint '{name}' mimics '{leader}', which has no position: it is {kind}."
+
+
+def _circles(mimics: Mapping[str, str]) -> Iterator[str]:
+    """Yield a sentence that names the joints which follow no joint outside of a circle."""
+    circling = [name for name in mimics if _leads_nowhere(mimics, name)]
+    if circling:
+        names = ', '.join(f"'{name}'" for name in circling)
+        yield f'These joints mimic each other in a circle, so that nothing moves them: {names}.'
+
+
+def _leads_nowhere(mimics: Mapping[str, str], name: str) -> bool:
+    """Tell whether a joint follows others without an end."""
+    for _ in mimics:
+        if name not in mimics:
+            return False
+        name = mimics[name]
+    return name in mimics
+
+
+JOINTS = (
+    Check('types and axes', look_at_kinds),
+    Check('limits', look_at_limits),
+    Check('mimic', look_at_mimics),
+)

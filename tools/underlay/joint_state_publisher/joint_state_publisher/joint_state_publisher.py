@@ -36,11 +36,7 @@ class JointStatePublisher(Node):
 
     def __init__(self, file: str | None = None) -> None:
         """Declare the parameters; the URDF may be in a file."""
-        super().__init__(
-            'joint_state_publisher',
-            automatically_declare_parameters_from_overrides=True,
-            parameter_overrides=parameters_from_file(file),
-        )
+        super().__init__('joint_state_publisher', parameter_overrides=parameters_from_file(file))
         self._settings = declare_settings(self)
         self._joints: MergedJoints | None = None
         self._watch: StateWatch | None = None

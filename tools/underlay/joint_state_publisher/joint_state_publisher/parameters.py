@@ -15,23 +15,23 @@ CHANGEABLE = ('robot_description', 'delta')
 
 def declare_settings(node: Node) -> Settings:
     """
-    Declare what was not given, describe all, and return the first values.
+    Declare the parameters, those of the joints as they were given, and return the first values.
 
-    The node has declared what was given, as it cannot know the joints that `zeros` names.
+    rclpy has no public way to ask what was given; what it declares by itself it cannot describe,
+    and it does not take an empty list.
     """
-    given = {name: each.value for name, each in node.get_parameters_by_prefix('').items()}
+    given = {name: each.value for name, each in getattr(node, '_parameter_overrides', {}).items()}
     for sentence in unknown_parameters(given, DESCRIPTIONS, MAPS):
         node.get_logger().warning(sentence)
     settings = settings_of(given)
-    for name, text in DESCRIPTIONS.items():
-        if name not in given:
-            default = getattr(settings, name)
-            value = list(default) if isinstance(default, tuple) else default
-            node.declare_parameter(name, value, ParameterDescriptor(dynamic_typing=True))
-        node.set_descriptor(
-            name,
-            ParameterDescriptor(
-                description=text, read_only=name not in CHANGEABLE, dynamic_typing=True
-            ),
+    of_joints = [name for name in given if name.startswith(MAPS)]
+    for name in (*DESCRIPTIONS, *of_joints):
+        default = getattr(settings, name, given.get(name))
+        descriptor = ParameterDescriptor(
+            description=DESCRIPTIONS.get(name, ''),
+            read_only=name not in CHANGEABLE,
+            dynamic_typing=True,
         )
+        value = list(default) if isinstance(default, tuple) else default
+        node.declare_parameter(name, value, descriptor)
     return settings

@@ -85,16 +85,20 @@ class RobotStatePublisher(Node):
     def _on_joint_state(self, message: JointState) -> None:
         """Publish the transforms of what has moved."""
         try:
-            names, positions = usable_positions(message.name, message.position)
+            transforms = self._transforms(message)
         except UnusableStateError as reason:
             self.get_logger().warning(str(reason), throttle_duration_sec=REPEAT_S)
             return
+        if transforms is not None:
+            self._tf.publish(transforms)
+
+    def _transforms(self, message: JointState) -> TFMessage | None:
+        """Return the transforms that are due, or raise UnusableStateError."""
+        names, positions = usable_positions(message.name, message.position)
         if not self._robot.knows(names):
             self._tell_about(names)
         self._notice_time(message, names)
-        transforms = self._robot.transforms(names, positions, message.header.stamp)
-        if transforms is not None:
-            self._tf.publish(transforms)
+        return self._robot.transforms(names, positions, message.header.stamp)
 
     def _tell_about(self, names: Sequence[str]) -> None:
         """Log what is remarkable about names that have not come together before."""

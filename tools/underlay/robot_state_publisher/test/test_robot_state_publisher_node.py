@@ -193,6 +193,27 @@ def test_unusable_states_are_left_out(probe: Probe, programs: Programs, arm: str
     assert set(frames(moving)) == {'lower'}
 
 
+def test_positions_beyond_all_numbers_are_left_out(
+    probe: Probe, programs: Programs, tmp_path: Path
+) -> None:
+    """A follower that would be infinitely far is reported, and the node works on."""
+    file = tmp_path / 'following.urdf'
+    follower = '<mimic joint="shoulder" multiplier="1e300"/>'
+    file.write_text(ARM.replace('<axis xyz="0 2 0"/>', follower))
+    program = started(probe, programs.start(MODULE, str(file)))
+    moving = probe.listen(TFMessage, '/tf')
+    sender = probe.sender(JointState, '/joint_states')
+    probe.send_until(
+        lambda: sender.publish(probe.state(shoulder=1e300)),
+        lambda: "positions of 'elbow' that are larger than any number" in program.output,
+        'no warning',
+    )
+    assert not moving
+    probe.send_until(
+        lambda: sender.publish(probe.state(shoulder=0.5)), lambda: moving, 'no transforms'
+    )
+
+
 def test_time_that_jumps_back_begins_anew(probe: Probe, programs: Programs, arm: str) -> None:
     """When a simulation begins again, transforms are published at once."""
     program = started(probe, programs.start(MODULE, arm, use_sim_time='true'))

@@ -101,6 +101,35 @@ def test_futures(buffer: Buffer) -> None:
     assert future.result() is True and full.result() is True and cancelled.result() is None
 
 
+def test_waiting_for_unknown_frames_is_cheap(
+    buffer: Buffer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What is missing is explained to who asks, not at each transform that comes meanwhile."""
+    explained: list[Any] = []
+    monkeypatch.setattr(
+        'tf2_py._reasons.unknown_frame', lambda *call: explained.append(call) or 'unknown'
+    )
+    future = buffer.wait_for_transform_async('map', 'hand', at(0))
+    later(lambda: buffer.set_transform(stamped('odom', 'base', 5.0), 'test'))
+    assert buffer.can_transform('map', 'base', at(0), LONG)
+    assert not explained and not future.done()
+    found = buffer.can_transform('map', 'hand', at(0), SHORT, return_debug_tuple=True)
+    assert found == (False, 'unknown') and len(explained) == 1
+
+
+def test_futures_are_not_kept(buffer: Buffer) -> None:
+    """What is done or cancelled is forgotten, and nothing gets a result twice."""
+    done = buffer.wait_for_transform_async('map', 'base', at(0))
+    cancelled = buffer.wait_for_transform_async('map', 'hand', at(0))
+    cancelled.cancel()
+    results: list[bool] = []
+    done.set_result = results.append
+    for time_s in (5.0, 6.0):
+        buffer.set_transform(stamped('odom', 'base', time_s), 'test')
+    assert results == [True]
+    assert not buffer._waiting._futures
+
+
 def test_coroutines(buffer: Buffer) -> None:
     """The asynchronous look-ups return the transforms."""
     assert numbers(asyncio.run(buffer.lookup_transform_async('map', 'odom', at(0))))[2] == 3

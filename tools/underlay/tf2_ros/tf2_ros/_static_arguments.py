@@ -88,6 +88,8 @@ def _transform(
     child: str,
     is_old_style: bool = False,
 ) -> StaticTransform:
+    if not frame.strip('/') or not child.strip('/'):
+        parser.error(f"'{frame}' and '{child}' are to be frames: none can be without a name")
     if frame.lstrip('/') == child.lstrip('/'):
         parser.error(f"'{frame}' cannot be placed in itself: give two different frames")
     x, y, z = (given.get(name, 0.0) for name in ('x', 'y', 'z'))
