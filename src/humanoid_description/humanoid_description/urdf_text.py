@@ -72,6 +72,13 @@ def refuse_what_is_unreadable(text: str, source: str) -> None:
             raise DescriptionError(f'{where}: {_owner(element)}{problem}')
 
 
+def lines_of(text: str, tag: str) -> list[int]:
+    """Return the lines on which the links or the joints of a readable text begin."""
+    from lxml import etree
+
+    return [element.sourceline for element in etree.fromstring(text.encode()).findall(tag)]
+
+
 def _elements(element: Any) -> Iterator[Any]:
     """Yield the elements that describe the robot."""
     if not isinstance(element.tag, str) or element.tag in FOREIGN:
@@ -82,7 +89,10 @@ def _elements(element: Any) -> Iterator[Any]:
 
 
 def _problems(element: Any) -> Iterator[str]:
-    """Yield sentences on what is missing or no number."""
+    """Yield sentences on what is missing or no number, or what no program has expanded."""
+    if element.prefix == 'xacro':
+        tag = f'xacro:{element.tag.rpartition("}")[2]}'
+        yield f'<{tag}> is xacro and not URDF. Expand the file first, or name it .xacro.'
     for attribute in ATTRIBUTES.get(element.tag, ()):
         if not element.get(attribute):
             yield f"<{element.tag}> lacks the attribute '{attribute}'."

@@ -374,7 +374,9 @@ def test_humanoid_is_sound(
 ) -> None:
     """The humanoid passes every check in every size, whole or without legs."""
     assert main(['--scale', scale, *more]) == 0
-    assert capsys.readouterr().out.endswith('is sound: 17 checks passed.\n')
+    which = "The upper body of the humanoid with the prefix 'r1_'" if more else 'The humanoid'
+    verdict = f'{which} at scale {float(scale):g} is sound: 18 checks passed.\n'
+    assert capsys.readouterr().out.endswith(verdict)
 
 
 @pytest.mark.parametrize('name', BROKEN)
@@ -405,8 +407,8 @@ def test_broken_file(urdf: str, tmp_path: Path, capsys: pytest.CaptureFixture[st
     path.write_text(urdf.replace('<mass value="6.0"/>', '<mass value="0"/>'))
     assert main([str(path)]) == 1
     out = capsys.readouterr().out
-    assert "- Link 'base_link' has a mass of 0 kg." in out
-    assert out.endswith(f'{path} has 1 defect: 8 checks passed, 8 skipped.\n')
+    assert ": Link 'base_link' has a mass of 0 kg." in out
+    assert out.endswith(f'{path} has 1 defect: 9 checks passed, 8 skipped.\n')
 
 
 def test_other_robot(capsys: pytest.CaptureFixture[str]) -> None:
@@ -414,8 +416,9 @@ def test_other_robot(capsys: pytest.CaptureFixture[str]) -> None:
     share = get_package_share_directory('robot_description')
     assert main([f'{share}/urdf/simple_arm.urdf']) == 0
     out = capsys.readouterr().out
-    assert "skipped: the robot 'simple_arm' is not the humanoid" in out
-    assert out.endswith('is sound: 9 checks passed, 8 skipped.\n')
+    assert out.count("skipped: the robot 'simple_arm' is not the humanoid") == 1
+    assert '\n8 more ' in out
+    assert out.endswith('is sound: 10 checks passed, 8 skipped.\n')
 
 
 def test_xacro_file(capsys: pytest.CaptureFixture[str]) -> None:
@@ -425,12 +428,25 @@ def test_xacro_file(capsys: pytest.CaptureFixture[str]) -> None:
     assert 'is sound' in capsys.readouterr().out
 
 
+def test_arguments_of_a_xacro_file(capsys: pytest.CaptureFixture[str]) -> None:
+    """What follows a xacro file goes on to xacro, which warns of what nothing takes."""
+    file = f'{get_package_share_directory("humanoid_description")}/urdf/humanoid.urdf.xacro'
+    assert main([file, 'scale:=0.5', 'prefix:=r1_', 'sclae:=1']) == 0
+    captured = capsys.readouterr()
+    assert '5.350 kg' in captured.out
+    assert captured.out.endswith(f'What xacro makes of {file} is sound: 18 checks passed.\n')
+    assert 'sclae' in captured.err
+
+
 @pytest.mark.parametrize(
     ('arguments', 'sentence'),
     [
         (['--scale', '3'], 'The scale 3 is out of range. Give one from 0.5 to 1.3.'),
         (['nowhere.urdf'], 'nowhere.urdf cannot be read: No such file or directory.'),
         (['nowhere.xacro'], 'nowhere.xacro cannot be read: No such file or directory.'),
+        (['scale:=0.5'], "'scale:=0.5' is an argument of a xacro file: name the file before it."),
+        (['robot.xacro', 'other.xacro'], "'other.xacro' is not NAME:=VALUE"),
+        (['robot.urdf', 'scale:=1'], "robot.urdf is no xacro file, and takes no 'scale:=1'."),
         (['robot.urdf', '--scale', '1'], 'robot.urdf is checked as it is. Leave out --scale'),
     ],
 )
@@ -501,7 +517,8 @@ def test_long_chain_of_frames() -> None:
         parts.append(f'<joint name="j{i}" type="{kind}">{ends}</joint>')
     outcomes = check_robot(load_robot(f'<robot name="r">{"".join(parts)}</robot>', 'chain.urdf'))
     defects = [defect for outcome in outcomes for defect in outcome.defects]
-    assert len(defects) == 1 and defects[0].startswith("Link 'l1' is moved by joint 'j1', but has")
+    start = "line 1: Link 'l1' is moved by joint 'j1', but has"
+    assert len(defects) == 1 and defects[0].startswith(start)
 
 
 @pytest.mark.parametrize(

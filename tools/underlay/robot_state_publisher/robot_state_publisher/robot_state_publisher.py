@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 import sys
 from typing import Any
 
@@ -94,7 +94,10 @@ class RobotStatePublisher(Node):
 
     def _transforms(self, message: JointState) -> TFMessage | None:
         """Return the transforms that are due, or raise UnusableStateError."""
+        self._robot.require_stamp(message.header.stamp)
         names, positions = usable_positions(message.name, message.position)
+        if len(names) < len(message.name):
+            self._warn(self._robot.watch.unknown(set(message.name).difference(names)))
         if not self._robot.knows(names):
             self._tell_about(names)
         self._notice_time(message, names)
@@ -103,14 +106,17 @@ class RobotStatePublisher(Node):
     def _tell_about(self, names: Sequence[str]) -> None:
         """Log what is remarkable about names that have not come together before."""
         watch = self._robot.watch
-        for sentence in watch.misspelt(names):
-            self.get_logger().warning(sentence)
+        self._warn(watch.misspelt(names))
         relief = watch.relief()
         if relief:
             self.get_logger().info(relief)
 
+    def _warn(self, sentences: Iterable[str]) -> None:
+        for sentence in sentences:
+            self.get_logger().warning(sentence)
+
     def _notice_time(self, message: JointState, names: Sequence[str]) -> None:
-        """Begin anew if stamps have jumped back; warn of states without a stamp."""
+        """Begin anew if stamps have jumped back, and say so."""
         notice = self._robot.notice_time(names, message.header.stamp)
         if notice:
             self.get_logger().warning(notice, throttle_duration_sec=REPEAT_S)

@@ -116,13 +116,13 @@ def test_states_without_stamp_are_reported(probe: Probe, programs: Programs, arm
     program = started(probe, programs.start(MODULE, arm, publish_frequency='50'))
     moving = probe.listen(TFMessage, '/tf')
     sender = probe.sender(JointState, '/joint_states')
-    state = probe.state(0.0, shoulder=0.0)
-    probe.send_until(
-        lambda: sender.publish(state),
-        lambda: 'A joint state without a stamp is left out.' in program.output,
-        'no warning',
-    )
+    state = probe.state(0.0, shoulder=0.0, elbow=0.0)
+    for text in ('joints have had no state so far', 'A joint state without a stamp is left out.'):
+        probe.send_until(
+            lambda: sender.publish(state), lambda text=text: text in program.output, 'no warning'
+        )
     assert moving == []
+    assert 'a state now' not in program.output
     probe.set_parameters('/robot_state_publisher', ignore_timestamp=True)
     probe.send_until(lambda: sender.publish(state), lambda: moving, 'no transforms')
 
@@ -191,6 +191,7 @@ def test_unusable_states_are_left_out(probe: Probe, programs: Programs, arm: str
         'no transforms',
     )
     assert set(frames(moving)) == {'lower'}
+    assert program.output.count("The position of joint 'shoulder' in a joint state is not") == 1
 
 
 def test_positions_beyond_all_numbers_are_left_out(

@@ -134,6 +134,11 @@ BROKEN = [
     ),
     (
         'mimic joint="shoulder"',
+        'mimic joint="elbw"',
+        "12: Joint 'elbow' mimics joint 'elbw', which does not exist.",
+    ),
+    (
+        'mimic joint="shoulder"',
         'mimic joint="elbow"',
         '12: Joints mimic each other in a loop: elbow -> elbow.',
     ),
