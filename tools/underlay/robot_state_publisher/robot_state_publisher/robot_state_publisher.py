@@ -94,8 +94,8 @@ class RobotStatePublisher(Node):
 
     def _transforms(self, message: JointState) -> TFMessage | None:
         """Return the transforms that are due, or raise UnusableStateError."""
-        self._robot.require_stamp(message.header.stamp)
         names, positions = usable_positions(message.name, message.position)
+        self._robot.require_stamp(message.header.stamp)
         if len(names) < len(message.name):
             self._warn(self._robot.watch.unknown(set(message.name).difference(names)))
         if not self._robot.knows(names):
