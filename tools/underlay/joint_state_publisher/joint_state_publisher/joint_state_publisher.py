@@ -116,14 +116,9 @@ class JointStatePublisher(Node):
             awaited.append(self.resolve_topic_name('robot_description'))
         for topic in awaited:
             count = self.count_publishers(topic)
-            who = f'{count} publishers were found' if count else 'nobody publishes it'
+            found = '1 publisher was found' if count == 1 else f'{count} publishers were found'
+            who = found if count else 'nobody publishes it'
             self.get_logger().warning(f'Nothing was heard on {topic} so far: {who}.')
-        clock = self.get_clock()
-        if clock.ros_time_is_active and not clock.now().nanoseconds:
-            self.get_logger().warning(
-                'use_sim_time is set, but no time has come on /clock so far: until then nothing '
-                'is published.'
-            )
 
     def _check(self, changes: list[Parameter]) -> SetParametersResult:
         """Accept changes only if all can be done that they ask for."""

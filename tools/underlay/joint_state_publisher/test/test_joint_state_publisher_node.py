@@ -113,7 +113,7 @@ def test_misspelt_names_are_reported(probe: Probe, programs: Programs, arm: str)
 def test_time_of_the_simulator(probe: Probe, programs: Programs, arm: str) -> None:
     """Stamps and the rate follow the time of a simulator, also when it begins anew."""
     program = programs.start(MODULE, arm, use_sim_time='true')
-    says(probe, program, 'no time has come on /clock so far: until then nothing is published')
+    says(probe, program, 'use_sim_time is true, but nobody publishes /clock: ')
     heard = probe.listen(JointState, '/joint_states')
     clock = probe.sender(Clock, '/clock')
     for begin_s in (500, 5):

@@ -77,6 +77,13 @@ def test_echo_waits(start_program: Start) -> None:
     end(echo, signal.SIGTERM)
 
 
+def test_echo_without_a_clock(start_program: Start) -> None:
+    """Whoever waits for simulated time that nobody publishes is told so."""
+    echo = start_program('tf2_ros.tf2_echo', 'a', 'b', '--ros-args', '-p', 'use_sim_time:=true')
+    read_until(echo.stderr, 'use_sim_time is true, but nobody publishes /clock: ')
+    end(echo, signal.SIGTERM)
+
+
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_monitor(start_program: Start, number: signal.Signals) -> None:
     """The monitor prints the frames between two."""

@@ -126,7 +126,9 @@ def _status_of_lost_output(error: OSError) -> int:
 def spin(node: Node, timeout_s: float | None = None) -> bool:
     """Let a node work until a signal to stop, or so long; return whether a signal came."""
     from rclpy.executors import SingleThreadedExecutor
+    from tf2_ros._clock_watch import watch_clock
 
+    watch_clock(node)
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     failures: list[Exception] = []
