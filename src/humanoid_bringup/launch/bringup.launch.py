@@ -4,10 +4,9 @@
 from __future__ import annotations
 
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
-from launch_ros.actions import SetParameter
 from launch_ros.substitutions import FindPackageShare
 
 VIEW = 'view.launch.py'
@@ -41,18 +40,13 @@ def generate_launch_description() -> LaunchDescription:
                     'use_sim_time': use_sim_time,
                 }.items(),
             ),
-            GroupAction(
-                [
-                    SetParameter(name='use_sim_time', value=use_sim_time),
-                    IncludeLaunchDescription(
-                        PythonLaunchDescriptionSource(
-                            PathJoinSubstitution(
-                                [FindPackageShare('humanoid_description'), 'launch', VIEW]
-                            )
-                        ),
-                        launch_arguments={'gui': 'false'}.items(),
-                    ),
-                ]
+            IncludeLaunchDescription(
+                PythonLaunchDescriptionSource(
+                    PathJoinSubstitution(
+                        [FindPackageShare('humanoid_description'), 'launch', VIEW]
+                    )
+                ),
+                launch_arguments={'gui': 'false', 'use_sim_time': use_sim_time}.items(),
             ),
         ]
     )
