@@ -213,7 +213,7 @@ def test_reads_joints() -> None:
     )
     assert [joint.line for joint in model.joints] == [5, 12]
     assert model.describe() == (
-        "Robot 'arm': 3 links below 'base', 2 joints, 2 of them moving, 1 of these follow others."
+        "Robot 'arm': 3 links below 'base', 2 joints, 2 of them moving, 1 of these follows others."
     )
 
 

@@ -91,9 +91,11 @@ def test_two_trees(buffer: BufferCore) -> None:
         assert isinstance(error, ConnectivityException)
         assert str(error).startswith(
             "Could not find a connection between 'base_link' and 'rover' because they are not "
-            'part of the same tree.Tf has two or more unconnected trees. '
+            'part of the same tree. Tf has two or more unconnected trees. '
         )
-        assert "'base_link' is below 'map', 'rover' below 'mars'" in str(error)
+        assert "'base_link' is below 'map', 'rover' is below 'mars': nobody" in str(error)
+    error = reason(buffer, 'map', 'rover', at(0))
+    assert "'map' is a root, 'rover' is below 'mars': nobody publishes" in str(error)
 
 
 @pytest.mark.parametrize(

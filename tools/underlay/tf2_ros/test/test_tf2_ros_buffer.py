@@ -14,7 +14,14 @@ from rclpy.duration import Duration
 from std_msgs.msg import Header
 from tf2_messages import at, numbers, stamped
 import tf2_ros
-from tf2_ros import Buffer, convert, LookupException, TransformRegistration, TypeException
+from tf2_ros import (
+    Buffer,
+    convert,
+    ExtrapolationException,
+    LookupException,
+    TransformRegistration,
+    TypeException,
+)
 
 LONG = Duration(seconds=20.0)
 SHORT = Duration(seconds=0.05)
@@ -78,6 +85,18 @@ def test_end_of_the_wait(buffer: Buffer) -> None:
     found, text = buffer.can_transform('map', 'base', at(0), SHORT, return_debug_tuple=True)
     assert not found and 'frame does not exist' in text
     assert buffer.can_transform('map', 'odom', at(0), return_debug_tuple=True) == (True, '')
+
+
+def test_advice_after_a_wait(buffer: Buffer) -> None:
+    """Who has waited is not asked to give a timeout."""
+    buffer.set_transform(stamped('map', 'base', 10.0), 'test')
+    buffer.set_transform(stamped('map', 'base', 11.0), 'test')
+    text = 'it has not come within 0.05 s; wait longer, or ask for time 0'
+    found, reason = buffer.can_transform('map', 'base', at(11.5), SHORT, return_debug_tuple=True)
+    assert not found and text in reason
+    with pytest.raises(ExtrapolationException) as caught:
+        buffer.lookup_transform('map', 'base', at(11.5), SHORT)
+    assert text in str(caught.value) and 'give a timeout' not in str(caught.value)
 
 
 def test_wait_in_the_thread_that_receives(buffer: Buffer) -> None:

@@ -13,6 +13,7 @@ from rclpy.logging import get_logger
 from rclpy.task import Future
 from tf2_py import BufferCore, TransformException
 from tf2_py._messages import nanoseconds
+from tf2_py._reasons import after_waiting
 from tf2_ros._waiting import Waiting
 from tf2_ros.buffer_interface import BufferInterface
 
@@ -233,15 +234,17 @@ class Buffer(BufferCore, BufferInterface):
         try:
             return look_up()
         except TransformException as error:
-            if not self._waiting.blocks_itself():
-                raise
-            raise type(error)(f'{error}. {_BLOCKED}') from None
+            reason = after_waiting(str(error), timeout_s)
+            blocked = f'. {_BLOCKED}' if self._waiting.blocks_itself() else ''
+            raise type(error)(reason + blocked) from None
 
     def _wait(self, question: Question, timeout: Duration) -> tuple[bool, str]:
         timeout_s = nanoseconds(timeout) / 1e9
-        if timeout_s > 0.0:
-            self._waiting.until(partial(self._answers, question), timeout_s)
-        return question.ask()
+        if timeout_s <= 0.0:
+            return question.ask()
+        self._waiting.until(partial(self._answers, question), timeout_s)
+        is_there, reason = question.ask()
+        return is_there, after_waiting(reason, timeout_s)
 
     def _future(self, question: Question) -> Future:
         future = Future()
