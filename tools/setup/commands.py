@@ -178,16 +178,11 @@ def remove(paths: Iterator[Path]) -> None:
 def refuse_what_belongs_to_others(locations: Locations) -> None:
     """Refuse to forget the environment of another workspace, to which no link leads from here."""
     other = Home(locations).other_workspace()
-    if other and not leads_to(locations.link, locations.environment):
+    if other and not locations.is_linked:
         raise SetupError(
             f'The environment in {locations.environment} belongs to the workspace in {other}: '
             'run `make distclean` there, or here without VENV'
         )
-
-
-def leads_to(link: Path, environment: Path) -> bool:
-    """Tell whether a link is one to an environment."""
-    return link.is_symlink() and os.path.realpath(link) == os.path.realpath(environment)
 
 
 def forget_environment(locations: Locations) -> None:

@@ -65,7 +65,7 @@ class Home:
         """Say how this workspace gets an environment of its own, without harm to another one."""
         if self.is_deleted_with_the_workspace():
             return 'run `make distclean setup` to make it anew'
-        if self._locations.link.is_symlink():
+        if self._locations.is_linked:
             return (
                 'choose another VENV, as in: make setup VENV=/opt/venv; or run '
                 '`make distclean setup`, which leaves that one alone'
