@@ -140,7 +140,7 @@ def _default(of: Property) -> str:
 def _kind(of: Property) -> str:
     """Say what a property may be."""
     if isinstance(of, Choice):
-        return ', '.join(f'`{each}`' for each in of.choices)
+        return ', '.join(f'`{each}`' if each else 'nothing' for each in of.choices)
     if isinstance(of, Topic):
         return f'topic of `{of.type_name}`' if of.type_name else 'topic'
     name = next((name for kind, name in KIND_NAMES.items() if isinstance(of, kind)), 'text')
