@@ -24,8 +24,14 @@ setup(
     tests_require=['pytest'],
     entry_points={
         'rviz_common.panels': [
+            'robot_console/Diagnostics = robot_console.panels.diagnostics:Diagnostics',
             'robot_console/Drive = robot_console.panels.drive:Drive',
+            'robot_console/Log = robot_console.panels.log:Log',
+            'robot_console/Parameters = robot_console.panels.parameters:Parameters',
+            'robot_console/Recordings = robot_console.panels.recordings:Recordings',
             'robot_console/Safety = robot_console.panels.safety:Safety',
+            'robot_console/Services = robot_console.panels.services:Services',
+            'robot_console/Topics = robot_console.panels.topics:Topics',
         ],
     },
 )

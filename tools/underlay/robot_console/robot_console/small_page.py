@@ -6,18 +6,28 @@ from __future__ import annotations
 from html import escape
 from importlib.resources import files
 import json
-from typing import Any
+from typing import Any, Protocol
 from urllib.parse import quote
 
-from robot_console.connections import Connections
 from rviz_common.context import Context
 from rviz_common.page import Route
+from websockets.asyncio.server import ServerConnection
 
-__all__ = ['SmallPage', 'page_text']
+__all__ = ['SmallPage', 'Talks', 'page_text']
 
-COMMON = ('common.css', 'link.js')
+COMMON = ('common.css', 'link.js', 'live.css', 'live.js')
 # The page dims and blocks its widgets when its own connection is lost; these have another one.
 STYLE = 'display: block; width: 100%; border: 0; color-scheme: dark; pointer-events: auto'
+
+
+class Talks(Protocol):
+    """What talks to those who have a small page open."""
+
+    async def talk(self, connection: ServerConnection) -> None:
+        """Talk to one of them, in the thread of the page."""
+
+    def end(self) -> None:
+        """End all talks, from another thread."""
 
 
 class SmallPage:
@@ -29,7 +39,7 @@ class SmallPage:
         name: str,
         namespace: str,
         settings: dict[str, Any],
-        connections: Connections,
+        connections: Talks,
         order: float | None = None,
     ) -> None:
         """Add it, or raise ValueError if there is one already."""

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a small page is told, and what it asks for."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Mapping
+import json
+from typing import Any
+
+from robot_console.live.viewer import Viewer
+from rviz_common.work_queue import WorkQueue
+from websockets.asyncio.server import ServerConnection
+from websockets.exceptions import ConnectionClosed
+
+__all__ = ['Action', 'Channel']
+
+Action = Callable[[Viewer, Mapping[str, Any]], None]
+LONGEST = 1_000_000
+REFUSED = 1008
+
+
+class Channel:
+    """
+    Tells all who look at a small page what is new, and does what they ask for.
+
+    A page connects while it is visible. What it asks for, `{'do': ...}`, is done in the thread
+    of the node by the action of that name; one that raises ValueError has its reason sent back.
+    """
+
+    def __init__(
+        self,
+        queue: WorkQueue,
+        greet: Callable[[Viewer], None],
+        actions: Mapping[str, Action],
+    ) -> None:
+        """Take what tells somebody who comes how things are, and what may be asked for."""
+        self.viewers: list[Viewer] = []
+        self._queue = queue
+        self._greet = greet
+        self._actions = actions
+        self._is_over = False
+
+    def tell(self, **values: Any) -> None:
+        """Tell all."""
+        if self.viewers:
+            text = json.dumps(values)
+            for viewer in self.viewers:
+                viewer.tell_text(text)
+
+    def end(self) -> None:
+        """End all connections."""
+        self._is_over = True
+        for viewer in self.viewers:
+            viewer.close()
+        self.viewers.clear()
+
+    async def talk(self, connection: ServerConnection) -> None:
+        """Talk to one of them, in the thread of the page."""
+        if self._is_over:
+            return
+        viewer = Viewer(connection)
+        sending = asyncio.ensure_future(viewer.send_all())
+        self._queue.post(lambda: self._join(viewer))
+        try:
+            async for text in connection:
+                message = _parsed(text, self._actions)
+                if message is None:
+                    await connection.close(REFUSED, 'This cannot be asked for here.')
+                    break
+                self._post(viewer, message)
+        except ConnectionClosed:
+            pass
+        finally:
+            sending.cancel()
+            self._queue.post(lambda: self._leave(viewer))
+
+    def _post(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
+        self._queue.post(lambda: self._do(viewer, message))
+
+    def _join(self, viewer: Viewer) -> None:
+        if self._is_over:
+            viewer.close()
+            return
+        self.viewers.append(viewer)
+        self._greet(viewer)
+
+    def _leave(self, viewer: Viewer) -> None:
+        if viewer in self.viewers:
+            self.viewers.remove(viewer)
+
+    def _do(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
+        if viewer not in self.viewers:
+            return
+        try:
+            self._actions[message['do']](viewer, message)
+        except ValueError as error:
+            viewer.tell(refusal=str(error), of=message['do'])
+
+
+def _parsed(text: str | bytes, actions: Mapping[str, Action]) -> Mapping[str, Any] | None:
+    """Return what a page asks for, or None if no page would ask for that."""
+    if len(text) > LONGEST:
+        return None
+    try:
+        message = json.loads(text)
+    except (ValueError, RecursionError):
+        return None
+    do = message.get('do') if isinstance(message, dict) else None
+    return message if isinstance(do, str) and do in actions else None

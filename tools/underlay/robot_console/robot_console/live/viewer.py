@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Somebody who looks at a small page."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import deque
+import json
+from typing import Any
+
+from websockets.asyncio.server import ServerConnection
+from websockets.exceptions import ConnectionClosed
+
+__all__ = ['Viewer']
+
+MOST_WAITING = 4_000_000
+"""So many letters may wait for a browser that does not read; then it has to come again."""
+
+
+class Viewer:
+    """
+    Somebody who looks at a small page.
+
+    `tell` is for the thread of the node, all else for that of the page. What a browser does not
+    read in time is dropped together with the connection; it gets all anew when it comes back.
+    """
+
+    def __init__(self, connection: ServerConnection) -> None:
+        """Take the connection, in the thread of the page."""
+        self.wish: Any = None
+        """What a panel remembers of this viewer: a topic, the name of a node."""
+        self._connection = connection
+        self._loop = asyncio.get_running_loop()
+        self._waiting: deque[str] = deque()
+        self._size = 0
+        self._news = asyncio.Event()
+
+    def tell(self, **values: Any) -> None:
+        """Send something soon."""
+        self.tell_text(json.dumps(values))
+
+    def tell_text(self, text: str) -> None:
+        """Send soon what is JSON already."""
+        if not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(self._put, text)
+
+    async def send_all(self) -> None:
+        """Send what waits, until the connection is closed."""
+        try:
+            while self._size <= MOST_WAITING:
+                await self._news.wait()
+                self._news.clear()
+                while self._waiting:
+                    text = self._waiting.popleft()
+                    await self._connection.send(text)
+                    self._size -= len(text)
+        except ConnectionClosed:
+            pass
+
+    def close(self) -> None:
+        """End the connection at once, from any thread."""
+        if not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(self._abort)
+
+    def _put(self, text: str) -> None:
+        self._size += len(text)
+        if self._size > MOST_WAITING:
+            self._waiting.clear()
+            self._abort()
+            return
+        self._waiting.append(text)
+        self._news.set()
+
+    def _abort(self) -> None:
+        transport = self._connection.transport
+        if transport is not None:
+            transport.abort()

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The newest of what nodes say."""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+from itertools import islice
+from typing import Any, NamedTuple
+
+__all__ = ['ERROR', 'LogBook', 'LogLine']
+
+DEBUG, ERROR, FATAL = 10, 40, 50
+LONGEST = 2000
+
+
+class LogLine(NamedTuple):
+    """What a node said; the level is 10 (debug), 20, 30, 40 or 50 (fatal)."""
+
+    time_s: float
+    level: int
+    node: str
+    text: str
+    where: str = ''
+
+
+class LogBook:
+    """Keeps the newest lines, and counts all of them."""
+
+    def __init__(self, kept: int = 500, namespace: str = '') -> None:
+        """Keep so many lines of the nodes below a namespace."""
+        self._lines: deque[LogLine] = deque(maxlen=kept)
+        self._namespace = namespace.strip('/').replace('/', '.')
+        self.count = 0
+        self.counts: Counter[int] = Counter()
+        self.nodes: set[str] = set()
+
+    def add(self, line: LogLine) -> LogLine | None:
+        """Take a line; return it as it is kept, or None if it is of another namespace."""
+        if not self._is_ours(line.node):
+            return None
+        kept = line._replace(level=_level(line.level), text=_shortened(line.text))
+        self._lines.append(kept)
+        self.count += 1
+        self.counts[kept.level] += 1
+        self.nodes.add(kept.node)
+        return kept
+
+    def since(self, count: int) -> list[LogLine]:
+        """Return what is kept of the lines that came after the first so many."""
+        fresh = min(self.count - count, len(self._lines))
+        return list(islice(self._lines, len(self._lines) - fresh, None))
+
+    def news(self, count: int) -> dict[str, Any]:
+        """Return the lines after the first so many, and the counts, as a page wants them."""
+        return {
+            'lines': self.since(count),
+            'counts': dict(self.counts),
+            'nodes': sorted(self.nodes),
+        }
+
+    def _is_ours(self, node: str) -> bool:
+        space = self._namespace
+        return not space or node == space or node.startswith(f'{space}.')
+
+
+def _level(level: int) -> int:
+    """Return the level of the five that a number belongs to."""
+    return min(max(level // 10 * 10, DEBUG), FATAL)
+
+
+def _shortened(text: str) -> str:
+    if len(text) <= LONGEST:
+        return text
+    return f'{text[:LONGEST]} ... ({len(text) - LONGEST} letters more)'

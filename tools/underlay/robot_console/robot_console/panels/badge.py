@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Says, always in sight, that what is shown is recorded."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import Any
+
+from rviz_common.context import Context
+from rviz_common.status import Level
+
+__all__ = ['Badge']
+
+SUBJECT = 'Playing'
+RECORDED = 'What is shown is recorded, not live.'
+MIXED = 'Recorded and live are mixed.'
+# Above the scene, and not among the widgets, which a person may scroll or fold away.
+STYLE = (
+    'position: fixed; top: 0.8em; left: 50%; transform: translateX(-50%); z-index: 1000; '
+    'max-width: 90vw; padding: 0.45em 1em; border-radius: 4px; pointer-events: none; '
+    'color: #fff; font-size: 0.9em; line-height: 1.35; text-align: center; '
+    'overflow-wrap: anywhere; background: '
+)
+COLORS = {RECORDED: '#7048e8', MIXED: '#e8590c'}
+
+
+class Badge:
+    """Stands above the scene, and in the summary of the page, while a recording is played."""
+
+    def __init__(self, context: Context) -> None:
+        """Show nothing yet."""
+        self._context = context
+        self._said = ('', '')
+        self._html: Any = None
+
+    def update(self, name: str, is_mixed: bool = False) -> None:
+        """Say what is played, '' if nothing is; to be called where widgets are in no tab."""
+        said = name, MIXED if is_mixed else RECORDED
+        if said == self._said:
+            return
+        self._said = said
+        if self._html is not None:
+            self._html.remove()
+            self._html = None
+        if name:
+            self._html = self._context.gui.add_html(_html(*said))
+        self._say(*said)
+
+    def _say(self, name: str, sentence: str) -> None:
+        """Say it where the page says how things are."""
+        visualizer = self._context.visualizer
+        if visualizer is None:
+            return
+        if name:
+            visualizer.status.say(SUBJECT, Level.WARN, f'{name}. {sentence}')
+        else:
+            visualizer.status.forget(SUBJECT)
+
+
+def _html(name: str, sentence: str) -> str:
+    style = STYLE + COLORS[sentence]
+    return f'<div role="status" style="{style}"><b>PLAYING {escape(name)}</b><br>{sentence}</div>'

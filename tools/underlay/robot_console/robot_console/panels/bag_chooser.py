@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Widgets to choose one of the recordings of a folder."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import os
+import threading
+from typing import Any
+
+from robot_console.assigning import assign
+from robot_console.recordings.shelf import Bag, Shelf
+from robot_console.recordings.words import about, clock_text
+from rviz_common.context import Context
+from rviz_common.pace import Pace
+from rviz_common.panels.marks import escaped
+
+__all__ = ['BagChooser']
+
+NONE = '(none)'
+PERIOD_S = 4.0
+
+
+class BagChooser:
+    """Lists the recordings of a folder, which another thread reads."""
+
+    def __init__(
+        self,
+        context: Context,
+        folder: str,
+        unfinished: Callable[[], str],
+        chosen: Callable[[], None],
+    ) -> None:
+        """
+        Add the widgets.
+
+        `unfinished` returns the recording that is being made; `chosen` is called when another one
+        is chosen.
+        """
+        self._context = context
+        self._shelf = Shelf(folder)
+        self._unfinished = unfinished
+        self._chosen = chosen
+        self._pace = Pace(PERIOD_S)
+        self._is_looking = False
+        self._bags: dict[str, Bag] = {}
+        self._list: Any = context.gui.add_dropdown('Recording', [NONE])
+        self._text: Any = context.gui.add_markdown('')
+        context.on_input(self._list, self._choose)
+
+    def add_details(self) -> None:
+        """Add the widget with the topics, which may stand elsewhere."""
+        with self._context.gui.add_folder('Topics', expand_by_default=False):
+            self._details: Any = self._context.gui.add_markdown('')
+
+    @property
+    def bag(self) -> Bag | None:
+        """Return the recording that is chosen, if it can be played."""
+        bag = self._bags.get(self._list.value)
+        return None if bag is None or bag.problem else bag
+
+    def update(self) -> None:
+        """Have somebody look, now and then."""
+        if not self._is_looking and self._pace.is_due():
+            self._is_looking = True
+            threading.Thread(target=self._look, daemon=True).start()
+
+    def hurry(self) -> None:
+        """Look soon, since there is something new."""
+        self._pace.hurry()
+
+    def _look(self) -> None:
+        try:
+            bags = self._shelf.look()
+        finally:
+            self._is_looking = False
+        self._context.queue.post(lambda: self._take(bags))
+
+    def _take(self, bags: list[Bag]) -> None:
+        unfinished = self._unfinished()
+        found = {_label(bag): bag for bag in bags if bag.path != unfinished}
+        if found != self._bags:
+            self._bags = found
+            before = self._list.value
+            assign(self._list, options=tuple(found) or (NONE,))
+            if self._list.value != before:
+                self._chosen()
+        self._describe()
+
+    def _choose(self, label: str) -> None:
+        self._describe()
+        self._chosen()
+
+    def _describe(self) -> None:
+        bag = self._bags.get(self._list.value)
+        if bag is None:
+            head, details = f'No recordings in {escaped(_short(self._shelf.folder))} yet.', ''
+        else:
+            head, details = about(bag)
+        if self._shelf.left_out_count:
+            head += f'\n\n{self._shelf.left_out_count} older ones are not listed.'
+        assign(self._text, content=head)
+        assign(self._details, content=details)
+
+
+def _label(bag: Bag) -> str:
+    return f'{bag.name} ✖' if bag.problem else f'{bag.name} ({clock_text(bag.duration_s)})'
+
+
+def _short(path: str) -> str:
+    home = os.path.expanduser('~')
+    return f'~{path[len(home) :]}' if path.startswith(f'{home}/') else path

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Widgets to save what has just happened."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import datetime
+import os
+from typing import Any
+
+from robot_console.assigning import assign
+from robot_console.recordings.bag_names import bag_folder, regex_of_robot
+from robot_console.recordings.child import Child
+from robot_console.recordings.words import memory_text
+from rviz_common.context import Context
+from rviz_common.panels.marks import escaped
+
+__all__ = ['MemoryFolder']
+
+
+class MemoryFolder:
+    """Keeps the messages of the last seconds in a process of its own, as long as that is on."""
+
+    def __init__(
+        self,
+        context: Context,
+        folder: str,
+        namespace: str,
+        limits: tuple[float, float],
+        done: Callable[[], None],
+    ) -> None:
+        """Add the widgets; the limits are seconds and MiB."""
+        self._folder, self._namespace, self._done = folder, namespace, done
+        self._seconds, self._max_mib = limits
+        self._child: Child | None = None
+        self._saved: Any = None
+        gui = context.gui
+        with gui.add_folder(f'Messages: last {self._seconds:g} s'):
+            self._on: Any = gui.add_checkbox(
+                'Keep', False, hint=f'In memory, up to {self._max_mib:g} MiB.'
+            )
+            self._button: Any = gui.add_button('Save', disabled=True)
+            self._text: Any = gui.add_markdown('', visible=False)
+            self._result: Any = gui.add_markdown('', visible=False)
+        context.on_input(self._on, self._turn)
+        context.on_click(self._button, self._save)
+
+    def update(self) -> None:
+        """Show what is kept."""
+        child = self._child
+        if child is None:
+            return
+        if not child.is_running:
+            self._end(child)
+            return
+        saved = child.facts.get('saved')
+        if saved is not None and saved != self._saved:
+            self._saved = saved
+            self._say_saved(saved)
+        text = memory_text(child.facts, self._seconds, self._max_mib)
+        assign(self._text, content=text, visible=True)
+        assign(self._button, disabled=child.is_ending or not child.facts.get('messages'))
+
+    def close(self) -> None:
+        """Keep nothing any longer."""
+        if self._child is not None:
+            self._child.close()
+
+    def _turn(self, is_on: bool) -> None:
+        if self._child is not None:
+            self._child.end()
+        elif is_on:
+            regex = regex_of_robot(self._namespace)
+            chosen = ['--regex', regex] if regex else []
+            limits = ['--seconds', str(self._seconds), '--max-mib', str(self._max_mib)]
+            self._child, self._saved = Child('remember', [*limits, *chosen]), None
+
+    def _end(self, child: Child) -> None:
+        child.close()
+        self._child = None
+        failure = child.failure
+        assign(
+            self._text, content=f'✖ {escaped(failure)}' if failure else '', visible=bool(failure)
+        )
+        assign(self._button, disabled=True)
+        if self._on.value and failure:
+            self._on.value = False
+        elif self._on.value:
+            self._turn(True)
+
+    def _save(self) -> None:
+        if self._child is None:
+            return
+        try:
+            os.makedirs(self._folder, exist_ok=True)
+            path = bag_folder(self._folder, '', datetime.now())
+        except OSError as error:
+            assign(self._result, content=f'✖ {escaped(str(error))}', visible=True)
+        else:
+            self._child.say(save=path)
+
+    def _say_saved(self, saved: dict[str, Any]) -> None:
+        if 'failure' in saved:
+            text = f'✖ {escaped(saved["failure"])}'
+        else:
+            name = os.path.basename(saved['folder'])
+            text = f'✔ Saved **{escaped(name)}**: {saved["messages"]} messages'
+        assign(self._result, content=text, visible=True)
+        self._done()

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Widgets to record."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import datetime
+import os
+import time
+from typing import Any
+
+from robot_console.assigning import assign
+from robot_console.recordings.bag_names import bag_folder, regex_of_robot, topics_in
+from robot_console.recordings.child import Child
+from robot_console.recordings.words import clock_text, size_text
+from rviz_common.context import Context
+from rviz_common.panels.marks import escaped
+
+__all__ = ['RecordFolder']
+
+ADD = 'Add a topic ...'
+RECORD, STOP = 'Record', 'Stop recording'
+
+
+class RecordFolder:
+    """Records all topics of a robot, or those that are chosen, in a process of its own."""
+
+    def __init__(
+        self,
+        context: Context,
+        folder: str,
+        namespace: str,
+        done: Callable[[], None],
+    ) -> None:
+        """Add the widgets; `done` is called when there is a new recording."""
+        self._context, self._folder = context, folder
+        self._namespace, self._done = namespace, done
+        self._child: Child | None = None
+        self._path, self._start_s = '', 0.0
+        gui = context.gui
+        with gui.add_folder('Record'):
+            self._name: Any = gui.add_text('Name', '', hint='Without one it is the time.')
+            self._all: Any = gui.add_checkbox('All topics', True)
+            self._topics: Any = gui.add_text('Topics', '', multiline=True, visible=False)
+            self._more: Any = gui.add_dropdown('Add', [ADD], visible=False)
+            self._button: Any = gui.add_button(RECORD, color='red', hint=f'Into {folder}')
+            self._text: Any = gui.add_markdown('')
+        context.on_input(self._all, self._choose)
+        context.on_input(self._more, self._add)
+        context.on_click(self._button, self._press)
+
+    @property
+    def path(self) -> str:
+        """Return the recording that is being made, or ''."""
+        return self._path if self._child is not None else ''
+
+    def update(self) -> None:
+        """Show how it goes on."""
+        if self._all.value is False and not self._child:
+            self._offer_topics()
+        if self._child is None:
+            return
+        if not self._child.is_running:
+            self._finish(self._child)
+            return
+        length = clock_text(time.monotonic() - self._start_s)
+        state = 'Finishing' if self._child.is_ending else '● Recording'
+        size = size_text(_folder_bytes(self._path))
+        assign(self._text, content=f'{state} **{escaped(self._name_now())}**: {length}, {size}')
+
+    def close(self) -> None:
+        """Finish what is being recorded."""
+        if self._child is not None:
+            self._child.close()
+
+    def _press(self) -> None:
+        if self._child is not None:
+            self._child.end()
+            assign(self._button, disabled=True)
+            return
+        try:
+            self._start()
+        except (OSError, ValueError) as error:
+            assign(self._text, content=f'✖ {escaped(str(error))}')
+
+    def _start(self) -> None:
+        chosen = self._chosen()
+        os.makedirs(self._folder, exist_ok=True)
+        self._path = bag_folder(self._folder, self._name.value, datetime.now())
+        arguments = ['-o', self._path, '--disable-keyboard-controls', *chosen]
+        self._child, self._start_s = Child('record', arguments), time.monotonic()
+        assign(self._button, label=STOP)
+
+    def _chosen(self) -> list[str]:
+        """Return the options that choose topics, or raise ValueError."""
+        if self._all.value:
+            regex = regex_of_robot(self._namespace)
+            return ['--regex', regex] if regex else ['--all']
+        topics = topics_in(self._topics.value)
+        if not topics:
+            raise ValueError('No topic is chosen: add some, or record all.')
+        return ['--topics', *topics]
+
+    def _finish(self, child: Child) -> None:
+        child.close()
+        self._child = None
+        assign(self._button, label=RECORD, disabled=False)
+        if child.failure:
+            text = f'✖ {escaped(child.failure)}'
+        else:
+            size = size_text(_folder_bytes(self._path))
+            text = f'✔ Recorded **{escaped(self._name_now())}**: {size}'
+        notes = ''.join(f'\n\n⚠ {escaped(each)}' for each in child.warnings[-3:])
+        assign(self._text, content=text + notes)
+        self._done()
+
+    def _name_now(self) -> str:
+        return os.path.basename(self._path)
+
+    def _choose(self, everything: bool) -> None:
+        assign(self._topics, visible=not everything)
+        assign(self._more, visible=not everything)
+
+    def _offer_topics(self) -> None:
+        there = [name for name, _ in self._context.node.get_topic_names_and_types()]
+        chosen = topics_in(self._topics.value)
+        assign(self._more, options=(ADD, *sorted(set(there).difference(chosen))))
+
+    def _add(self, topic: str) -> None:
+        if topic != ADD:
+            self._topics.value = '\n'.join([*topics_in(self._topics.value), topic])
+            self._more.value = ADD
+
+
+def _folder_bytes(folder: str) -> int:
+    """Return how large the files of a folder are, without the room that is reserved."""
+    try:
+        with os.scandir(folder) as entries:
+            return sum(each.stat().st_size for each in entries if not each.name.startswith('.'))
+    except OSError:
+        return 0

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Record, save what has just happened, play, and export."""
+
+from __future__ import annotations
+
+import os
+
+from robot_console.namespaces import NAMESPACE
+from robot_console.panels.memory_folder import MemoryFolder
+from robot_console.panels.play_folder import PlayFolder
+from robot_console.panels.record_folder import RecordFolder
+from robot_console.panels.scene_folder import SceneFolder
+from robot_console.recordings.commands_left_out import COMMANDS
+from rviz_common.pace import Pace
+from rviz_common.panel import Panel
+from rviz_common.properties import Flag, Number, Text
+
+__all__ = ['Recordings']
+
+PERIOD_S = 0.25
+
+
+class Recordings(Panel):
+    """Records and plays with the code of `ros2 bag`, in processes that end with the page."""
+
+    CLASS = 'robot_console/Recordings'
+    PROPERTIES = (
+        NAMESPACE,
+        Text('Folder', '~/bags', 'Where recordings are.'),
+        Number('Seconds', 30, 'How much is kept of what has just happened.', 1, 600),
+        Number('Largest Memory', 200, 'Of the messages of the last seconds, in MiB.', 1, 4096),
+        Number('Largest Page', 50, 'Of the scene as one file, in MiB.', 1, 500),
+        Flag('Keep Scene', True, 'Whether the last seconds of the scene are kept at first.'),
+        Text('Commands', COMMANDS, 'Patterns of topics that robots obey; not played at first.'),
+    )
+
+    def start(self) -> None:
+        """Add the widgets."""
+        values, context = self.values, self.context
+        folder = os.path.abspath(os.path.expanduser(values['Folder'].strip() or '~/bags'))
+        namespace, seconds = values['Namespace'], values['Seconds']
+        limits = seconds, values['Largest Memory']
+        self._pace = Pace(PERIOD_S)
+        self._record = RecordFolder(context, folder, namespace, self._hurry)
+        self._memory = MemoryFolder(context, folder, namespace, limits, self._hurry)
+        self._play = PlayFolder(context, folder, values['Commands'], lambda: self._record.path)
+        self._scene = SceneFolder(context, seconds, values['Largest Page'], values['Keep Scene'])
+        self._parts = (self._record, self._memory, self._play, self._scene)
+
+    def update(self) -> None:
+        """Show how things go on."""
+        self._play.follow()
+        if self._pace.is_due():
+            for part in self._parts:
+                part.update()
+
+    def close(self) -> None:
+        """End all processes, in order."""
+        for part in self._parts:
+            part.close()
+
+    def _hurry(self) -> None:
+        """List a new recording."""
+        self._play.chooser.hurry()

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The services of a robot, which can be called."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import time
+from typing import Any, TYPE_CHECKING
+
+from robot_console.live import LivePanel, Viewer
+from robot_console.namespaces import NAMESPACE
+from robot_console.service_calls import ServiceCalls
+from robot_console.services.request_form import (
+    fields_text,
+    filled,
+    response_text,
+    service_class,
+    template,
+)
+from rviz_common.properties import Number
+
+if TYPE_CHECKING:
+    from robot_console.live.channel import Action
+
+__all__ = ['Services']
+
+
+class Services(LivePanel):
+    """All services; a request of one as a text to fill, and what comes back."""
+
+    CLASS = 'robot_console/Services'
+    PAGE = 'services'
+    PERIOD_S = 1.0
+    PROPERTIES = (
+        NAMESPACE,
+        Number('Timeout', 5.0, 'How many seconds to wait for an answer.', 0.1, 3600.0),
+    )
+
+    def settings(self) -> dict[str, Any]:
+        """Return what the page is to know from the beginning."""
+        return {'timeout': self.values['Timeout'], 'space': self._space()}
+
+    def actions(self) -> Mapping[str, Action]:
+        """Return what the page may ask for."""
+        return {'choose': self._choose, 'call': self._call}
+
+    def begin(self) -> None:
+        """Call nothing yet."""
+        self._calls = ServiceCalls(self.context.node)
+        self._rows: list[tuple[str, str, bool]] = []
+
+    def greet(self, viewer: Viewer) -> None:
+        """Tell somebody who comes which services there are."""
+        self._rows = self._found()
+        viewer.tell(rows=self._rows)
+
+    def update(self) -> None:
+        """Go on with calls, and tell what is new."""
+        self._calls.update()
+        super().update()
+
+    def refresh(self) -> None:
+        """Tell which services there are."""
+        if not self.channel.viewers:
+            return
+        rows = self._found()
+        if rows != self._rows:
+            self._rows = rows
+            self.channel.tell(rows=rows)
+
+    def end(self) -> None:
+        """Call nothing any longer."""
+        self._calls.close()
+
+    def _space(self) -> str:
+        namespace = self.values['Namespace']
+        return f'/{namespace}/' if namespace else '/'
+
+    def _found(self) -> list[tuple[str, str, bool]]:
+        """Return name and type of all services, and whether somebody offers it."""
+        node, space = self.context.node, self._space()
+        return [
+            (name, ', '.join(types), node.count_services(name) > 0)
+            for name, types in sorted(node.get_service_names_and_types())
+            if name.startswith(space)
+        ]
+
+    def _type_of(self, service: str) -> str:
+        """Return the type of a service, or raise ValueError."""
+        types = dict(self.context.node.get_service_names_and_types()).get(service, [])
+        if len(types) != 1:
+            has = f'has several types: {", ".join(types)}' if types else 'is not there any longer'
+            raise ValueError(f"'{service}' {has}.")
+        return str(types[0])
+
+    def _choose(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
+        service = str(message.get('service', ''))
+        try:
+            kind = service_class(self._type_of(service))
+        except ValueError as error:
+            viewer.tell(service=service, problem=str(error))
+            return
+        viewer.tell(
+            service=service,
+            template=template(kind),
+            fields=fields_text(kind),
+            answers=fields_text(kind, 'Response'),
+            offered_by=self._owners(service),
+        )
+
+    def _owners(self, service: str) -> list[str]:
+        """Return the names of the nodes that offer a service."""
+        node, owners = self.context.node, []
+        for name, namespace in node.get_node_names_and_namespaces():
+            try:
+                offered = node.get_service_names_and_types_by_node(name, namespace)
+            except Exception:  # noqa: S112 (rclpy has its own; a node may end just now)
+                continue
+            if any(each == service for each, _ in offered):
+                owners.append(f'{namespace.rstrip("/")}/{name}')
+        return sorted(owners)
+
+    def _call(self, viewer: Viewer, message: Mapping[str, Any]) -> None:
+        service, number = str(message.get('service', '')), message.get('number')
+        now = self.context.node.get_clock().now().to_msg()
+        begun_s = time.monotonic()
+
+        def answer(response: Any, reason: str) -> None:
+            took_s = time.monotonic() - begun_s
+            text = response_text(response) if response is not None else ''
+            viewer.tell(service=service, number=number, text=text, failed=reason, took=took_s)
+
+        try:
+            kind = service_class(self._type_of(service))
+            request = filled(kind, str(message.get('text', '')), now)
+        except ValueError as error:
+            answer(None, str(error))
+            return
+        self._calls.call(kind, service, request, answer, self.values['Timeout'])

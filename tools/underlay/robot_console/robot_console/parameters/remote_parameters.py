@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The parameters of one node, through its services."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterValue
+from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters, SetParameters
+from robot_console.parameters.conversions import described, parameter_value
+from robot_console.service_calls import ServiceCalls
+from ros2param.api import LIST_SERVICE
+
+__all__ = ['LIST_SERVICE', 'RemoteParameters']
+
+Tell = Callable[[str], None]
+"""Takes '' when it is done, or a sentence about why it is not."""
+
+
+class RemoteParameters:
+    """What is known of the parameters of a node; all that is asked for comes later."""
+
+    def __init__(self, calls: ServiceCalls, node_name: str) -> None:
+        """Know nothing of a node yet."""
+        self._calls = calls
+        self._node_name = node_name
+        self._values: dict[str, ParameterValue] = {}
+        self._descriptors: dict[str, ParameterDescriptor] = {}
+
+    def load(self, tell: Tell) -> None:
+        """Ask for all names, values and descriptions."""
+
+        def take_names(response: Any, reason: str) -> None:
+            if response is None:
+                tell(reason)
+                return
+            self._load_values(sorted(response.result.names), tell)
+
+        self._call(ListParameters, LIST_SERVICE, ListParameters.Request(), take_names)
+
+    def take(self, name: str, value: ParameterValue) -> None:
+        """Take a value that the node has told of."""
+        self._values[name] = value
+
+    def told(self) -> dict[str, dict[str, Any]]:
+        """Return all parameters as a page wants them."""
+        return {name: self.told_of(name) for name in sorted(self._values)}
+
+    def told_of(self, name: str) -> dict[str, Any]:
+        """Return one parameter as a page wants it."""
+        return described(self._values[name], self._descriptors.get(name))
+
+    def knows(self, name: str) -> bool:
+        """Tell whether the node has a parameter."""
+        return name in self._values
+
+    def change(self, name: str, text: str, tell: Tell) -> None:
+        """Set a parameter, or raise ValueError if it cannot have such a value."""
+        descriptor = self._descriptors.get(name) or ParameterDescriptor()
+        value = parameter_value(text, self._values[name], descriptor)
+
+        def take_result(response: Any, reason: str) -> None:
+            result = response.results[0] if response and response.results else None
+            if result is None:
+                tell(reason or 'The node did not say whether it took the value.')
+            elif not result.successful:
+                tell(f'Refused: {result.reason or "the node gives no reason"}')
+            else:
+                self._values[name] = value
+                tell('')
+
+        request = SetParameters.Request(parameters=[Parameter(name=name, value=value)])
+        self._call(SetParameters, '/set_parameters', request, take_result)
+
+    def _load_values(self, names: list[str], tell: Tell) -> None:
+        def take_values(response: Any, reason: str) -> None:
+            if response is None or len(response.values) != len(names):
+                tell(reason or 'The node does not tell the values of its parameters.')
+                return
+            self._values = dict(zip(names, response.values))
+            self._load_descriptions(names, tell)
+
+        request = GetParameters.Request(names=names)
+        self._call(GetParameters, '/get_parameters', request, take_values)
+
+    def _load_descriptions(self, names: list[str], tell: Tell) -> None:
+        def take_descriptions(response: Any, reason: str) -> None:
+            if response is not None:
+                self._descriptors = {each.name: each for each in response.descriptors}
+            tell('')
+
+        request = DescribeParameters.Request(names=names)
+        self._call(DescribeParameters, '/describe_parameters', request, take_descriptions)
+
+    def _call(self, kind: Any, service: str, request: Any, answer: Any) -> None:
+        self._calls.call(kind, f'{self._node_name}{service}', request, answer)

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which recorded topics would move a robot if they were played."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fnmatch import fnmatchcase
+
+__all__ = ['COMMANDS', 'commands_among']
+
+COMMANDS = (
+    'cmd_vel* *_command *_commands *command/* command commands emergency_stop '
+    'console_heartbeat goal_pose initialpose clicked_point joint_trajectory */joint_trajectory '
+    'goal *_goal *_cmd'
+)
+"""Patterns of names, without the namespace, of topics that robots obey."""
+
+
+def commands_among(topics: Iterable[str], patterns: str = COMMANDS) -> list[str]:
+    """Return the topics of which a name from some slash on fits one of the patterns."""
+    words = patterns.split()
+    return [topic for topic in topics if _fits(topic.strip('/').split('/'), words)]
+
+
+def _fits(names: list[str], patterns: list[str]) -> bool:
+    endings = ['/'.join(names[start:]) for start in range(len(names))]
+    return any(fnmatchcase(ending, pattern) for ending in endings for pattern in patterns)

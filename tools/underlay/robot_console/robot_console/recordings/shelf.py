@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The recordings in a folder."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import os
+from typing import NamedTuple
+
+from ros2bag.storage import BagError
+from ros2bag.storage.bag_reader import BagReader
+from ros2bag.storage.metadata_yaml import FILE_NAME
+
+__all__ = ['Bag', 'BagTopic', 'Shelf']
+
+MOST = 200
+NS_PER_S = 1e9
+
+
+class BagTopic(NamedTuple):
+    """A recorded topic, and how many messages of it there are."""
+
+    name: str
+    type_name: str
+    message_count: int
+
+
+@dataclass(frozen=True)
+class Bag:
+    """What there is to say about a recording; `problem` is why it cannot be played."""
+
+    name: str
+    path: str
+    duration_s: float = 0.0
+    start_s: float = 0.0
+    size_bytes: int = 0
+    message_count: int = 0
+    topics: tuple[BagTopic, ...] = ()
+    problem: str = ''
+
+
+class Shelf:
+    """Looks at the recordings in a folder; what has not changed is read once."""
+
+    def __init__(self, folder: str) -> None:
+        """Look at nothing yet."""
+        self.folder = os.path.abspath(os.path.expanduser(folder))
+        self._read: dict[str, tuple[int, Bag]] = {}
+        self.left_out_count = 0
+        """How many more recordings there are, which are older."""
+
+    def look(self) -> list[Bag]:
+        """Return the recordings, the newest first; a folder that is not there has none."""
+        found = sorted(self._changes(), reverse=True)
+        self.left_out_count = max(0, len(found) - MOST)
+        bags = {path: self._bag(path, changed_ns) for changed_ns, path in found[:MOST]}
+        self._read = {path: self._read[path] for path in bags}
+        return list(bags.values())
+
+    def _changes(self) -> list[tuple[int, str]]:
+        """Return when each recording was changed, and its path."""
+        try:
+            with os.scandir(self.folder) as entries:
+                paths = [each.path for each in entries if not each.name.startswith('.')]
+        except OSError:
+            return []
+        found = ((_changed_ns(path), path) for path in paths)
+        return [(changed_ns, path) for changed_ns, path in found if changed_ns]
+
+    def _bag(self, path: str, changed_ns: int) -> Bag:
+        if path not in self._read or self._read[path][0] != changed_ns:
+            self._read[path] = changed_ns, _described(path)
+        return self._read[path][1]
+
+
+def _changed_ns(path: str) -> int:
+    """Return when a recording was changed, 0 if this is none."""
+    try:
+        if not os.path.isdir(path):
+            return os.stat(path).st_mtime_ns if path.endswith('.mcap') else 0
+        with os.scandir(path) as entries:
+            parts = [each for each in entries if _is_part(each.name)]
+            return max((each.stat().st_mtime_ns for each in parts), default=0)
+    except OSError:
+        return 0
+
+
+def _is_part(name: str) -> bool:
+    return name == FILE_NAME or name.endswith(('.mcap', '.db3'))
+
+
+def _described(path: str) -> Bag:
+    name = os.path.basename(path)
+    try:
+        reader = BagReader(path)
+        span = reader.metadata.span
+        return Bag(
+            name,
+            path,
+            span.duration_ns / NS_PER_S,
+            span.start_ns / NS_PER_S,
+            reader.size_bytes,
+            span.message_count,
+            tuple(
+                BagTopic(each.topic.name, each.topic.type_name, each.message_count)
+                for each in reader.metadata.topics
+            ),
+            '' if span.message_count else 'It has no messages.',
+        )
+    except (BagError, OSError) as error:
+        return Bag(name, path, problem=str(error))

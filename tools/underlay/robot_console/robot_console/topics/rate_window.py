@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How often messages come, and how large they are."""
+
+from __future__ import annotations
+
+from collections import deque
+
+__all__ = ['RateWindow']
+
+WINDOW_S = 10.0
+MOST = 500
+
+
+class RateWindow:
+    """The times and sizes of the newest messages of a topic."""
+
+    def __init__(self, window_s: float = WINDOW_S, most: int = MOST) -> None:
+        """Look back so far, and at so many messages."""
+        self._window_s = window_s
+        self._messages: deque[tuple[float, int]] = deque(maxlen=most)
+        self.count = 0
+
+    def add(self, time_s: float, size: int) -> None:
+        """Count a message; a clock that goes back starts anew."""
+        if self._messages and time_s < self._messages[-1][0]:
+            self._messages.clear()
+        self._messages.append((time_s, size))
+        self.count += 1
+
+    def age_s(self, now_s: float) -> float | None:
+        """Return how long ago the newest message came, None if none has come."""
+        return max(now_s - self._messages[-1][0], 0.0) if self._messages else None
+
+    def rate_hz(self, now_s: float) -> float | None:
+        """Return how often messages come now, None if that is not known."""
+        span = self._span(now_s)
+        return None if span is None else (len(self._messages) - 1) / span
+
+    def bytes_per_s(self, now_s: float) -> float | None:
+        """Return how many bytes come in a second, None if that is not known."""
+        span = self._span(now_s)
+        if span is None:
+            return None
+        return sum(size for _, size in list(self._messages)[1:]) / span
+
+    def _span(self, now_s: float) -> float | None:
+        """Return over how many seconds the messages came; an odd silence counts."""
+        while len(self._messages) > 2 and now_s - self._messages[0][0] > self._window_s:
+            self._messages.popleft()
+        if len(self._messages) < 2:
+            return None
+        first, last = self._messages[0][0], self._messages[-1][0]
+        usual = (last - first) / (len(self._messages) - 1)
+        silence = now_s - last
+        if silence > max(self._window_s, 3.0 * usual):
+            return None
+        span = last - first + (silence if silence > 3.0 * usual + 0.5 else 0.0)
+        return span if span > 0.0 else None

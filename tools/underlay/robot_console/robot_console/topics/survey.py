@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Measure how often all topics come, a few at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from typing import NamedTuple
+
+from robot_console.topics.rate_window import RateWindow
+
+__all__ = ['Measured', 'Survey']
+
+AT_A_TIME = 4
+DURATION_S = 2.5
+AGAIN_S = 10.0
+ENOUGH_MESSAGES = 30
+ENOUGH_BYTES = 8_000_000
+
+
+class Measured(NamedTuple):
+    """How often a topic came when it was measured: None if it was quiet, or came only once."""
+
+    rate_hz: float | None
+    came: bool
+
+
+class _Probe:
+    """A measurement that goes on."""
+
+    def __init__(self, now_s: float) -> None:
+        self.end_s = now_s + DURATION_S
+        self.window = RateWindow(DURATION_S + 1.0, ENOUGH_MESSAGES)
+        self.size = 0
+        self.last_s = 0.0
+
+    def is_over(self, now_s: float) -> bool:
+        is_enough = self.window.count >= ENOUGH_MESSAGES or self.size >= ENOUGH_BYTES
+        return is_enough or now_s >= self.end_s
+
+    def result(self) -> Measured:
+        return Measured(self.window.rate_hz(self.last_s), self.window.count > 0)
+
+
+class Survey:
+    """
+    Says which topics to listen to for a moment, to learn how often each comes.
+
+    A few are measured at a time, for two seconds or until thirty messages have come, so that
+    hundreds of topics cost little, and those that are fast or large least.
+    """
+
+    def __init__(self) -> None:
+        """Begin without any measurement."""
+        self.measured: dict[str, Measured] = {}
+        self._probes: dict[str, _Probe] = {}
+        self._again_s: dict[str, float] = {}
+
+    def hear(self, topic: str, time_s: float, size: int) -> bool:
+        """Take note of a message; return whether that was enough."""
+        probe = self._probes.get(topic)
+        if probe is None:
+            return True
+        probe.window.add(time_s, size)
+        probe.size += size
+        probe.last_s = time_s
+        return probe.is_over(0.0)
+
+    def plan(self, topics: Collection[str], now_s: float) -> set[str]:
+        """Return which of the topics are to be listened to now."""
+        for topic in [each for each in self._probes if each not in topics]:
+            del self._probes[topic]
+        for topic, probe in list(self._probes.items()):
+            if probe.is_over(now_s):
+                self.measured[topic] = probe.result()
+                self._again_s[topic] = now_s + AGAIN_S
+                del self._probes[topic]
+        for topic in self._next(topics, now_s):
+            self._probes[topic] = _Probe(now_s)
+        return set(self._probes)
+
+    def stop(self) -> None:
+        """Measure no longer; what is known stays."""
+        self._probes.clear()
+
+    def _next(self, topics: Iterable[str], now_s: float) -> list[str]:
+        """Return those whose turn it is, the longest not measured first."""
+        due = [
+            topic
+            for topic in topics
+            if topic not in self._probes and self._again_s.get(topic, 0.0) <= now_s
+        ]
+        due.sort(key=lambda topic: self._again_s.get(topic, 0.0))
+        return due[: AT_A_TIME - len(self._probes)]

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Who publishes and subscribes what."""
+
+from __future__ import annotations
+
+from typing import Any, TYPE_CHECKING
+
+from rclpy.qos import qos_check_compatible, QoSCompatibility
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ['Row', 'ends_of', 'mismatches', 'rows_of', 'types_of']
+
+Row = tuple[str, str, int, int]
+SHORT = {
+    'RELIABLE': 'reliable',
+    'BEST_EFFORT': 'best effort',
+    'TRANSIENT_LOCAL': 'transient local',
+    'VOLATILE': 'volatile',
+}
+MOST = 5
+
+
+def types_of(node: Node) -> dict[str, list[str]]:
+    """Return the topics with their types."""
+    return {name: list(types) for name, types in node.get_topic_names_and_types()}
+
+
+def rows_of(node: Node, types: dict[str, list[str]]) -> list[Row]:
+    """Return name, type, and numbers of publishers and subscribers of topics."""
+    return [
+        (name, ', '.join(kinds), node.count_publishers(name), node.count_subscribers(name))
+        for name, kinds in sorted(types.items())
+    ]
+
+
+def ends_of(node: Node, topic: str) -> dict[str, list[tuple[str, str]]]:
+    """Return the nodes at both ends of a topic, with their quality of service."""
+    return {
+        'publishers': _named(node.get_publishers_info_by_topic(topic)),
+        'subscribers': _named(node.get_subscriptions_info_by_topic(topic)),
+    }
+
+
+def mismatches(node: Node, topic: str) -> list[str]:
+    """Return a sentence for each pair of ends between which nothing passes."""
+    publishers = node.get_publishers_info_by_topic(topic)
+    subscribers = node.get_subscriptions_info_by_topic(topic)
+    if len(publishers) * len(subscribers) > 1000:
+        return []
+    sentences = [
+        f'Nothing passes from {_name(publisher)} to {_name(subscriber)}: {reason}.'
+        for publisher in publishers
+        for subscriber in subscribers
+        if (reason := _reason(publisher, subscriber))
+    ]
+    return sorted(set(sentences))[:MOST]
+
+
+def _named(ends: list[Any]) -> list[tuple[str, str]]:
+    return sorted((_name(end), _quality(end.qos_profile)) for end in ends)
+
+
+def _name(end: Any) -> str:
+    return f'{end.node_namespace.rstrip("/")}/{end.node_name}'
+
+
+def _quality(profile: Any) -> str:
+    names = (profile.reliability.name, profile.durability.name)
+    return ', '.join(SHORT.get(name, name.lower()) for name in names)
+
+
+def _reason(publisher: Any, subscriber: Any) -> str:
+    """Return why nothing passes, or ''."""
+    status, reason = qos_check_compatible(publisher.qos_profile, subscriber.qos_profile)
+    if status != QoSCompatibility.ERROR:
+        return ''
+    return '; '.join(str(reason).replace('ERROR: ', '').strip(' ;').split(';'))

@@ -1,0 +1,258 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The panels of what a system says, over DDS and over the connections of their pages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from http.client import HTTPConnection
+import time
+from typing import Any
+from unittest import mock
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from live_world import live_world, LiveWorld, PANELS
+import pytest
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
+import rclpy
+from rclpy.context import Context as RosContext
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from std_msgs.msg import String
+from std_srvs.srv import SetBool
+
+LATCHED = QoSProfile(
+    depth=1,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+
+
+@pytest.fixture
+def world() -> Iterator[LiveWorld]:
+    """Return a page and a robot."""
+    with live_world() as world:
+        yield world
+
+
+def status(name: str, level: int, message: str = '') -> DiagnosticArray:
+    """Return what a part says."""
+    values = [KeyValue(key='volts', value='24.1')]
+    each = DiagnosticStatus(name=name, level=bytes([level]), message=message, values=values)
+    return DiagnosticArray(status=[each])
+
+
+def test_log(world: LiveWorld) -> None:
+    """A page is told what was said before, and what is said from then on."""
+    world.robot.get_logger().warning('before')
+    page = world.visit('log', Namespace='robot1')
+    page.wait_for('lines', lambda lines: any('before' in line[3] for line in lines))
+    world.node.get_logger().info('of another robot')
+    world.robot.get_logger().error('<b>broken</b> \n "now"')
+    told = page.wait_for('lines', lambda lines: any('broken' in line[3] for line in lines))
+    line = told['lines'][-1]
+    assert line[1:4] == [40, 'robot1.robot', '<b>broken</b> \n "now"'] and 'test_log' in line[4]
+    assert told['counts'] == {'30': 1, '40': 1} and told['nodes'] == ['robot1.robot']
+    other = world.look('log', 'robot1')
+    fresh = other.wait_for('fresh')
+    assert [line[1] for line in fresh['lines']] == [30, 40]
+
+
+def test_error_pops_up(world: LiveWorld) -> None:
+    """An error is shown in all browsers, whatever they look at."""
+    page = world.visit('log')
+    client = mock.Mock()
+    with mock.patch.object(world.page.viser, 'get_clients', lambda: {1: client}):
+        world.robot.get_logger().error('broken')
+        page.wait_for('counts', lambda counts: '40' in counts)
+        world.wait_until(lambda: client.add_notification.called, 'no notification')
+    title, text = client.add_notification.call_args.args
+    assert (title, text) == ('Error of robot1.robot', 'broken')
+
+
+def test_diagnostics(world: LiveWorld) -> None:
+    """The worst part comes first; parts become stale; one can be looked at closely."""
+    page = world.visit('diagnostics', Namespace='robot1', **{'Stale After': 1.0})
+    assert page.wait_for('rows', lambda rows: rows == [])['talking'] is False
+    publisher = world.robot.create_publisher(DiagnosticArray, 'diagnostics', 10)
+    world.wait_until(lambda: publisher.get_subscription_count() > 0, 'no subscription')
+    for each in (status('good', 0), status('bad', 2, 'hot'), status('odd', 9)):
+        publisher.publish(each)
+    publisher.publish(DiagnosticArray())
+    told = page.wait_for('rows', lambda rows: len(rows) == 3)
+    assert [row[:2] for row in told['rows']] == [['bad', 2], ['odd', 2], ['good', 0]]
+    page.ask('choose', name='bad')
+    details = page.wait_for('details')['details']
+    assert (details['message'], details['values']) == ('hot', [['volts', '24.1']])
+    page.wait_for('rows', lambda rows: [row[1] for row in rows] == [3, 3, 3])
+    page.ask('forget')
+    page.told.clear()
+    page.wait_for('rows', lambda rows: rows == [])
+
+
+def test_topics(world: LiveWorld) -> None:
+    """Topics are listed; one is subscribed only while somebody has chosen it."""
+    publisher = world.robot.create_publisher(String, 'words', LATCHED)
+    publisher.publish(String(data='from before'))
+    page = world.visit('topics', Namespace='robot1')
+    row = ['/robot1/words', 'std_msgs/msg/String', 1, 0]
+    page.wait_for('rows', lambda rows: row in rows)
+    assert publisher.get_subscription_count() == 0
+    page.ask('choose', topic='/robot1/words')
+    told = page.wait_for('details', lambda details: bool(details.get('text')))['details']
+    assert told['text'] == 'data: from before\n' and told['size'] > 0
+    assert told['publishers'] == [['/robot1/robot', 'reliable, transient local']]
+    assert told['reasons'] == []
+    page.connection.close()
+    world.wait_until(lambda: publisher.get_subscription_count() == 0, 'still subscribed')
+
+
+def test_rates(world: LiveWorld) -> None:
+    """Rates of all topics are measured while somebody wants them."""
+    publisher = world.robot.create_publisher(String, 'words', 10)
+    world.robot.create_timer(0.05, lambda: publisher.publish(String(data='hi')))
+    page = world.visit('topics')
+    page.wait_for('rows')
+    assert publisher.get_subscription_count() == 0
+    page.ask('rates', on=True)
+    page.wait_for('rates', lambda rates: 'Hz' in rates.get('/robot1/words', ''))
+    page.ask('rates', on=False)
+    world.wait_until(lambda: publisher.get_subscription_count() == 0, 'still subscribed')
+
+
+def test_mismatch(world: LiveWorld) -> None:
+    """Two ends between which nothing passes are named with the reason."""
+    best_effort = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+    world.robot.create_publisher(String, 'words', best_effort)
+    world.robot.create_subscription(String, 'words', print, 10)
+    page = world.visit('topics')
+    page.wait_for('rows', lambda rows: any(row[0] == '/robot1/words' for row in rows))
+    page.ask('choose', topic='/robot1/words')
+    told = page.wait_for('details', lambda details: bool(details.get('reasons')))
+    (reason,) = told['details']['reasons']
+    assert reason.startswith('Nothing passes from /robot1/robot to /robot1/robot: ')
+    page.ask('choose', topic='/nothing')
+    page.wait_for('details', lambda details: details == {'topic': '/nothing'})
+
+
+def robot_with_parameters(world: LiveWorld) -> None:
+    """Give the robot a parameter, of which it does not take all values."""
+    about = ParameterDescriptor(
+        description='How fast.', floating_point_range=[FloatingPointRange(to_value=9.0)]
+    )
+    world.robot.declare_parameter('speed', 1.0, about)
+
+    def check(parameters: list[Parameter]) -> SetParametersResult:
+        if parameters[0].value == 3.0:
+            return SetParametersResult(successful=False, reason='three is too much')
+        return SetParametersResult(successful=True)
+
+    world.robot.add_on_set_parameters_callback(check)
+
+
+def test_parameters(world: LiveWorld) -> None:
+    """A parameter is changed; the page or the node refuse with their reasons."""
+    robot_with_parameters(world)
+    page = world.visit('parameters', Namespace='robot1')
+    page.wait_for('nodes', lambda nodes: nodes == ['/robot1/robot'])
+    page.ask('choose', node='/robot1/robot')
+    told = page.wait_for('parameters', bool)['parameters']['speed']
+    assert (told['text'], told['about']) == ('1.0', 'How fast.')
+    for text, reason in (
+        ('fast', 'must be a number'),
+        ('10', 'from 0 to 9'),
+        ('3', 'Refused: three is too much'),
+    ):
+        page.ask('set', node='/robot1/robot', name='speed', text=text)
+        page.wait_for('refused', lambda refused, reason=reason: reason in refused)  # type: ignore
+    assert world.robot.get_parameter('speed').value == 1.0
+    page.ask('set', node='/robot1/robot', name='speed', text='2')
+    page.wait_for('changed', lambda changed: changed['speed']['text'] == '2.0')
+    assert world.robot.get_parameter('speed').value == 2.0
+    page.ask('set', node='/robot1/robot', name='sped', text='2')
+    page.wait_for('refused', lambda refused: 'not there' in refused)
+
+
+def test_parameter_of_others(world: LiveWorld) -> None:
+    """What others change, and new parameters, are shown."""
+    robot_with_parameters(world)
+    page = world.visit('parameters')
+    page.wait_for('nodes', lambda nodes: '/robot1/robot' in nodes)
+    page.ask('choose', node='/robot1/robot')
+    page.wait_for('parameters', bool)
+    world.wait_until(
+        lambda: world.robot.count_subscribers('/parameter_events') > 0, 'nobody listens'
+    )
+    time.sleep(0.3)
+    world.robot.set_parameters([Parameter('speed', value=4.0)])
+    page.wait_for('changed', lambda changed: changed['speed']['text'] == '4.0')
+    world.robot.declare_parameter('later', 'x')
+    page.wait_for('parameters', lambda told: 'later' in told)
+    page.ask('choose', node='/nobody')
+    page.wait_for('problem', lambda problem: "no node '/nobody'" in problem)
+
+
+def test_services(world: LiveWorld) -> None:
+    """A service is called with what was typed, and its answer or its failure shown."""
+
+    def switch(request: Any, response: Any) -> Any:
+        response.success, response.message = request.data, 'done'
+        return response
+
+    service = world.robot.create_service(SetBool, 'switch', switch)
+    page = world.visit('services', Namespace='robot1', Timeout=1.0)
+    row = ['/robot1/switch', 'std_srvs/srv/SetBool', True]
+    page.wait_for('rows', lambda rows: row in rows)
+    page.ask('choose', service='/robot1/switch')
+    told = page.wait_for('template')
+    assert told['template'] == 'data: false\n' and told['offered_by'] == ['/robot1/robot']
+    page.ask('call', service='/robot1/switch', text='data: true', number=1)
+    assert page.wait_for('number', lambda n: n == 1)['text'] == 'success: true\nmessage: done\n'
+    page.ask('call', service='/robot1/switch', text='dat: true', number=2)
+    assert "'dat'" in page.wait_for('number', lambda n: n == 2)['failed']
+    page.ask('call', service='/robot1/nothing', text='', number=3)
+    assert 'not there' in page.wait_for('number', lambda n: n == 3)['failed']
+    client = world.node.create_client(SetBool, '/robot1/silent')
+    page.wait_for('rows', lambda rows: ['/robot1/silent', 'std_srvs/srv/SetBool', False] in rows)
+    page.ask('call', service='/robot1/silent', text='', number=4)
+    failed = page.wait_for('number', lambda n: n == 4)['failed']
+    assert failed == "Nobody offers '/robot1/silent'."
+    world.node.destroy_client(client)
+    world.robot.destroy_service(service)
+
+
+def test_service_that_does_not_answer(world: LiveWorld) -> None:
+    """A call that is not answered ends with a sentence, and blocks nothing."""
+    other = RosContext()
+    rclpy.init(context=other, domain_id=world.ros.get_domain_id())
+    dead = Node('dead', context=other)
+    dead.create_service(SetBool, '/stuck', lambda request, response: response)
+    page = world.visit('services', Timeout=1.0)
+    page.wait_for('rows', lambda rows: any(row[0] == '/stuck' for row in rows))
+    page.ask('call', service='/stuck', text='', number=1)
+    failed = page.wait_for('number', lambda n: n == 1)['failed']
+    assert failed == "'/stuck' has not answered within 1 s."
+    dead.destroy_node()
+    other.try_shutdown()
+
+
+@pytest.mark.parametrize('name', PANELS)
+def test_small_page(world: LiveWorld, name: str) -> None:
+    """The pages are complete, and ask nobody else for anything."""
+    world.visit(name)
+    connection = HTTPConnection('127.0.0.1', world.page.port, timeout=30)
+    connection.request('GET', f'/{name}')
+    text = connection.getresponse().read().decode()
+    assert 'class Feed' in text and '--line:' in text and '.split' in text
+    assert 'http://' not in text and 'https://' not in text
+    assert 'innerHTML' not in text, 'texts of others must stay texts'
+
+
+@pytest.mark.parametrize('name', PANELS)
+def test_begin_anew(world: LiveWorld, name: str) -> None:
+    """A panel that is closed leaves nothing, so that another file can have it again."""
+    world.visit(name)
+    before = len(list(world.node.subscriptions)), len(list(world.node.clients))
+    world.panels.pop().close()
+    world.visit(name)
+    assert (len(list(world.node.subscriptions)), len(list(world.node.clients))) == before
