@@ -86,7 +86,7 @@ def picture_sliders(browser: Any, address: str) -> None:
         row = name.locator('xpath=ancestor::*[contains(@class, "Flex-root")][1]')
         row.locator('input').last.fill(angle)
     tab.wait_for_timeout(2000)
-    panel = {'x': 812, 'y': 0, 'width': WIDTH - 812, 'height': HEIGHT}
+    panel = {'x': WIDTH - 464, 'y': 0, 'width': 464, 'height': HEIGHT}
     keep('sliders', lambda path: tab.screenshot(path=path, clip=panel))
     tab.close()
 
