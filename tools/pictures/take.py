@@ -25,6 +25,7 @@ CHROMIUM = '/usr/bin/chromium'
 LARGEST = 150_000
 WIDTH, HEIGHT = 1200, 800
 TIMEOUT_S = 60.0
+PATIENCE_MS = 120_000
 SETTLE_MS = 8000
 """A page fades in, and a processor that draws it takes its time."""
 ADDRESS = re.compile(r'(RViz is|The sliders are) at (http://\S+)')
@@ -49,7 +50,7 @@ def main() -> None:
 
 
 def picture_console(browser: Any, address: str) -> None:
-    """Show the whole page, its button after it was pressed, and its stick while it is held."""
+    """Show the whole page, its button once it was pressed, its stick while it is held, topics."""
     tab = opened(browser, address)
     keep('console', tab.screenshot)
     safety = tab.frame_locator('iframe[title=safety]')
@@ -62,6 +63,10 @@ def picture_console(browser: Any, address: str) -> None:
     hold_stick(tab)
     keep('drive', tab.locator('iframe[title=drive]').screenshot)
     tab.mouse.up()
+    tab.get_by_role('tab', name='Topics').click()
+    tab.frame_locator('iframe[title=topics]').get_by_text('/joint_commands').first.click()
+    tab.wait_for_timeout(4000)
+    keep('topics', tab.locator('iframe[title=topics]').screenshot)
     tab.close()
 
 
@@ -126,6 +131,7 @@ def addresses_in(output: Path, count: int) -> dict[str, str]:
 def opened(browser: Any, address: str) -> Any:
     """Open a page without the notes that only concern this browser."""
     tab = browser.new_page(viewport={'width': WIDTH, 'height': HEIGHT})
+    tab.set_default_timeout(PATIENCE_MS)
     tab.goto(f'{address}?fixedDpr=1')
     tab.wait_for_timeout(SETTLE_MS)
     for close in tab.locator('.mantine-Notification-closeButton').all():
