@@ -23,10 +23,11 @@ def generate_launch_description() -> LaunchDescription:
     model = PathJoinSubstitution([share, 'urdf', 'humanoid.urdf.xacro'])
     view = PathJoinSubstitution([share, 'config', 'robot_view.rviz'])
     gui, prefix = LaunchConfiguration('gui'), LaunchConfiguration('prefix')
-    urdf = ['xacro ', model]
+    urdf = ['xacro "', model, '"']
     for argument in ('scale', 'prefix', 'upper_body_only'):
         urdf += [f' {argument}:=', LaunchConfiguration(argument)]
     description = {'robot_description': ParameterValue(Command(urdf), value_type=str)}
+    time = {'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)}
     return LaunchDescription(
         [
             DeclareLaunchArgument(
@@ -49,28 +50,35 @@ def generate_launch_description() -> LaunchDescription:
                 choices=['true', 'false'],
                 description='Leave out the legs.',
             ),
+            DeclareLaunchArgument(
+                'use_sim_time',
+                default_value='false',
+                choices=['true', 'false'],
+                description='Take the time from the topic /clock instead of the computer.',
+            ),
             OpaqueFunction(function=_require_gui, condition=IfCondition(gui)),
             Node(
                 package='robot_state_publisher',
                 executable='robot_state_publisher',
-                parameters=[description],
+                parameters=[description, time],
             ),
             Node(
                 package='joint_state_publisher',
                 executable='joint_state_publisher',
-                parameters=[SOURCES],
+                parameters=[SOURCES, time],
                 condition=UnlessCondition(gui),
             ),
             Node(
                 package='joint_state_publisher_gui',
                 executable='joint_state_publisher_gui',
-                parameters=[SOURCES],
+                parameters=[SOURCES, time],
                 condition=IfCondition(gui),
             ),
             Node(
                 package='rviz2',
                 executable='rviz2',
                 arguments=['-d', view, '-f', [prefix, 'base_link']],
+                parameters=[time],
                 condition=IfCondition(gui),
             ),
         ]
