@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from ament_index_python.packages import get_packages_with_prefixes
-from launch import LaunchContext, LaunchDescription
-from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
 from launch.conditions import IfCondition, UnlessCondition
 from launch.substitutions import Command, LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
@@ -14,7 +13,6 @@ from launch_ros.substitutions import FindPackageShare
 
 # Joints follow these topics; without a message they stay where the sliders are, or at zero.
 SOURCES = {'source_list': ['joint_commands']}
-GUI = ('joint_state_publisher_gui', 'rviz2')
 
 
 def generate_launch_description() -> LaunchDescription:
@@ -56,7 +54,6 @@ def generate_launch_description() -> LaunchDescription:
                 choices=['true', 'false'],
                 description='Take the time from the topic /clock instead of the computer.',
             ),
-            OpaqueFunction(function=_require_gui, condition=IfCondition(gui)),
             Node(
                 package='robot_state_publisher',
                 executable='robot_state_publisher',
@@ -83,13 +80,3 @@ def generate_launch_description() -> LaunchDescription:
             ),
         ]
     )
-
-
-def _require_gui(context: LaunchContext) -> None:
-    """Say which of the packages with windows are not installed, before anything starts."""
-    missing = [name for name in GUI if name not in get_packages_with_prefixes()]
-    if missing:
-        raise RuntimeError(
-            f'What shows the robot is not installed: {", ".join(missing)}. Install it, or start '
-            'the rest with gui:=false'
-        )

@@ -10,6 +10,7 @@ import threading
 import time
 
 from console_world import World, world_of
+from geometry_msgs.msg import Twist
 import pytest
 import rclpy
 from robot_console.robot_link import LATCHED
@@ -75,6 +76,15 @@ def test_who_only_listens_is_no_robot(world: World, name: str) -> None:
     world.wait_until(lambda: page.say({'do': 'beat'})['listeners'] == both, 'not both')
     for node in (recorder, other):
         node.destroy_node()
+
+
+def test_who_hears_the_driver(world: World) -> None:
+    """The page is told how many robots there are to drive."""
+    drive = world.visit('drive')
+    world.wait_until(lambda: drive.say({'do': 'beat'})['listeners'] == 1, 'not one')
+    other = world.robot.create_subscription(Twist, 'cmd_vel', print, 1)
+    world.wait_until(lambda: drive.say({'do': 'beat'})['listeners'] == 2, 'not two')
+    world.robot.destroy_subscription(other)
 
 
 def test_facts(world: World) -> None:
