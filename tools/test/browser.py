@@ -95,10 +95,24 @@ class Tab:
         """Wait until a link of the robot is shown."""
         wait_until(lambda: self.place(link), PATIENCE_S, lambda: f'the link {link} in the scene')
 
+    def wait_for_motion(self, link: str, tolerance: float = 0.02) -> None:
+        """Wait until a link moves in its parent."""
+        self.wait_for_link(link)
+        seen: list[Place] = []
+
+        def moves() -> bool:
+            now = self.place(link)
+            seen.extend([now] if now else [])
+            return not all(each.is_near(seen[0], tolerance) for each in seen[-1:])
+
+        wait_until(moves, PATIENCE_S, f'the link {link} to move')
+
     def box(self, label: str) -> Any:
         """Return the field for text or numbers whose label begins with a text."""
         labels = self.page.locator('label').filter(has_text=re.compile(f'^{re.escape(label)}'))
-        row = labels.first.locator('xpath=ancestor::*[contains(@class, "Flex-root")][1]')
+        row = labels.filter(visible=True).first.locator(
+            'xpath=ancestor::*[contains(@class, "Flex-root")][1]'
+        )
         return row.locator('input:not([type=hidden])').first
 
     def button(self, name: str) -> Any:

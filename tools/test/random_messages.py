@@ -46,7 +46,9 @@ def ros_message(kind: type, chance: Random, depth: int = 0) -> Any:
     """Return a message of a type, of which hardly anything fits the rest."""
     message = kind()
     for name, field in kind.get_fields_and_field_types().items():  # type: ignore[attr-defined]
-        if chance.random() < 0.8:
+        if name == 'frame_id' and chance.random() < 0.8:
+            message.frame_id = 'base_link'  # else hardly anything would be looked at
+        elif chance.random() < 0.8:
             setattr(message, name, _value(field, chance, depth))
     return message
 

@@ -48,12 +48,6 @@ def state_of(robot: World, joint: str) -> float:
     return newest.position[newest.name.index(joint)]
 
 
-def wait_for_motion(tab: Tab) -> None:
-    """Wait until the forearm moves in the scene."""
-    at = tab.place(FOREARM)
-    wait_until(lambda: not tab.place(FOREARM).is_near(at, 0.02), 30.0, 'the forearm to move')
-
-
 def commands(robot: World) -> list[Any]:
     """Return the positions that the joints were told to be at."""
     return [each.position for each in robot.ros.listen(JointState, '/joint_commands')]
@@ -87,7 +81,7 @@ def test_the_robot_is_shown_where_it_is(robot: World, tab: Tab) -> None:
     model = robot.ros.model()
     robot.ros.first(JointState, '/joint_states')
     robot.ros.first(JointState, '/joint_commands')
-    wait_for_motion(tab)
+    tab.wait_for_motion(FOREARM)
     press_stop(robot, tab)
 
     def is_right() -> bool:
@@ -100,7 +94,7 @@ def test_the_robot_is_shown_where_it_is(robot: World, tab: Tab) -> None:
     wait_until(lambda: len(commands(robot)) > told + 50, 30.0, 'more commands')
     assert tab.place(FOREARM) == seen
     release(robot, tab)
-    wait_for_motion(tab)
+    tab.wait_for_motion(FOREARM)
     tab.picture('console_moving')
 
 
@@ -127,7 +121,7 @@ def period_s(robot: World) -> float:
 
 def test_a_recording_is_made_and_played(robot: World, tab: Tab) -> None:
     """What was recorded from the page moves the robot in the scene when all others are gone."""
-    wait_for_motion(tab)
+    tab.wait_for_motion(FOREARM)
     tab.show('Recordings')
     tab.box('Name').fill('swing')
     tab.button('Record').click()
@@ -137,12 +131,13 @@ def test_a_recording_is_made_and_played(robot: World, tab: Tab) -> None:
     tab.button('Stop recording').click()
     tab.page.get_by_text('Recorded swing').wait_for()
     end_robot(robot)
+    tab.box('Loop').check()
     tab.button('Play').click()
-    tab.page.get_by_text('PLAYING swing').wait_for()
-    wait_for_motion(tab)
+    tab.page.get_by_text('PLAYING swing', exact=True).wait_for()
+    tab.wait_for_motion(FOREARM)
     tab.picture('console_playing')
     tab.button('Stop').click()
-    tab.page.get_by_text('PLAYING swing').wait_for(state='detached')
+    tab.page.get_by_text('PLAYING swing', exact=True).wait_for(state='detached')
 
 
 def end_robot(robot: World) -> None:
