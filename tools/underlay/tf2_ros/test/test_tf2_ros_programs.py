@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 import signal
 import subprocess
 import threading
@@ -89,3 +90,15 @@ def test_bad_arguments(start_program: Start) -> None:
         _, errors = process.communicate(timeout=TIMEOUT_S)
         assert process.returncode in (1, 2) and 'Traceback' not in errors
         assert text in errors
+
+
+def test_no_place_for_the_log(
+    start_program: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where the log cannot be written, it is not the arguments that are to blame."""
+    (tmp_path / 'file').touch()
+    monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path / 'file'))
+    process = start_program('tf2_ros.tf2_echo', 'map', 'odom')
+    _, errors = process.communicate(timeout=TIMEOUT_S)
+    assert process.returncode == 1 and 'Traceback' not in errors
+    assert 'The log cannot be written' in errors and 'Set ROS_LOG_DIR, or HOME' in errors
