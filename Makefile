@@ -16,7 +16,7 @@ SETUP := $(PYTHON) tools/setup
 RUN := tools/foreground tools/in_environment
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build bringup run test check fix bench docs lock clean distclean
+.PHONY: help setup build bringup run test check fix bench docs pictures lock clean distclean
 
 help: ## Show this list
 	@echo 'The humanoid workspace. Each command makes what it needs.'
@@ -28,7 +28,7 @@ setup: ## Make the environment in .venv (VENV=/other/place keeps it elsewhere)
 build: ## Build src/ with colcon (COLCON_ARGS='--packages-select NAME')
 	@$(SETUP) build $(COLCON_ARGS)
 
-bringup: build ## Start the humanoid (ARGS='use_controller:=false'); Ctrl-C ends it
+bringup: build ## Start the humanoid, print its page (ARGS='gui:=false'); Ctrl-C ends it
 	@$(RUN) ros2 launch humanoid_bringup bringup.launch.py $(ARGS)
 
 run: build ## Run a ros2 command: make run ARGS='topic list'
@@ -47,7 +47,7 @@ fix: setup ## Format the code and mend what ruff can
 	@tools/in_environment --underlay ruff format .
 	@tools/in_environment --underlay ruff check --fix .
 
-bench: build ## Measure what commands, launches, the graph, bags and transforms cost
+bench: build ## Measure what commands, launches, bags, transforms and RViz cost
 	@$(RUN) python3 tools/benchmarks/command_times.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/launch_times.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/prefork_times.py $(ARGS)
@@ -57,8 +57,12 @@ bench: build ## Measure what commands, launches, the graph, bags and transforms 
 	@$(RUN) python3 tools/benchmarks/tf2_lookups.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/rviz.py $(ARGS)
 
-docs: build ## Write docs/reference anew from the commands and launch files
+docs: build ## Write docs/reference anew from the code, the commands and the launch files
 	@tools/in_environment python3 tools/reference/generate.py
+
+pictures: build ## Take docs/pictures anew from running robots (needs Chromium)
+	@$(SETUP) tests
+	@$(RUN) python3 tools/pictures/take.py
 
 lock: ## Pin the versions of tools/setup/requirements.in anew (needs uv)
 	@tools/setup/lock.sh $(ARGS)

@@ -114,7 +114,7 @@ def _table(properties: Iterable[Property], single: bool = False) -> Iterator[str
     yield '|---|---|---|---|'
     by_path = {each.path: each for each in shown}
     topics = [] if single else [each.path for each in shown if isinstance(each, Topic)]
-    hidden = {path.replace('Value', name) for path in topics for name in QUALITY}
+    hidden = {quality for topic in topics for quality in _qualities(topic)}
     for each in shown:
         if each.path not in hidden:
             special = _quality(each.path, by_path) if each.path in topics else ''
@@ -140,7 +140,7 @@ def _default(of: Property) -> str:
 def _kind(of: Property) -> str:
     """Say what a property may be."""
     if isinstance(of, Choice):
-        return ', '.join(f'`{each}`' for each in of.choices)
+        return ', '.join(f'`{each}`' if each else 'nothing' for each in of.choices)
     if isinstance(of, Topic):
         return f'topic of `{of.type_name}`' if of.type_name else 'topic'
     name = next((name for kind, name in KIND_NAMES.items() if isinstance(of, kind)), 'text')
@@ -156,12 +156,18 @@ def _limits(of: Number) -> str:
     return f', from {low:g}' + ('' if math.isinf(high) else f' to {high:g}')
 
 
+def _qualities(topic: str) -> list[str]:
+    """Return the paths of the quality of service of a topic, which stands beside them."""
+    above, _, last = topic.rpartition('/')
+    return [f'{above}/{name}' for name in QUALITY] if last == 'Value' else []
+
+
 def _quality(topic: str, by_path: dict[str, Property]) -> str:
     """Say in what a topic differs from others, if its quality of service can be set."""
     usual = {each.path: each.default for each in topic_properties('')}
     found = []
-    for name in QUALITY:
-        of = by_path.get(topic.replace('Value', name))
+    for name, path in zip(QUALITY, _qualities(topic)):
+        of = by_path.get(path)
         if of is not None and of.default != usual[f'Topic/{name}']:
             found.append(f'{name} {of.default}')
     return ', '.join(found)

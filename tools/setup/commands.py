@@ -16,7 +16,8 @@ import sysconfig
 
 import colcon
 from console import SetupError, Steps
-from locations import cache_folder, find_locations, link_environment, Locations
+from locations import find_locations, link_environment, Locations
+from ownership import Home, python_version
 import prerequisites
 import processes
 from stamp import digest, Stamp
@@ -67,9 +68,10 @@ def run(command: str, locations: Locations, arguments: list[str]) -> int:
         return set_up(locations, quiet=True) or build(locations, arguments)
     if command == 'tests':
         return set_up(locations, quiet=True) or set_up_tests(locations)
-    remove(ROOT / name for name in BUILT)
     if command == 'distclean':
+        refuse_what_belongs_to_others(locations)
         forget_environment(locations)
+    remove(ROOT / name for name in BUILT)
     return 0
 
 
@@ -95,9 +97,8 @@ def set_up(locations: Locations, *, quiet: bool = False) -> int:
     underlay = digest(colcon.underlay_sources(locations), requirements)
     kept = locations.environment / 'stamp'
     wheels_stamp, underlay_stamp = Stamp(kept / 'wheels'), Stamp(kept / 'underlay')
-    where = f'{locations.root}\n{locations.environment}\n{python_version()}'
-    home = Stamp(kept / 'home')
-    require_same_home(locations, home, where)
+    home = Home(locations)
+    home.require_same()
     if locations.link.exists() and underlay_stamp.matches(underlay):
         link_environment(locations)
         if not quiet:
@@ -107,7 +108,7 @@ def set_up(locations: Locations, *, quiet: bool = False) -> int:
     steps = Steps(3)
     steps.begin(f'Python {python_version()} environment in {locations.environment}')
     locations.environment.mkdir(parents=True, exist_ok=True)
-    home.write(where)
+    home.write()
     link_environment(locations)
     if not wheels.has_pip(locations):
         wheels.make_environment(locations, sys.executable)
@@ -145,21 +146,6 @@ def wheels_digest(*requirements: Path) -> str:
     return digest([*requirements, ROOT / 'tools' / 'setup' / 'mend.py'])
 
 
-def python_version() -> str:
-    """Return the running Python's minor version, as in 3.12."""
-    return f'{sys.version_info[0]}.{sys.version_info[1]}'
-
-
-def require_same_home(locations: Locations, home: Stamp, where: str) -> None:
-    """Refuse an environment that was moved or that another Python made."""
-    if (locations.environment / 'stamp' / 'home').exists() and not home.matches(where):
-        raise SetupError(
-            f'The environment in {locations.environment} was made for a workspace in another '
-            f'place or by another Python than {python_version()}, and its programs name those: '
-            'run `make distclean setup` to make it anew'
-        )
-
-
 def require_machine(locations: Locations, *, has_wheels: bool) -> None:
     """Refuse a machine that lacks something, before anything is downloaded."""
     root, environment = os.fspath(locations.root), os.fspath(locations.environment)
@@ -189,9 +175,19 @@ def remove(paths: Iterator[Path]) -> None:
             shutil.rmtree(path)
 
 
+def refuse_what_belongs_to_others(locations: Locations) -> None:
+    """Refuse to forget the environment of another workspace, to which no link leads from here."""
+    other = Home(locations).other_workspace()
+    if other and not locations.is_linked:
+        raise SetupError(
+            f'The environment in {locations.environment} belongs to the workspace in {other}: '
+            'run `make distclean` there, or here without VENV'
+        )
+
+
 def forget_environment(locations: Locations) -> None:
     """Delete the environment that the set-up placed; of one that the user named, only the link."""
-    if not locations.is_elsewhere or locations.environment.parent == cache_folder():
+    if Home(locations).is_deleted_with_the_workspace():
         remove(iter([locations.environment]))
     else:
         print(f'The environment in {locations.environment} was named by you and stays.')

@@ -38,8 +38,14 @@ class Locations:
 
     @property
     def is_elsewhere(self) -> bool:
-        """Tell whether .venv is a link to the environment."""
+        """Tell whether .venv is, or has to be, a link to the environment."""
         return self.environment != self.link
+
+    @property
+    def is_linked(self) -> bool:
+        """Tell whether .venv is a link to this very environment."""
+        real = os.path.realpath
+        return self.link.is_symlink() and real(self.link) == real(self.environment)
 
 
 def find_locations(root: Path, wanted: str | None) -> Locations:

@@ -26,7 +26,7 @@ CHROMIUM = '/usr/bin/chromium'
 # Two of these are for machines without a graphics card, one for those without user namespaces.
 ARGUMENTS = ('--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--no-sandbox')
 SIZE = {'width': 900, 'height': 620}
-PATIENCE_S = 90.0
+PATIENCE_S = 60.0
 PICTURES = Path(__file__).resolve().parents[2] / 'build' / 'pictures'
 
 NODE = """
@@ -95,10 +95,24 @@ class Tab:
         """Wait until a link of the robot is shown."""
         wait_until(lambda: self.place(link), PATIENCE_S, lambda: f'the link {link} in the scene')
 
+    def wait_for_motion(self, link: str, tolerance: float = 0.02) -> None:
+        """Wait until a link moves in its parent."""
+        self.wait_for_link(link)
+        seen: list[Place] = []
+
+        def moves() -> bool:
+            now = self.place(link)
+            seen.extend([now] if now else [])
+            return not all(each.is_near(seen[0], tolerance) for each in seen[-1:])
+
+        wait_until(moves, PATIENCE_S, f'the link {link} to move')
+
     def box(self, label: str) -> Any:
         """Return the field for text or numbers whose label begins with a text."""
         labels = self.page.locator('label').filter(has_text=re.compile(f'^{re.escape(label)}'))
-        row = labels.first.locator('xpath=ancestor::*[contains(@class, "Flex-root")][1]')
+        row = labels.filter(visible=True).first.locator(
+            'xpath=ancestor::*[contains(@class, "Flex-root")][1]'
+        )
         return row.locator('input:not([type=hidden])').first
 
     def button(self, name: str) -> Any:
@@ -114,7 +128,10 @@ class Tab:
         return self.page.frame_locator(f'iframe[title={title}]')
 
     def picture(self, name: str) -> Path:
-        """Keep what is seen."""
+        """Keep what is seen, without what viser says about machines without a graphics card."""
+        for button in self.page.locator('.mantine-Notification-closeButton').all():
+            button.click()
+        wait_until(lambda: not self.page.locator('.mantine-Notification-root').count(), 20.0, '')
         path = PICTURES / f'{name}.png'
         self.page.screenshot(path=path, timeout=PATIENCE_S * 1000.0)
         return path

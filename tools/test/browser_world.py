@@ -13,9 +13,9 @@ from domain_coordinator import domain_id
 from programs import Program, wait_until
 from ros_side import ros_side, RosSide
 
-__all__ = ['World', 'memory_mb', 'pid_of', 'urls', 'world']
+__all__ = ['RVIZ', 'SLIDERS', 'World', 'memory_mb', 'pid_of', 'url_of', 'world']
 
-ADDRESS = re.compile(r'(?:RViz is|The sliders are) at (http://\S+)')
+RVIZ, SLIDERS = 'RViz is', 'The sliders are'
 STARTED = re.compile(r'\[(\w+)-\d+\]: process started with pid \[(\d+)\]')
 BAD = ('Traceback', 'has died', 'has met an error', 'has been stopped', 'never retrieved')
 
@@ -57,10 +57,11 @@ class World:
             program.clean_up()
 
 
-def urls(program: Program, count: int = 1) -> list[str]:
-    """Return the addresses that a program prints."""
-    wait_until(lambda: len(ADDRESS.findall(program.output)) >= count, 60.0, lambda: program.output)
-    return ADDRESS.findall(program.output)
+def url_of(program: Program, said: str = RVIZ) -> str:
+    """Return the address that a program prints."""
+    pattern = re.compile(rf'{said} at (http://\S+)')
+    wait_until(lambda: pattern.search(program.output), 60.0, lambda: program.output)
+    return pattern.findall(program.output)[-1]
 
 
 def pid_of(program: Program, name: str) -> int:

@@ -10,6 +10,7 @@ from typing import Any
 
 from browser import Place
 from programs import wait_until
+from rcl_interfaces.srv import GetParameters
 import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -49,6 +50,15 @@ class RosSide:
         from std_msgs.msg import String
 
         return parse_urdf(self.first(String, '/robot_description', LATCHED).data)
+
+    def parameter(self, node: str, name: str) -> Any:
+        """Return the value of a parameter of a node, as the node says."""
+        client = self.node.create_client(GetParameters, f'{node}/get_parameters')
+        assert client.wait_for_service(30.0)
+        answer = client.call_async(GetParameters.Request(names=[name]))
+        wait_until(answer.done, 30.0, f'the answer of {node}')
+        self.node.destroy_client(client)
+        return answer.result().values[0]
 
     def nodes(self) -> set[str]:
         """Return the names of all nodes."""

@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+import os
+import signal
 from typing import Any
 
 from browser import Browser, browser_started, Tab
-from browser_world import pid_of, urls, World, world
+from browser_world import pid_of, url_of, World, world
 from programs import wait_until
 import pytest
 from ros_side import expected_place, LATCHED
@@ -35,7 +37,7 @@ def robot(tmp_path_factory: pytest.TempPathFactory, browser: Browser) -> Iterato
 @pytest.fixture(scope='module')
 def tab(robot: World, browser: Browser) -> Tab:
     """Open the page that the humanoid has printed."""
-    tab = browser.open(urls(robot.programs[0])[0])
+    tab = browser.open(url_of(robot.programs[0]))
     tab.wait_for_link(FOREARM)
     return tab
 
@@ -44,12 +46,6 @@ def state_of(robot: World, joint: str) -> float:
     """Return where a joint is."""
     newest = robot.ros.listen(JointState, '/joint_states')[-1]
     return newest.position[newest.name.index(joint)]
-
-
-def wait_for_motion(tab: Tab) -> None:
-    """Wait until the forearm moves in the scene."""
-    at = tab.place(FOREARM)
-    wait_until(lambda: not tab.place(FOREARM).is_near(at, 0.02), 30.0, 'the forearm to move')
 
 
 def commands(robot: World) -> list[Any]:
@@ -85,7 +81,7 @@ def test_the_robot_is_shown_where_it_is(robot: World, tab: Tab) -> None:
     model = robot.ros.model()
     robot.ros.first(JointState, '/joint_states')
     robot.ros.first(JointState, '/joint_commands')
-    wait_for_motion(tab)
+    tab.wait_for_motion(FOREARM)
     press_stop(robot, tab)
 
     def is_right() -> bool:
@@ -98,8 +94,58 @@ def test_the_robot_is_shown_where_it_is(robot: World, tab: Tab) -> None:
     wait_until(lambda: len(commands(robot)) > told + 50, 30.0, 'more commands')
     assert tab.place(FOREARM) == seen
     release(robot, tab)
-    wait_for_motion(tab)
+    tab.wait_for_motion(FOREARM)
     tab.picture('console_moving')
+
+
+def test_a_parameter_is_changed(robot: World, tab: Tab) -> None:
+    """A value that is typed in the page is that of the node; a refusal is shown."""
+    tab.show('Parameters')
+    page = tab.small('parameters')
+    page.get_by_label('Node').select_option('/sensor_processor')
+    field = page.get_by_label('report_period_s')
+    field.fill('0.5')
+    field.press('Enter')
+    wait_until(lambda: period_s(robot) == 0.5, 30.0, lambda: f'not {period_s(robot)}')
+    field.fill('-1')
+    field.press('Enter')
+    page.locator('.note.bad').filter(has_text='It must be from 0.1').wait_for()
+    tab.picture('console_parameters')
+    assert period_s(robot) == 0.5
+
+
+def period_s(robot: World) -> float:
+    """Return how often the sensor processor reports, as it says itself."""
+    return robot.ros.parameter('/sensor_processor', 'report_period_s').double_value
+
+
+def test_a_recording_is_made_and_played(robot: World, tab: Tab) -> None:
+    """What was recorded from the page moves the robot in the scene when all others are gone."""
+    tab.wait_for_motion(FOREARM)
+    tab.show('Recordings')
+    tab.box('Name').fill('swing')
+    tab.button('Record').click()
+    tab.page.get_by_text('Recording swing').wait_for()
+    heard = len(commands(robot))
+    wait_until(lambda: len(commands(robot)) > heard + 150, 30.0, 'something to record')
+    tab.button('Stop recording').click()
+    tab.page.get_by_text('Recorded swing').wait_for()
+    end_robot(robot)
+    tab.box('Loop').check()
+    tab.button('Play').click()
+    tab.page.get_by_text('PLAYING swing', exact=True).wait_for()
+    tab.wait_for_motion(FOREARM)
+    tab.picture('console_playing')
+    tab.button('Stop').click()
+    tab.page.get_by_text('PLAYING swing', exact=True).wait_for(state='detached')
+
+
+def end_robot(robot: World) -> None:
+    """End all but the console."""
+    program = robot.programs[0]
+    for name in ('joint_controller', 'joint_state_publisher', 'robot_state_publisher'):
+        os.kill(pid_of(program, name), signal.SIGINT)
+    wait_until(lambda: program.output.count('has finished cleanly') == 3, 30.0, 'their end')
 
 
 def test_nothing_is_loaded_from_elsewhere(robot: World, tab: Tab) -> None:

@@ -119,3 +119,13 @@ def test_links_lead_somewhere() -> None:
         if not (page.parent / target).exists()
     ]
     assert broken == []
+
+
+def test_pictures_are_small_and_shown() -> None:
+    """Each picture is shown by a page, and none is large."""
+    pages = [*DOCS.rglob('*.md'), DOCS.parent / 'README.md']
+    text = ''.join(page.read_text() for page in pages)
+    pictures = list(DOCS.glob('pictures/*.png'))
+    assert len(pictures) > 3
+    assert [each for each in pictures if f'pictures/{each.name})' not in text] == []
+    assert [each for each in pictures if each.stat().st_size > 150_000] == []

@@ -10,6 +10,7 @@ import sys
 import commands
 from console import SetupError
 from locations import Locations
+from ownership import Home
 import processes
 from programs import runs, wait_until
 import pytest
@@ -24,12 +25,55 @@ def locations(tmp_path: Path) -> Locations:
 
 def test_an_environment_of_another_place_is_refused(locations: Locations) -> None:
     """A moved workspace gets the command that makes its environment anew."""
-    home = Stamp(locations.environment / 'stamp' / 'home')
-    commands.require_same_home(locations, home, 'here')
-    home.write('here')
-    commands.require_same_home(locations, home, 'here')
-    with pytest.raises(SetupError, match='make distclean setup'):
-        commands.require_same_home(locations, home, 'there')
+    home = Home(locations)
+    home.require_same()
+    home.write()
+    home.require_same()
+    Stamp(locations.environment / 'stamp' / 'home').write('/moved\n/moved/.venv\n3.11')
+    with pytest.raises(SetupError, match='run `make distclean setup` to make it anew'):
+        home.require_same()
+
+
+@pytest.fixture
+def neighbour(tmp_path: Path) -> Locations:
+    """Return the locations of another workspace, with an environment."""
+    root = tmp_path / 'neighbour'
+    (root / 'tools' / 'setup').mkdir(parents=True)
+    environment = tmp_path / 'cache' / 'humanoid-workspace' / 'a1b2'
+    there = Locations(root, root / '.venv', environment)
+    Home(there).write()
+    return there
+
+
+def test_the_environment_of_another_workspace_is_refused(
+    tmp_path: Path, neighbour: Locations
+) -> None:
+    """Who names the environment of another workspace is asked to choose another one."""
+    here = Locations(tmp_path, tmp_path / '.venv', neighbour.environment)
+    with pytest.raises(SetupError) as caught:
+        Home(here).require_same()
+    assert str(caught.value) == (
+        f'The environment in {neighbour.environment} belongs to the workspace in '
+        f'{neighbour.root}: choose another VENV, as in: make setup VENV=/opt/venv'
+    )
+
+
+def test_the_environment_of_another_workspace_is_not_deleted(
+    tmp_path: Path, neighbour: Locations, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Distclean refuses one that is named; of one that a link leads to, only the link goes."""
+    monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path / 'cache'))
+    monkeypatch.setattr(commands, 'ROOT', tmp_path)
+    here = Locations(tmp_path, tmp_path / '.venv', neighbour.environment)
+    (tmp_path / 'build').mkdir()
+    with pytest.raises(SetupError, match='belongs to the workspace in .*neighbour'):
+        commands.run('distclean', here, [])
+    assert (tmp_path / 'build').is_dir()
+    here.link.symlink_to(neighbour.environment)
+    with pytest.raises(SetupError, match='make distclean setup`, which leaves that one alone'):
+        Home(here).require_same()
+    assert commands.run('distclean', here, []) == 0
+    assert neighbour.environment.is_dir() and not here.link.is_symlink()
 
 
 def test_only_the_own_environment_is_deleted(tmp_path: Path, locations: Locations) -> None:

@@ -8,7 +8,6 @@ from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDesc
 from launch.conditions import IfCondition
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
-from launch_ros.actions import SetParameter
 from launch_ros.substitutions import FindPackageShare
 
 
@@ -35,7 +34,6 @@ def generate_launch_description() -> LaunchDescription:
                 choices=['true', 'false'],
                 description='Show the robot in RViz, with what one drives and watches it with.',
             ),
-            SetParameter(name='use_sim_time', value=use_sim_time),
             GroupAction([_include('humanoid_bringup', 'console')], condition=IfCondition(gui)),
             _include(
                 'humanoid_control',
@@ -43,7 +41,9 @@ def generate_launch_description() -> LaunchDescription:
                 use_controller=LaunchConfiguration('use_controller'),
                 use_sim_time=use_sim_time,
             ),
-            GroupAction([_include('humanoid_description', 'view', gui='false')]),
+            GroupAction(
+                [_include('humanoid_description', 'view', gui='false', use_sim_time=use_sim_time)]
+            ),
         ]
     )
 

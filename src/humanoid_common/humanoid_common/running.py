@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 import sys
 
+from humanoid_common.clock_watch import watch_clock
 from humanoid_common.errors import NodeStartError
 from humanoid_common.interrupts import stop_on_signals
 from humanoid_common.stop_request import StopRequest
@@ -61,6 +62,7 @@ def _initialize(args: Sequence[str] | None) -> None:
 def _run(factory: NodeFactory, stop: StopRequest) -> None:
     """Make the node, run its callbacks until the request to stop, and destroy it."""
     node = factory()
+    watch_clock(node)
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     waker = node.create_guard_condition(lambda: None)

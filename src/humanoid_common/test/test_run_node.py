@@ -91,6 +91,16 @@ def test_signal_ends_in_order(tmp_path: Path, number: signal.Signals) -> None:
         assert_clean_exit(program.stop(number))
 
 
+def test_time_that_nobody_tells(tmp_path: Path) -> None:
+    """A node that takes the time from /clock says that nobody publishes it, and works on."""
+    script = tmp_path / 'busy.py'
+    script.write_text(BUSY, encoding='utf-8')
+    command = [sys.executable, str(script), '--ros-args', '-p', 'use_sim_time:=true']
+    with ros_sandbox(), running_program(command) as program:
+        program.wait_for_output('use_sim_time is true, but nobody publishes /clock: ')
+        assert_clean_exit(program.stop(signal.SIGTERM))
+
+
 def test_repeated_signals(tmp_path: Path) -> None:
     """Signals that come thick and fast do not disturb the end."""
     script = tmp_path / 'busy.py'

@@ -7,13 +7,16 @@ from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
-from launch_ros.actions import Node, SetParameter
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
 
 def generate_launch_description() -> LaunchDescription:
     """Describe the controller, and include what shows the model."""
     config = PathJoinSubstitution([FindPackageShare('humanoid_control'), 'config'])
+    use_sim_time = LaunchConfiguration('use_sim_time')
+    time = {'use_sim_time': ParameterValue(use_sim_time, value_type=bool)}
     view = [FindPackageShare('humanoid_description'), 'launch', 'view.launch.py']
     return LaunchDescription(
         [
@@ -29,16 +32,18 @@ def generate_launch_description() -> LaunchDescription:
                 choices=['true', 'false'],
                 description='Show RViz, and sliders for the joints.',
             ),
-            SetParameter(name='use_sim_time', value=LaunchConfiguration('use_sim_time')),
             IncludeLaunchDescription(
                 PythonLaunchDescriptionSource(PathJoinSubstitution(view)),
-                launch_arguments={'gui': LaunchConfiguration('gui')}.items(),
+                launch_arguments={
+                    'gui': LaunchConfiguration('gui'),
+                    'use_sim_time': use_sim_time,
+                }.items(),
             ),
             Node(
                 package='humanoid_control',
                 executable='joint_controller',
                 output='screen',
-                parameters=[PathJoinSubstitution([config, 'joint_controller.yaml'])],
+                parameters=[PathJoinSubstitution([config, 'joint_controller.yaml']), time],
             ),
         ]
     )

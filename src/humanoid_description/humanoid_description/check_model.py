@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+import os
 from pathlib import Path
+import signal
 import sys
 
 from humanoid_description.errors import DescriptionError
@@ -16,10 +18,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     arguments = _parser().parse_args(argv)
     try:
         text, source = _urdf(arguments)
-        return _check(text, source)
+        return _check(text, source, (arguments.file or Path()).parent)
     except DescriptionError as error:
         print(error, file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return 128 + signal.SIGINT
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -31,6 +35,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         'file', nargs='?', type=Path, help='a URDF or xacro file (default: the humanoid)'
+    )
+    parser.add_argument(
+        'arguments', nargs='*', metavar='NAME:=VALUE', help='arguments of the xacro file'
     )
     humanoid = parser.add_argument_group('which humanoid, if no file is given')
     humanoid.add_argument('--scale', type=float, help='its size, 0.5 to 1.3 (default: 1.0)')
@@ -50,21 +57,39 @@ def _urdf(arguments: argparse.Namespace) -> tuple[str, str]:
             'which say which humanoid to make, or leave out the file.'
         )
     try:
-        return _file(path), str(path)
+        return _file(path, arguments.arguments)
     except OSError as error:
         raise DescriptionError(f'{path} cannot be read: {error.strerror}.') from error
     except UnicodeDecodeError as error:
-        raise DescriptionError(f'{path} is no text file.') from error
+        raise DescriptionError(f'{path} is no text in UTF-8.') from error
 
 
-def _file(path: Path) -> str:
-    """Return the URDF in a file, or what a xacro file expands to."""
-    text = path.read_text()
+def _file(path: Path, words: Sequence[str]) -> tuple[str, str]:
+    """Return the URDF in a file, or what a xacro file expands to, and what to call it."""
+    given = _given(path, words)
+    text = path.read_text(encoding='utf-8')
     if path.suffix != '.xacro':
-        return text
+        return text, str(path)
     from humanoid_description.expansion import expand
 
-    return expand(path, {})
+    return expand(path, given), f'What xacro makes of {path}'
+
+
+def _given(path: Path, words: Sequence[str]) -> dict[str, str]:
+    """Return the arguments of a xacro file by their names."""
+    if ':=' in str(path):
+        raise DescriptionError(
+            f"'{path}' is an argument of a xacro file: name the file before it. The humanoid has "
+            'the options --scale, --prefix and --upper-body-only.'
+        )
+    for word in words:
+        if ':=' not in word[1:]:
+            raise DescriptionError(
+                f"'{word}' is not NAME:=VALUE, as arguments of a xacro file are. Give one file."
+            )
+    if words and path.suffix != '.xacro':
+        raise DescriptionError(f"{path} is no xacro file, and takes no '{words[0]}'.")
+    return {name: value for name, _, value in (word.partition(':=') for word in words)}
 
 
 def _humanoid(arguments: argparse.Namespace) -> tuple[str, str]:
@@ -75,18 +100,34 @@ def _humanoid(arguments: argparse.Namespace) -> tuple[str, str]:
     scale = 1.0 if arguments.scale is None else arguments.scale
     load_scaling().check(scale)
     urdf = humanoid_urdf(scale, arguments.prefix or '', arguments.upper_body_only)
-    return urdf, f'The humanoid at scale {scale:g}'
+    which = 'The upper body of the humanoid' if arguments.upper_body_only else 'The humanoid'
+    prefix = f" with the prefix '{arguments.prefix}'" if arguments.prefix else ''
+    return urdf, f'{which}{prefix} at scale {scale:g}'
 
 
-def _check(text: str, source: str) -> int:
+def _check(text: str, source: str, folder: Path) -> int:
     """Check a URDF, and print what was found."""
     from humanoid_description.checks import check_robot
     from humanoid_description.loading import load_robot
     from humanoid_description.report import report
 
-    outcomes = check_robot(load_robot(text, source))
-    print(report(source, outcomes))
-    return int(any(outcome.defects for outcome in outcomes))
+    outcomes = check_robot(load_robot(text, source, folder))
+    shown = _show(report(source, outcomes))
+    return shown or int(any(outcome.defects for outcome in outcomes))
+
+
+def _show(text: str) -> int:
+    """Print a text; return another exit status than 0 if nobody gets it."""
+    try:
+        print(text, flush=True)
+    except OSError as error:
+        # The interpreter would try once more at the end, and complain.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if isinstance(error, BrokenPipeError):
+            return 128 + signal.SIGPIPE
+        print(f'The result cannot be written: {error.strerror}.', file=sys.stderr)
+        return 1
+    return 0
 
 
 if __name__ == '__main__':

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 import subprocess
+import sys
 
 from humanoid_description.errors import DescriptionError
 from humanoid_description.files import share
@@ -40,4 +41,5 @@ def expand(path: Path, arguments: Mapping[str, str]) -> str:
         ) from error
     if result.returncode != 0:
         raise DescriptionError(f'xacro cannot expand {path}:\n{result.stderr.strip()}')
+    sys.stderr.write(result.stderr)
     return result.stdout

@@ -4,16 +4,22 @@
 from __future__ import annotations
 
 import io
+from pathlib import Path
 from typing import Any
 
 from humanoid_description.errors import DescriptionError
 from humanoid_description.robot import Array, Body, Joint, Limits, Link, Robot, Shape
-from humanoid_description.urdf_text import refuse_what_is_unreadable
+from humanoid_description.urdf_text import lines_of, refuse_what_is_unreadable
 import numpy as np
 
 
-def load_robot(text: str, source: str) -> Robot:
-    """Return the robot that a URDF describes; source is what error messages call it."""
+def load_robot(text: str, source: str, folder: Path = Path()) -> Robot:
+    """
+    Return the robot that a URDF describes.
+
+    :param source: what error messages call it
+    :param folder: where the files are that it names without a folder
+    """
     refuse_what_is_unreadable(text, source)
     try:
         from yourdfpy import URDF
@@ -23,7 +29,12 @@ def load_robot(text: str, source: str) -> Robot:
         ) from error
 
     read = URDF.load(io.BytesIO(text.encode()), build_scene_graph=False, load_meshes=False).robot
-    return Robot(read.name, tuple(map(_link, read.links)), tuple(map(_joint, read.joints)))
+    return Robot(
+        read.name,
+        tuple(map(_link, read.links, lines_of(text, 'link'))),
+        tuple(map(_joint, read.joints, lines_of(text, 'joint'))),
+        folder,
+    )
 
 
 def _pose(origin: Any) -> Array:
@@ -31,13 +42,14 @@ def _pose(origin: Any) -> Array:
     return np.eye(4) if origin is None else np.asarray(origin, dtype=np.float64)
 
 
-def _link(link: Any) -> Link:
+def _link(link: Any, line: int) -> Link:
     """Build a link."""
     return Link(
         link.name,
         _body(link.inertial),
         tuple(map(_shape, link.visuals)),
         tuple(map(_shape, link.collisions)),
+        line,
     )
 
 
@@ -57,10 +69,10 @@ def _shape(element: Any) -> Shape:
         return Shape('cylinder', (geometry.cylinder.radius, geometry.cylinder.length), pose)
     if geometry.sphere:
         return Shape('sphere', (geometry.sphere.radius,), pose)
-    return Shape('mesh', (), pose)
+    return Shape('mesh', (), pose, geometry.mesh.filename)
 
 
-def _joint(joint: Any) -> Joint:
+def _joint(joint: Any, line: int) -> Joint:
     """Build a joint."""
     limit = joint.limit
     return Joint(
@@ -72,4 +84,6 @@ def _joint(joint: Any) -> Joint:
         joint.axis,
         # URDF takes an end of the range that is not given as zero.
         limit and Limits(limit.lower or 0.0, limit.upper or 0.0, limit.effort, limit.velocity),
+        joint.mimic and joint.mimic.joint,
+        line,
     )

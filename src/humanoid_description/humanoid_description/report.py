@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import groupby
 
 from humanoid_description.checks import Outcome
+from humanoid_description.checks.outcome import count
 
 HEAD = ('check', 'found', 'result')
 
@@ -17,10 +19,20 @@ def report(source: str, outcomes: Sequence[Outcome]) -> str:
 
 def _table(outcomes: Sequence[Outcome]) -> Iterator[str]:
     """Yield the lines of the table."""
-    rows = [(outcome.title, outcome.found, outcome.result) for outcome in outcomes]
+    rows = list(_rows(outcomes))
     widths = [max(map(len, column)) for column in zip(HEAD, *rows)]
     for row in (HEAD, tuple('-' * width for width in widths), *rows):
         yield '  '.join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip()
+
+
+def _rows(outcomes: Sequence[Outcome]) -> Iterator[tuple[str, str, str]]:
+    """Yield the cells of a line for each check, but one line for all that have one obstacle."""
+    for obstacle, group in groupby(outcomes, key=lambda outcome: outcome.skipped):
+        checks = list(group)
+        if obstacle and len(checks) > 1:
+            yield f'{len(checks)} more', '', checks[0].result
+        else:
+            yield from ((check.title, check.found, check.result) for check in checks)
 
 
 def _sentences(source: str, outcomes: Sequence[Outcome]) -> Iterator[str]:
@@ -29,11 +41,6 @@ def _sentences(source: str, outcomes: Sequence[Outcome]) -> Iterator[str]:
     skipped = sum(bool(outcome.skipped) for outcome in outcomes)
     passed = sum(not outcome.defects for outcome in outcomes) - skipped
     yield from (f'- {defect.strip()}' for defect in defects)
-    counts = f'{passed} checks passed' + (f', {skipped} skipped' if skipped else '')
-    verdict = f'has {_count(len(defects))}' if defects else 'is sound'
+    counts = f'{count(passed, "check")} passed' + (f', {skipped} skipped' if skipped else '')
+    verdict = f'has {count(len(defects), "defect")}' if defects else 'is sound'
     yield f'{source} {verdict}: {counts}.'
-
-
-def _count(defects: int) -> str:
-    """Say how many defects there are."""
-    return '1 defect' if defects == 1 else f'{defects} defects'

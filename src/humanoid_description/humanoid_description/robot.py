@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,11 +27,12 @@ class Body:
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """A box (three edges), cylinder (radius, length), sphere (radius) or mesh (nothing)."""
+    """A box (three edges), cylinder (radius, length), sphere (radius) or mesh (a file)."""
 
     kind: str
     size_m: tuple[float, ...]
     pose: Array
+    file: str = ''
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +43,7 @@ class Link:
     body: Body | None = None
     visuals: tuple[Shape, ...] = ()
     collisions: tuple[Shape, ...] = ()
+    line: int | None = None
 
 
 @dataclass(frozen=True)
@@ -64,6 +67,8 @@ class Joint:
     pose: Array
     axis: Array
     limits: Limits | None = None
+    mimics: str | None = None
+    line: int | None = None
 
     @property
     def is_driven(self) -> bool:
@@ -78,6 +83,7 @@ class Robot:
     name: str
     links: tuple[Link, ...]
     joints: tuple[Joint, ...]
+    folder: Path = Path()
 
     @cached_property
     def link(self) -> dict[str, Link]:
@@ -109,6 +115,16 @@ class Robot:
     def mass_kg(self) -> float:
         """Return the mass of all links together."""
         return sum(link.body.mass_kg for link in self.links if link.body)
+
+
+def line_of(part: Link | Joint) -> str:
+    """Return what a sentence on a link or joint begins with."""
+    return '' if part.line is None else f'line {part.line}: '
+
+
+def named(part: Link | Joint) -> str:
+    """Return a link or joint as the subject of a sentence, with its line."""
+    return f"{line_of(part)}{type(part).__name__} '{part.name}'"
 
 
 def repeated(names: Iterable[str]) -> list[str]:

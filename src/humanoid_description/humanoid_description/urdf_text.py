@@ -19,6 +19,14 @@ NUMBERS = {
     'box': {'size': 3},
     'cylinder': {'radius': 1, 'length': 1},
     'sphere': {'radius': 1},
+    'mesh': {'scale': 3},
+    'color': {'rgba': 4},
+    'dynamics': {'damping': 1, 'friction': 1},
+    'mimic': {'multiplier': 1, 'offset': 1},
+    'calibration': {'rising': 1, 'falling': 1},
+    'safety_controller': dict.fromkeys(
+        ('soft_lower_limit', 'soft_upper_limit', 'k_position', 'k_velocity'), 1
+    ),
 }
 # What an element must have: attributes, and elements in it.
 ATTRIBUTES = {
@@ -27,6 +35,7 @@ ATTRIBUTES = {
     'joint': ('name', 'type'),
     'parent': ('link',),
     'child': ('link',),
+    'mimic': ('joint',),
     'mass': ('value',),
     'inertia': tuple(NUMBERS['inertia']),
     'box': ('size',),
@@ -63,6 +72,13 @@ def refuse_what_is_unreadable(text: str, source: str) -> None:
             raise DescriptionError(f'{where}: {_owner(element)}{problem}')
 
 
+def lines_of(text: str, tag: str) -> list[int]:
+    """Return the lines on which the links or the joints of a readable text begin."""
+    from lxml import etree
+
+    return [element.sourceline for element in etree.fromstring(text.encode()).findall(tag)]
+
+
 def _elements(element: Any) -> Iterator[Any]:
     """Yield the elements that describe the robot."""
     if not isinstance(element.tag, str) or element.tag in FOREIGN:
@@ -73,7 +89,10 @@ def _elements(element: Any) -> Iterator[Any]:
 
 
 def _problems(element: Any) -> Iterator[str]:
-    """Yield sentences on what is missing or no number."""
+    """Yield sentences on what is missing or no number, or what no program has expanded."""
+    if element.prefix == 'xacro':
+        tag = f'xacro:{element.tag.rpartition("}")[2]}'
+        yield f'<{tag}> is xacro and not URDF. Expand the file first, or name it .xacro.'
     for attribute in ATTRIBUTES.get(element.tag, ()):
         if not element.get(attribute):
             yield f"<{element.tag}> lacks the attribute '{attribute}'."

@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from ament_index_python.packages import get_packages_with_prefixes
-from launch import LaunchContext, LaunchDescription
-from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
 from launch.conditions import IfCondition, UnlessCondition
 from launch.substitutions import Command, LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
@@ -14,7 +13,6 @@ from launch_ros.substitutions import FindPackageShare
 
 # Joints follow these topics; without a message they stay where the sliders are, or at zero.
 SOURCES = {'source_list': ['joint_commands']}
-GUI = ('joint_state_publisher_gui', 'rviz2')
 
 
 def generate_launch_description() -> LaunchDescription:
@@ -23,10 +21,11 @@ def generate_launch_description() -> LaunchDescription:
     model = PathJoinSubstitution([share, 'urdf', 'humanoid.urdf.xacro'])
     view = PathJoinSubstitution([share, 'config', 'robot_view.rviz'])
     gui, prefix = LaunchConfiguration('gui'), LaunchConfiguration('prefix')
-    urdf = ['xacro ', model]
+    urdf = ['xacro "', model, '"']
     for argument in ('scale', 'prefix', 'upper_body_only'):
         urdf += [f' {argument}:=', LaunchConfiguration(argument)]
     description = {'robot_description': ParameterValue(Command(urdf), value_type=str)}
+    time = {'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)}
     return LaunchDescription(
         [
             DeclareLaunchArgument(
@@ -49,39 +48,35 @@ def generate_launch_description() -> LaunchDescription:
                 choices=['true', 'false'],
                 description='Leave out the legs.',
             ),
-            OpaqueFunction(function=_require_gui, condition=IfCondition(gui)),
+            DeclareLaunchArgument(
+                'use_sim_time',
+                default_value='false',
+                choices=['true', 'false'],
+                description='Take the time from the topic /clock instead of the computer.',
+            ),
             Node(
                 package='robot_state_publisher',
                 executable='robot_state_publisher',
-                parameters=[description],
+                parameters=[description, time],
             ),
             Node(
                 package='joint_state_publisher',
                 executable='joint_state_publisher',
-                parameters=[SOURCES],
+                parameters=[SOURCES, time],
                 condition=UnlessCondition(gui),
             ),
             Node(
                 package='joint_state_publisher_gui',
                 executable='joint_state_publisher_gui',
-                parameters=[SOURCES],
+                parameters=[SOURCES, time],
                 condition=IfCondition(gui),
             ),
             Node(
                 package='rviz2',
                 executable='rviz2',
                 arguments=['-d', view, '-f', [prefix, 'base_link']],
+                parameters=[time],
                 condition=IfCondition(gui),
             ),
         ]
     )
-
-
-def _require_gui(context: LaunchContext) -> None:
-    """Say which of the packages with windows are not installed, before anything starts."""
-    missing = [name for name in GUI if name not in get_packages_with_prefixes()]
-    if missing:
-        raise RuntimeError(
-            f'What shows the robot is not installed: {", ".join(missing)}. Install it, or start '
-            'the rest with gui:=false'
-        )

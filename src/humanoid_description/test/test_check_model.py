@@ -5,11 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+import subprocess
+import sys
 from xml.etree import ElementTree
 
 from ament_index_python.packages import get_package_share_directory
 from humanoid_description.check_model import main
 from humanoid_description.checks import check_robot
+from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot
 import pytest
 
@@ -117,6 +120,21 @@ def unknown_type(robot: Element) -> None:
     joint(robot, 'waist_yaw').set('type', 'revolut')
 
 
+def mimics(follower: str, leader: str) -> Break:
+    """Return what lets a joint follow another."""
+
+    def break_it(robot: Element) -> None:
+        ElementTree.SubElement(joint(robot, follower), 'mimic', joint=leader)
+
+    return break_it
+
+
+def circle(robot: Element) -> None:
+    """Let two joints follow each other, and a third one of them."""
+    for pair in (('head_yaw', 'waist_yaw'), ('waist_yaw', 'head_yaw'), ('head_pitch', 'head_yaw')):
+        mimics(*pair)(robot)
+
+
 def other_frame(robot: Element) -> None:
     """Name a frame as REP 120 does not."""
     link(robot, 'l_wrist').set('name', 'left_wrist')
@@ -141,6 +159,71 @@ def other_range(robot: Element) -> None:
         part(joint(robot, f'{side}_shoulder_roll'), 'limit') for side in ('right', 'left')
     )
     limit.attrib.update(left.attrib)
+
+
+def slightly_longer_leg(robot: Element) -> None:
+    """Make one leg longer by a tenth of a millimetre."""
+    part(joint(robot, 'right_ankle_pitch'), 'origin').set('xyz', '0 0 -0.3001')
+
+
+def other_strength(robot: Element) -> None:
+    """Let one knee be slower."""
+    part(joint(robot, 'left_knee'), 'limit').set('velocity', '1.5')
+
+
+def other_kind(robot: Element) -> None:
+    """Let one elbow turn without an end."""
+    joint(robot, 'right_elbow').set('type', 'continuous')
+
+
+def other_centre(robot: Element) -> None:
+    """Put the weight of one thigh aside."""
+    part(link(robot, 'left_thigh'), 'inertial/origin').set('xyz', '0.01 0 -0.15')
+
+
+def other_inertia(robot: Element) -> None:
+    """Give one thigh another moment."""
+    inertia = part(link(robot, 'left_thigh'), 'inertial/inertia')
+    inertia.set('ixx', str(1.01 * float(inertia.attrib['ixx'])))
+
+
+def one_body(robot: Element) -> None:
+    """Give one hand a mass, and the other none."""
+    link(robot, 'l_gripper').append(part(link(robot, 'left_foot'), 'inertial'))
+
+
+def third_arm(robot: Element) -> None:
+    """Add a link on the left side only."""
+    ElementTree.SubElement(robot, 'link', name='left_tail')
+    ElementTree.SubElement(robot, 'joint', name='tail', type='fixed').extend(
+        [Element('parent', link='base_link'), Element('child', link='left_tail')]
+    )
+
+
+def no_velocity(robot: Element) -> None:
+    """Take the speed from a joint."""
+    part(joint(robot, 'head_pitch'), 'limit').set('velocity', '0')
+
+
+def slightly_impossible_inertia(robot: Element) -> None:
+    """Give a thigh a moment that is too large by a hundredth."""
+    inertia = part(link(robot, 'left_thigh'), 'inertial/inertia')
+    inertia.attrib.update(ixx='1', iyy='1', izz='2.02', ixy='0', ixz='0', iyz='0')
+
+
+def somewhat_heavy_torso(robot: Element) -> None:
+    """Make the torso heavier by a thirtieth of the robot."""
+    part(link(robot, 'torso'), 'inertial/mass').set('value', '13.4')
+
+
+def hands_apart(robot: Element) -> None:
+    """Let the arms not turn inwards."""
+    for side in ('left', 'right'):
+        yaw = part(joint(robot, f'{side}_shoulder_yaw'), 'limit')
+        yaw.attrib.update(lower='-0.01', upper='0.01')
+        roll = part(joint(robot, f'{side}_shoulder_roll'), 'limit')
+        lower, upper = ('0.6', '0.7') if side == 'left' else ('-0.7', '-0.6')
+        roll.attrib.update(lower=lower, upper=upper)
 
 
 def heavy_foot(robot: Element) -> None:
@@ -213,6 +296,18 @@ BROKEN: dict[str, tuple[Break, str]] = {
         unknown_type,
         "Joint 'waist_yaw' is of the unknown type 'revolut'. Did you mean 'revolute'?",
     ),
+    'unknown leader': (
+        mimics('left_elbow', 'right_elbo'),
+        "Joint 'left_elbow' mimics 'right_elbo', which is no joint. Did you mean 'right_elbow'?",
+    ),
+    'fixed leader': (
+        mimics('left_elbow', 'camera_link_fixed'),
+        "Joint 'left_elbow' mimics 'camera_link_fixed', which has no position: it is fixed.",
+    ),
+    'circle': (
+        circle,
+        "in a circle, so that nothing moves them: 'waist_yaw', 'head_yaw', 'head_pitch'.",
+    ),
     'other frame': (
         other_frame,
         "The frame 'l_wrist' is missing, which REP 120 names. Did you mean 'left_wrist'?",
@@ -227,6 +322,32 @@ BROKEN: dict[str, tuple[Break, str]] = {
         "Joints 'left_ankle_pitch' and 'right_ankle_pitch' are not at mirrored places: "
         '(0, 0, -0.3) and (0, 0, -0.32).',
     ),
+    'slightly longer leg': (slightly_longer_leg, '(0, 0, -0.3) and (0, 0, -0.3001).'),
+    'other strength': (
+        other_strength,
+        "Joints 'left_knee' and 'right_knee' have no mirrored ranges and strengths",
+    ),
+    'other kind': (
+        other_kind,
+        "Joints 'left_elbow' and 'right_elbow' are of different types, revolute and continuous.",
+    ),
+    'other centre': (
+        other_centre,
+        "Links 'left_thigh' and 'right_thigh' have no mirrored centres of mass",
+    ),
+    'other inertia': (
+        other_inertia,
+        "Links 'left_thigh' and 'right_thigh' have no mirrored inertia.",
+    ),
+    'one body': (one_body, "Links 'l_gripper' and 'r_gripper': only one of them has a mass."),
+    'third arm': (
+        third_arm,
+        "There is the link 'left_tail', but no 'right_tail' on the other side.",
+    ),
+    'no velocity': (no_velocity, "Joint 'head_pitch' has 0 as velocity limit"),
+    'slightly impossible inertia': (slightly_impossible_inertia, 'the inertia of no real body'),
+    'somewhat heavy torso': (somewhat_heavy_torso, 'kg; at its height of 1.35 m it should weigh'),
+    'hands apart': (hands_apart, 'the hands cannot meet in front of it'),
     'other range': (
         other_range,
         "Joints 'left_shoulder_roll' and 'right_shoulder_roll' have no mirrored ranges",
@@ -253,7 +374,9 @@ def test_humanoid_is_sound(
 ) -> None:
     """The humanoid passes every check in every size, whole or without legs."""
     assert main(['--scale', scale, *more]) == 0
-    assert capsys.readouterr().out.endswith('is sound: 16 checks passed.\n')
+    which = "The upper body of the humanoid with the prefix 'r1_'" if more else 'The humanoid'
+    verdict = f'{which} at scale {float(scale):g} is sound: 18 checks passed.\n'
+    assert capsys.readouterr().out.endswith(verdict)
 
 
 @pytest.mark.parametrize('name', BROKEN)
@@ -268,14 +391,24 @@ def test_broken_model(name: str, urdf: str) -> None:
     assert any(sentence in defect for defect in defects), defects
 
 
+def test_broken_model_with_prefix() -> None:
+    """The sides are compared also when all names begin with something else."""
+    robot = ElementTree.fromstring(humanoid_urdf(prefix='r1_'))
+    part(link(robot, 'r1_left_foot'), 'inertial/mass').set('value', '1.5')
+    outcomes = check_robot(load_robot(ElementTree.tostring(robot, encoding='unicode'), 'r1.urdf'))
+    assert any(
+        "Links 'r1_left_foot' and 'r1_right_foot'" in d for o in outcomes for d in o.defects
+    )
+
+
 def test_broken_file(urdf: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A defect ends the program with 1, and is printed below the table with the verdict."""
     path = tmp_path / 'broken.urdf'
     path.write_text(urdf.replace('<mass value="6.0"/>', '<mass value="0"/>'))
     assert main([str(path)]) == 1
     out = capsys.readouterr().out
-    assert "- Link 'base_link' has a mass of 0 kg." in out
-    assert out.endswith(f'{path} has 1 defect: 7 checks passed, 8 skipped.\n')
+    assert ": Link 'base_link' has a mass of 0 kg." in out
+    assert out.endswith(f'{path} has 1 defect: 9 checks passed, 8 skipped.\n')
 
 
 def test_other_robot(capsys: pytest.CaptureFixture[str]) -> None:
@@ -283,8 +416,9 @@ def test_other_robot(capsys: pytest.CaptureFixture[str]) -> None:
     share = get_package_share_directory('robot_description')
     assert main([f'{share}/urdf/simple_arm.urdf']) == 0
     out = capsys.readouterr().out
-    assert "skipped: the robot 'simple_arm' is not the humanoid" in out
-    assert out.endswith('is sound: 8 checks passed, 8 skipped.\n')
+    assert out.count("skipped: the robot 'simple_arm' is not the humanoid") == 1
+    assert '\n8 more ' in out
+    assert out.endswith('is sound: 10 checks passed, 8 skipped.\n')
 
 
 def test_xacro_file(capsys: pytest.CaptureFixture[str]) -> None:
@@ -294,12 +428,25 @@ def test_xacro_file(capsys: pytest.CaptureFixture[str]) -> None:
     assert 'is sound' in capsys.readouterr().out
 
 
+def test_arguments_of_a_xacro_file(capsys: pytest.CaptureFixture[str]) -> None:
+    """What follows a xacro file goes on to xacro, which warns of what nothing takes."""
+    file = f'{get_package_share_directory("humanoid_description")}/urdf/humanoid.urdf.xacro'
+    assert main([file, 'scale:=0.5', 'prefix:=r1_', 'sclae:=1']) == 0
+    captured = capsys.readouterr()
+    assert '5.350 kg' in captured.out
+    assert captured.out.endswith(f'What xacro makes of {file} is sound: 18 checks passed.\n')
+    assert 'sclae' in captured.err
+
+
 @pytest.mark.parametrize(
     ('arguments', 'sentence'),
     [
         (['--scale', '3'], 'The scale 3 is out of range. Give one from 0.5 to 1.3.'),
         (['nowhere.urdf'], 'nowhere.urdf cannot be read: No such file or directory.'),
         (['nowhere.xacro'], 'nowhere.xacro cannot be read: No such file or directory.'),
+        (['scale:=0.5'], "'scale:=0.5' is an argument of a xacro file: name the file before it."),
+        (['robot.xacro', 'other.xacro'], "'other.xacro' is not NAME:=VALUE"),
+        (['robot.urdf', 'scale:=1'], "robot.urdf is no xacro file, and takes no 'scale:=1'."),
         (['robot.urdf', '--scale', '1'], 'robot.urdf is checked as it is. Leave out --scale'),
     ],
 )
@@ -319,6 +466,11 @@ def test_nothing_to_check(
             '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">${b}</robot>',
             "name 'b' is not defined",
         ),
+        (
+            '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="m">'
+            '<xacro:m/></xacro:macro><xacro:m/></robot>',
+            'macros or includes lead to themselves without end',
+        ),
     ],
 )
 def test_broken_xacro(
@@ -332,3 +484,64 @@ def test_broken_xacro(
     assert first == f'xacro cannot expand {path}:'
     assert reason in said[0]
     assert 'Traceback' not in ''.join(said)
+
+
+def test_file_that_includes_itself(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A circle of files is told with each of them."""
+    one, two = tmp_path / 'one.xacro', tmp_path / 'two.xacro'
+    text = (
+        '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:include {}/></robot>'
+    )
+    one.write_text(text.format('filename="two.xacro"'))
+    two.write_text(text.format('filename="one.xacro"'))
+    assert main([str(one)]) == 1
+    error = capsys.readouterr().err
+    assert 'macros or includes lead to themselves without end' in error
+    assert str(one) in error and str(two) in error
+
+
+def test_text_that_is_not_in_utf_8(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Whatever the machine's language is, models are read as UTF-8."""
+    path = tmp_path / 'latin.urdf'
+    path.write_bytes('<robot name="Bär"/>'.encode('latin-1'))
+    assert main([str(path)]) == 1
+    assert capsys.readouterr().err == f'{path} is no text in UTF-8.\n'
+
+
+def test_long_chain_of_frames() -> None:
+    """Thousands of fixed links below a moving one are no obstacle; none has a mass."""
+    parts = ['<link name="l0"/>', *(f'<link name="l{i}"/>' for i in range(1, 1500))]
+    for i in range(1, 1500):
+        kind = 'fixed' if i > 1 else 'continuous'
+        ends = f'<parent link="l{i - 1}"/><child link="l{i}"/>'
+        parts.append(f'<joint name="j{i}" type="{kind}">{ends}</joint>')
+    outcomes = check_robot(load_robot(f'<robot name="r">{"".join(parts)}</robot>', 'chain.urdf'))
+    defects = [defect for outcome in outcomes for defect in outcome.defects]
+    start = "line 1: Link 'l1' is moved by joint 'j1', but has"
+    assert len(defects) == 1 and defects[0].startswith(start)
+
+
+@pytest.mark.parametrize(
+    ('redirection', 'status', 'errors'),
+    [
+        ('>/dev/full', 1, 'The result cannot be written: No space left on device.\n'),
+        ('| true', 141, ''),
+        ('>&-', 0, ''),
+    ],
+)
+def test_output_that_nobody_gets(redirection: str, status: int, errors: str) -> None:
+    """A full disk is named; a reader that is gone is none of our business."""
+    command = f'"$0" -m humanoid_description.check_model {redirection}; exit "${{PIPESTATUS[0]}}"'
+    words = ['bash', '-c', command, sys.executable]
+    result = subprocess.run(words, stderr=subprocess.PIPE, text=True, check=False)
+    assert (result.returncode, result.stderr) == (status, errors)
+
+
+def test_interrupted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ctrl-C ends the program without a word."""
+
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr('humanoid_description.expansion.humanoid_urdf', interrupt)
+    assert main([]) == 130

@@ -8,6 +8,10 @@ from humanoid_description.loading import load_robot
 import pytest
 
 LINK = '<robot name="r">\n<link name="a">\n'
+JOINT = (
+    '<robot name="r"><link name="a"/><link name="b"/>\n<joint name="j" type="continuous">'
+    '<parent link="a"/><child link="b"/>'
+)
 UNREADABLE = {
     'nothing': ('', 'm.urdf is no valid XML: '),
     'tags': ('<robot name="r">\n<link name="a"></robot>', 'm.urdf is no valid XML: Opening and'),
@@ -36,6 +40,26 @@ UNREADABLE = {
         LINK + '<inertial><mass value="nan"/><inertia/></inertial></link></robot>',
         "<mass> has value='nan', which is not a number.",
     ),
+    'no colour': (
+        '<robot name="r">\n<material name="m"><color rgba="1 x 0"/></material></robot>',
+        "m.urdf, line 2: <color> has rgba='1 x 0', which is not 4 numbers.",
+    ),
+    'no leader': (
+        JOINT + '<mimic multiplier="2"/></joint></robot>',
+        "m.urdf, line 2: joint 'j': <mimic> lacks the attribute 'joint'.",
+    ),
+    'no offset': (
+        JOINT + '<mimic joint="j" offset=""/></joint></robot>',
+        "<mimic> has offset='', which is not a number.",
+    ),
+    'no soft limit': (
+        JOINT + '<safety_controller soft_upper_limit="far"/></joint></robot>',
+        "<safety_controller> has soft_upper_limit='far', which is not a number.",
+    ),
+    'no calibration': (
+        JOINT + '<calibration rising="up"/></joint></robot>',
+        "<calibration> has rising='up', which is not a number.",
+    ),
     'no shape': (
         LINK + '<visual><geometry><cone/></geometry></visual></link></robot>',
         '<geometry> must hold exactly one of box, cylinder, sphere, mesh.',
@@ -56,6 +80,7 @@ def test_what_is_not_of_the_robot() -> None:
     """Comments, and elements for simulators, may hold whatever they want."""
     text = (
         '<robot name="r"><!-- a --><link name="a"/><gazebo><mass/></gazebo>'
-        '<ros2_control name="c"><joint name="j"/></ros2_control></robot>'
+        '<ros2_control name="c"><joint name="j"/></ros2_control>'
+        '<transmission name="t"><joint name="j"/></transmission><mujoco><mass/></mujoco></robot>'
     )
     assert [link.name for link in load_robot(text, 'm.urdf').links] == ['a']

@@ -54,5 +54,6 @@ def test_launch_arguments() -> None:
         'scale': '1.0',
         'prefix': '',
         'upper_body_only': 'false',
+        'use_sim_time': 'false',
     }
     assert undescribed_arguments(description) == []

@@ -23,11 +23,16 @@ setup(
     license='Apache-2.0',
     tests_require=['pytest'],
     entry_points={
+        'rviz_common.displays': [
+            'robot_console/CommandedRobot = robot_console.displays.commanded_robot:CommandedRobot',
+        ],
         'rviz_common.panels': [
             'robot_console/Diagnostics = robot_console.panels.diagnostics:Diagnostics',
             'robot_console/Drive = robot_console.panels.drive:Drive',
+            'robot_console/Joints = robot_console.panels.joints_panel:JointsPanel',
             'robot_console/Log = robot_console.panels.log:Log',
             'robot_console/Parameters = robot_console.panels.parameters:Parameters',
+            'robot_console/Plots = robot_console.panels.plots_panel:PlotsPanel',
             'robot_console/Recordings = robot_console.panels.recordings:Recordings',
             'robot_console/Safety = robot_console.panels.safety:Safety',
             'robot_console/Services = robot_console.panels.services:Services',

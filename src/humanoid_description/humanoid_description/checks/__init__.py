@@ -9,6 +9,7 @@ from humanoid_description.checks.bodies import BODIES
 from humanoid_description.checks.build import NAME
 from humanoid_description.checks.humanoid import NAMES, SHAPE
 from humanoid_description.checks.joints import JOINTS
+from humanoid_description.checks.meshes import MESHES
 from humanoid_description.checks.outcome import Check, Outcome
 from humanoid_description.checks.structure import STRUCTURE
 from humanoid_description.robot import Robot
@@ -19,7 +20,7 @@ __all__ = ['Outcome', 'check_robot']
 def check_robot(robot: Robot) -> list[Outcome]:
     """Check what makes sense for a robot; later checks build on what earlier ones have shown."""
     outcomes = [check(robot) for check in STRUCTURE]
-    for group in (BODIES + JOINTS, NAMES, SHAPE):
+    for group in (BODIES + JOINTS + MESHES, NAMES, SHAPE):
         outcomes += _checked(robot, group, _obstacle(robot, group, outcomes))
     return outcomes
 

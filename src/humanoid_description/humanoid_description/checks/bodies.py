@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from humanoid_description.checks.outcome import Check
-from humanoid_description.robot import Body, Robot
+from humanoid_description.checks.outcome import Check, count
+from humanoid_description.robot import Body, Link, named, Robot
 import numpy as np
 
 # Rounding of moments that are written with few digits, as a part of the largest one.
@@ -16,33 +16,33 @@ ROUNDING = 1e-3
 def look_at_masses(robot: Robot) -> tuple[str, Iterable[str]]:
     """Add the masses, and find those that are not positive."""
     defects = [
-        f"Link '{link.name}' has a mass of {link.body.mass_kg:g} kg. Give it a positive one, or "
+        f'{named(link)} has a mass of {link.body.mass_kg:g} kg. Give it a positive one, or '
         'leave out <inertial> if it is a mere frame.'
         for link in robot.links
         if link.body and not link.body.mass_kg > 0
     ]
     bodies = sum(link.body is not None for link in robot.links)
-    return f'{robot.mass_kg:.3f} kg in {bodies} links', defects
+    return f'{robot.mass_kg:.3f} kg in {count(bodies, "link")}', defects
 
 
 def look_at_inertia(robot: Robot) -> tuple[str, Iterable[str]]:
     """Find inertia that no real body has."""
-    bodies = [(link.name, link.body) for link in robot.links if link.body]
-    defects = [defect for name, body in bodies for defect in _wrong_moments(name, body)]
-    return f'{len(bodies)} bodies', defects
+    bodies = [(link, link.body) for link in robot.links if link.body]
+    defects = [defect for link, body in bodies for defect in _wrong_moments(link, body)]
+    return f'{len(bodies)} ' + ('body' if len(bodies) == 1 else 'bodies'), defects
 
 
-def _wrong_moments(name: str, body: Body) -> Iterator[str]:
+def _wrong_moments(link: Link, body: Body) -> Iterator[str]:
     """Yield a sentence if the principal moments are impossible."""
     low, middle, high = np.linalg.eigvalsh(body.inertia_kgm2)
     if not low > 0:
         yield (
-            f"Link '{name}' has a principal moment of inertia of {low:g} kg m2. "
+            f'{named(link)} has a principal moment of inertia of {low:g} kg m2. '
             'All three must be positive.'
         )
     elif high > (low + middle) * (1 + ROUNDING):
         yield (
-            f"Link '{name}' has the inertia of no real body: the largest principal moment, "
+            f'{named(link)} has the inertia of no real body: the largest principal moment, '
             f'{high:g} kg m2, is more than the sum of the two others, {low:g} and {middle:g}.'
         )
 
@@ -50,9 +50,9 @@ def _wrong_moments(name: str, body: Body) -> Iterator[str]:
 def look_at_moving_links(robot: Robot) -> tuple[str, Iterable[str]]:
     """Find links that a joint moves although there is no mass in them."""
     moved = [joint for joint in robot.joints if joint.is_driven]
-    return f'{len(moved)} moving links', [
-        f"Link '{joint.child}' is moved by joint '{joint.name}', but has no mass, nor has what is "
-        'fixed to it. Simulators refuse this: add <inertial>.'
+    return count(len(moved), 'moving link'), [
+        f"{named(robot.link[joint.child])} is moved by joint '{joint.name}', but has no mass, nor "
+        'has what is fixed to it. Simulators refuse this: add <inertial>.'
         for joint in moved
         if not _has_mass(robot, joint.child)
     ]
@@ -60,10 +60,13 @@ def look_at_moving_links(robot: Robot) -> tuple[str, Iterable[str]]:
 
 def _has_mass(robot: Robot, name: str) -> bool:
     """Tell whether a link, or one that is fixed to it, has a body."""
-    if robot.link[name].body:
-        return True
-    fixed = [j.child for j in robot.joints if j.parent == name and j.kind == 'fixed']
-    return any(_has_mass(robot, child) for child in fixed)
+    waiting = [name]
+    while waiting:
+        link = waiting.pop()
+        if robot.link[link].body:
+            return True
+        waiting += [j.child for j in robot.joints if j.parent == link and j.kind == 'fixed']
+    return False
 
 
 BODIES = (

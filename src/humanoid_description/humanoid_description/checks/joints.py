@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from humanoid_common.naming import did_you_mean
-from humanoid_description.checks.outcome import Check
-from humanoid_description.robot import DRIVEN_KINDS, Joint, Robot
+from humanoid_description.checks.outcome import Check, count
+from humanoid_description.robot import DRIVEN_KINDS, Joint, line_of, named, Robot
 import numpy as np
 
 KINDS = (*DRIVEN_KINDS, 'fixed', 'floating', 'planar')
@@ -24,35 +24,36 @@ def _wrong_kind(joint: Joint) -> Iterator[str]:
     """Yield a sentence if type or axis are wrong."""
     if joint.kind not in KINDS:
         hint = did_you_mean(joint.kind, KINDS) or f'The types are {", ".join(KINDS)}.'
-        yield f"Joint '{joint.name}' is of the unknown type '{joint.kind}'. {hint}"
+        where = named(joint)
+        yield f"{where} is of the unknown type '{joint.kind}'. {hint}"
     if joint.is_driven and not np.linalg.norm(joint.axis) > 0:
-        yield f"The axis of joint '{joint.name}' is 0 0 0, which points nowhere."
+        yield f"{line_of(joint)}The axis of joint '{joint.name}' is 0 0 0, which points nowhere."
 
 
 def look_at_limits(robot: Robot) -> tuple[str, Iterable[str]]:
     """Find limits that are missing, exchanged, or let nothing move."""
     limited = [joint for joint in robot.joints if joint.kind in LIMITED]
-    return f'{len(limited)} ranges', [d for joint in limited for d in _wrong_limits(joint)]
+    return count(len(limited), 'range'), [d for joint in limited for d in _wrong_limits(joint)]
 
 
 def _wrong_limits(joint: Joint) -> Iterator[str]:
     """Yield sentences on the limits of one joint."""
-    limits = joint.limits
+    limits, where = joint.limits, named(joint)
     if limits is None:
         yield (
-            f"Joint '{joint.name}' is {joint.kind}, but no <limit> says how far it moves. "
+            f'{where} is {joint.kind}, but no <limit> says how far it moves. '
             'Give lower, upper, effort and velocity.'
         )
         return
     if not limits.lower < limits.upper:
         yield (
-            f"Joint '{joint.name}' has the lower limit {limits.lower:g}, which is not below the "
+            f'{where} has the lower limit {limits.lower:g}, which is not below the '
             f'upper limit {limits.upper:g}.'
         )
     for name, value in (('effort', limits.effort), ('velocity', limits.velocity)):
         if not (value or 0) > 0:
             yield (
-                f"Joint '{joint.name}' has {_shown(value)} {name} limit, with which nothing "
+                f'{where} has {_shown(value)} {name} limit, with which nothing '
                 'moves it. Give a positive one.'
             )
 
@@ -62,4 +63,46 @@ def _shown(value: float | None) -> str:
     return 'no' if value is None else f'{value:g} as'
 
 
-JOINTS = (Check('types and axes', look_at_kinds), Check('limits', look_at_limits))
+def look_at_mimics(robot: Robot) -> tuple[str, Iterable[str]]:
+    """Find joints that follow what does not move, or each other."""
+    mimics = {joint.name: joint.mimics for joint in robot.joints if joint.mimics}
+    defects = [d for name, leader in mimics.items() for d in _wrong_leader(robot, name, leader)]
+    return count(len(mimics), 'follower'), [*defects, *_circles(robot, mimics)]
+
+
+def _wrong_leader(robot: Robot, name: str, leader: str) -> Iterator[str]:
+    """Yield a sentence if what a joint follows has no position."""
+    what = f"{named(robot.joint[name])} mimics '{leader}', which"
+    if leader not in robot.joint:
+        hint = did_you_mean(leader, robot.joint.keys() - {name}) or 'Correct the name.'
+        yield f'{what} is no joint. {hint}'
+    elif not robot.joint[leader].is_driven:
+        yield f'{what} has no position: it is {robot.joint[leader].kind}.'
+
+
+def _circles(robot: Robot, mimics: Mapping[str, str]) -> Iterator[str]:
+    """Yield a sentence that names the joints which follow no joint outside of a circle."""
+    circling = [name for name in mimics if _leads_nowhere(mimics, name)]
+    if circling:
+        names = ', '.join(f"'{name}'" for name in circling)
+        where = line_of(robot.joint[circling[0]])
+        yield (
+            f'{where}These joints mimic each other in a circle, so that nothing moves them: '
+            f'{names}.'
+        )
+
+
+def _leads_nowhere(mimics: Mapping[str, str], name: str) -> bool:
+    """Tell whether a joint follows others without an end."""
+    for _ in mimics:
+        if name not in mimics:
+            return False
+        name = mimics[name]
+    return name in mimics
+
+
+JOINTS = (
+    Check('types and axes', look_at_kinds),
+    Check('limits', look_at_limits),
+    Check('mimic', look_at_mimics),
+)

@@ -9,6 +9,11 @@ from dataclasses import dataclass
 from humanoid_description.robot import Robot
 
 
+def count(number: int, noun: str) -> str:
+    """Return a number with its noun."""
+    return f'{number} {noun}' + ('' if number == 1 else 's')
+
+
 @dataclass(frozen=True)
 class Outcome:
     """The value that a check looked at, and sentences on the defects or on why it was skipped."""
@@ -23,8 +28,7 @@ class Outcome:
         """Return the outcome in a word or two."""
         if self.skipped:
             return f'skipped: {self.skipped}'
-        count = len(self.defects)
-        return 'ok' if not count else '1 defect' if count == 1 else f'{count} defects'
+        return count(len(self.defects), 'defect') if self.defects else 'ok'
 
 
 @dataclass(frozen=True)

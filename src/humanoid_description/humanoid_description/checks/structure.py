@@ -6,26 +6,23 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from humanoid_common.naming import did_you_mean
-from humanoid_description.checks.outcome import Check
-from humanoid_description.robot import repeated, Robot
+from humanoid_description.checks.outcome import Check, count
+from humanoid_description.robot import line_of, repeated, Robot
 
 
 def look_at_names(robot: Robot) -> tuple[str, Iterable[str]]:
     """Count the parts, and find names that are not unique or name nothing."""
-    found = f'{_count(len(robot.links), "link")}, {_count(len(robot.joints), "joint")}'
+    found = f'{count(len(robot.links), "link")}, {count(len(robot.joints), "joint")}'
     return found, [*_repeated_names(robot), *_unknown_links(robot)]
-
-
-def _count(number: int, noun: str) -> str:
-    """Return a number with its noun."""
-    return f'{number} {noun}' + ('' if number == 1 else 's')
 
 
 def _repeated_names(robot: Robot) -> Iterator[str]:
     """Yield a sentence for every name that occurs twice."""
     for kind, parts in (('link', robot.links), ('joint', robot.joints)):
         for name in repeated(part.name for part in parts):
-            yield f"Several {kind}s are named '{name}'. Give each a name of its own."
+            last = [part for part in parts if part.name == name][-1]
+            sentence = f"Several {kind}s are named '{name}'. Give each a name of its own."
+            yield line_of(last) + sentence
 
 
 def _unknown_links(robot: Robot) -> Iterator[str]:
@@ -34,7 +31,8 @@ def _unknown_links(robot: Robot) -> Iterator[str]:
         for role, link in (('parent', joint.parent), ('child', joint.child)):
             if link not in robot.link:
                 hint = did_you_mean(link, robot.link) or 'Add the link or correct the name.'
-                yield f"The {role} of joint '{joint.name}' is '{link}', which is no link. {hint}"
+                where = f"{line_of(joint)}The {role} of joint '{joint.name}'"
+                yield f"{where} is '{link}', which is no link. {hint}"
 
 
 def look_at_root(robot: Robot) -> tuple[str, Iterable[str]]:
@@ -50,22 +48,27 @@ def look_at_root(robot: Robot) -> tuple[str, Iterable[str]]:
         )
     names = ', '.join(f"'{root}'" for root in roots)
     return f'{len(roots)} roots', (
-        f'There are {len(roots)} roots: {names}. Connect them by joints: only one link may '
-        'hang from none.',
+        f'{line_of(robot.link[roots[1]])}There are {len(roots)} roots: {names}. Connect them by '
+        'joints: only one link may hang from none.',
     )
 
 
 def look_at_tree(robot: Robot) -> tuple[str, Iterable[str]]:
     """Find links with several parents, and loops."""
     depths = [depth for link in robot.links if (depth := _depth(robot, link.name)) is not None]
-    return f'{max(depths, default=0)} joints deep', [*_several_parents(robot), *_loops(robot)]
+    return f'{count(max(depths, default=0), "joint")} deep', [
+        *_several_parents(robot),
+        *_loops(robot),
+    ]
 
 
 def _several_parents(robot: Robot) -> Iterator[str]:
     """Yield a sentence for every link that several joints hold."""
     for link in repeated(joint.child for joint in robot.joints):
-        joints = ', '.join(f"'{joint.name}'" for joint in robot.joints if joint.child == link)
-        yield f"Link '{link}' hangs from several joints: {joints}. Leave one of them."
+        holding = [joint for joint in robot.joints if joint.child == link]
+        names = ', '.join(f"'{joint.name}'" for joint in holding)
+        where = f"{line_of(holding[1])}Link '{link}'"
+        yield f'{where} hangs from several joints: {names}. Leave one of them.'
 
 
 def _loops(robot: Robot) -> Iterator[str]:
@@ -73,7 +76,8 @@ def _loops(robot: Robot) -> Iterator[str]:
     names = [link.name for link in robot.links if _depth(robot, link.name) is None]
     if names:
         links = ', '.join(f"'{name}'" for name in names)
-        yield f'The joints above these links lead in a loop, and to no root: {links}.'
+        where = line_of(robot.joint_above[names[0]])
+        yield f'{where}The joints above these links lead in a loop, and to no root: {links}.'
 
 
 def _depth(robot: Robot, link: str) -> int | None:

@@ -39,11 +39,7 @@ class JointStatePublisher(Node):
 
     def __init__(self, file: str | None = None) -> None:
         """Declare the parameters; the URDF may be in a file."""
-        super().__init__(
-            'joint_state_publisher',
-            automatically_declare_parameters_from_overrides=True,
-            parameter_overrides=parameters_from_file(file),
-        )
+        super().__init__('joint_state_publisher', parameter_overrides=parameters_from_file(file))
         self._settings = declare_settings(self, self.EXTRAS)
         self._joints: MergedJoints | None = None
         self._watch: StateWatch | None = None
@@ -142,7 +138,8 @@ class JointStatePublisher(Node):
 
     def _silence(self, topic: str) -> str:
         count = self.count_publishers(topic)
-        who = f'{count} publishers were found' if count else 'nobody publishes it'
+        found = '1 publisher was found' if count == 1 else f'{count} publishers were found'
+        who = found if count else 'nobody publishes it'
         return f'Nothing was heard on {topic} so far: {who}.'
 
     def _report_silence(self, sentences: list[str]) -> None:

@@ -27,27 +27,28 @@ class Extra:
 
 def declare_settings(node: Node, extras: Mapping[str, Extra]) -> Settings:
     """
-    Declare what was not given, describe all, and return the first values.
+    Declare the parameters, those of the joints as they were given, and return the first values.
 
-    The node has declared what was given, as it cannot know the joints that `zeros` names.
+    rclpy has no public way to ask what was given; what it declares by itself it cannot describe,
+    and it does not take an empty list.
     """
     descriptions = {
         **DESCRIPTIONS,
         **{name: extra.description for name, extra in extras.items()},
     }
-    given = {name: each.value for name, each in node.get_parameters_by_prefix('').items()}
+    given = {name: each.value for name, each in getattr(node, '_parameter_overrides', {}).items()}
     for sentence in unknown_parameters(given, descriptions, MAPS):
         node.get_logger().warning(sentence)
     settings = settings_of(given)
-    for name, text in descriptions.items():
-        if name not in given:
-            default = extras[name].default if name in extras else getattr(settings, name)
-            value = list(default) if isinstance(default, tuple) else default
-            node.declare_parameter(name, value, ParameterDescriptor(dynamic_typing=True))
-        node.set_descriptor(
-            name,
-            ParameterDescriptor(
-                description=text, read_only=name not in CHANGEABLE, dynamic_typing=True
-            ),
+    defaults = {**vars(settings), **{name: extra.default for name, extra in extras.items()}}
+    of_joints = [name for name in given if name.startswith(MAPS)]
+    for name in (*descriptions, *of_joints):
+        default = defaults.get(name, given.get(name))
+        descriptor = ParameterDescriptor(
+            description=descriptions.get(name, ''),
+            read_only=name not in CHANGEABLE,
+            dynamic_typing=True,
         )
+        value = list(default) if isinstance(default, tuple) else default
+        node.declare_parameter(name, value, descriptor)
     return settings

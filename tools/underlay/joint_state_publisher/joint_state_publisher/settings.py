@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from math import isfinite
 from typing import Any
 
 from urdf import check_for_loops, Mimic
@@ -25,6 +26,7 @@ DESCRIPTIONS = {
 }
 MAPS = ('zeros.', 'dependent_joints.')
 """What begins the names of parameters that belong to joints."""
+RATES = (0.001, 1000.0)
 DEPENDENT_KEYS = ('parent', 'factor', 'offset')
 
 
@@ -54,8 +56,11 @@ def settings_of(values: Mapping[str, Any]) -> Settings:
         if name in DESCRIPTIONS
     }
     settings = Settings(**plain, zeros=_zeros(values), dependent_joints=_dependents(values))
-    if settings.rate <= 0:
-        raise ValueError(f"The parameter 'rate' must be above 0, and not {settings.rate:g}.")
+    low, high = RATES
+    if not low <= settings.rate <= high:
+        raise ValueError(
+            f"The parameter 'rate' must be from {low:g} to {high:g}, and not {settings.rate:g}."
+        )
     return settings
 
 
@@ -100,15 +105,18 @@ def _dependent(joint: str, part: Mapping[str, Any]) -> Mimic:
 def checked(name: str, value: Any, default: Any) -> Any:
     """Return a value as the type of the default, or raise ValueError."""
     if isinstance(default, tuple):
-        texts = list(value or [])
-        if isinstance(value, str) or not all(isinstance(text, str) for text in texts):
+        # ROS knows no type of an empty list, and hands over None.
+        texts = [] if value is None else value
+        if not isinstance(texts, (list, tuple)) or not all(
+            isinstance(text, str) for text in texts
+        ):
             raise _wrong(name, value, 'a list of names')
         return tuple(texts)
     if isinstance(default, (bool, str)):
         if not isinstance(value, type(default)):
             raise _wrong(name, value, 'true or false' if default in (True, False) else 'a text')
         return value
-    if not isinstance(value, (int, float)) or isinstance(value, bool):
+    if not isinstance(value, (int, float)) or isinstance(value, bool) or not isfinite(value):
         raise _wrong(name, value, 'a number')
     return float(value)
 

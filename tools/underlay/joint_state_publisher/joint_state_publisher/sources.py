@@ -25,7 +25,7 @@ class Sources:
         self.silent: set[str] = set()
         """The topics on which nothing was heard so far."""
         for name in names:
-            topic = node.resolve_topic_name(name)
+            topic = _resolved(node, name)
             if topic == own_topic:
                 raise ValueError(
                     f"The parameter 'source_list' names {topic}, which is what this node "
@@ -42,3 +42,14 @@ class Sources:
             self._take(topic, message)
 
         return receive
+
+
+def _resolved(node: Node, name: str) -> str:
+    """Return the whole name of a topic, or raise ValueError if there can be none."""
+    try:
+        return str(node.resolve_topic_name(name))
+    except RuntimeError as error:
+        reason = str(error).split(', at ')[0].removeprefix('failed to resolve name: ')
+        raise ValueError(
+            f"The parameter 'source_list' names '{name}', which can be no topic: {reason}."
+        ) from error

@@ -23,6 +23,10 @@ KINDS = {
     'glue': ('fixed', ''),
     'cloud': ('floating', ''),
 }
+LEG = (
+    '<link name="root"/><link name="leg"/><joint name="hip" type="revolute">',
+    '<parent link="root"/><child link="leg"/>',
+)
 MODEL = parse_urdf(
     '<robot name="r"><link name="root"/>'
     + ''.join(
@@ -125,6 +129,8 @@ def test_default_velocities_and_efforts() -> None:
     """Velocities and efforts are published on request."""
     joints = merged(publish_default_velocities=True, publish_default_efforts=True)
     assert joints.states().velocity == joints.states().effort == [0.0] * 5
+    assert merged(publish_default_velocities=True).states().effort == []
+    assert merged(publish_default_efforts=True).states().velocity == []
 
 
 def test_mimic_tags_can_be_left_out() -> None:
@@ -163,6 +169,15 @@ def test_soft_limits_count_if_wanted() -> None:
     assert merged().free['knee'].upper == 1.0
     assert merged().free['knee'].lower == -1.0
     assert merged(use_smallest_joint_limits=False).free['knee'].upper == 2.0
+    lower = LIMITS.replace('soft_upper_limit="1"', 'soft_lower_limit="-0.5"')
+    robot = f'<robot name="r">{"".join(LEG)}{lower}</joint></robot>'
+    assert MergedJoints(parse_urdf(robot), Settings()).free['hip'].lower == -0.5
+
+
+@pytest.mark.parametrize(('lower', 'upper', 'zero'), [(-3, -1, -2), (1, 3, 2), (-1, 3, 0)])
+def test_middle(lower: float, upper: float, zero: float) -> None:
+    """The default is the middle if 0 is beyond either limit."""
+    assert FreeJoint(lower, upper, False).zero == zero
 
 
 def test_joints_move_to_and_fro() -> None:
@@ -176,6 +191,8 @@ def test_joints_move_to_and_fro() -> None:
     wheel.move(0.25)
     assert places == [0.75, 1.0, 0.25, -0.5, -1.0, -0.25]
     assert wheel.position == -pi
+    wheel.move(-0.25)
+    assert wheel.position == pi
 
 
 def test_joints_move_the_other_way_with_a_negative_delta() -> None:

@@ -126,7 +126,8 @@ def test_misspelt_names_are_reported(probe: Probe, programs: Programs, arm: str)
 
 def test_time_of_the_simulator(probe: Probe, programs: Programs, arm: str) -> None:
     """Stamps and the rate follow the time of a simulator, also when it begins anew."""
-    programs.start(MODULE, arm, use_sim_time='true')
+    program = programs.start(MODULE, arm, use_sim_time='true')
+    says(probe, program, 'use_sim_time is true, but nobody publishes /clock: ')
     heard = probe.listen(JointState, '/joint_states')
     clock = probe.sender(Clock, '/clock')
     for begin_s in (500, 5):
@@ -144,6 +145,17 @@ def test_time_of_the_simulator(probe: Probe, programs: Programs, arm: str) -> No
         )
 
 
+def test_parameters_are_described_and_kept(probe: Probe, programs: Programs, arm: str) -> None:
+    """An empty list of sources may be given; what cannot be changed is refused at run time."""
+    programs.start(MODULE, arm, source_list='[]', **{'zeros.elbow': '0.25'})
+    heard = probe.listen(JointState, '/joint_states')
+    probe.until(lambda: heard, 'no joint states')
+    assert 0.25 in heard[-1].position
+    for change in ({'zeros.elbow': 0.5}, {'source_list': ['a']}, {'delta': float('nan')}):
+        assert not probe.set_parameters('/joint_state_publisher', **change)[0].successful
+    assert probe.set_parameters('/joint_state_publisher', delta=0.125)[0].successful
+
+
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_ends_well(probe: Probe, programs: Programs, arm: str, number: int) -> None:
     """Signals end the node with status 0 and without a traceback."""
@@ -158,7 +170,9 @@ def test_ends_well(probe: Probe, programs: Programs, arm: str, number: int) -> N
     ('words', 'parameters', 'sentence'),
     [
         (['/no/arm.urdf'], {}, "The URDF '/no/arm.urdf' cannot be read: No such file"),
-        ([], {'rate': '0'}, "The parameter 'rate' must be above 0"),
+        ([], {'rate': '0'}, "The parameter 'rate' must be from 0.001"),
+        ([], {'source_list': "['a b']"}, "names 'a b', which can be no topic: topic name must"),
+        ([], {'source_list': "['{zz}']"}, "names '{zz}', which can be no topic: unknown subst"),
         ([], {'source_list': '[joint_states]'}, "'source_list' names /joint_states, which is"),
         ([], {'robot_description': '<robot/>'}, 'robot_description:1: There is no attribute'),
     ],

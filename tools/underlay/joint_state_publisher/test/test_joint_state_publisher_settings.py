@@ -11,6 +11,7 @@ from urdf import Mimic
 def test_nothing_given_is_the_default() -> None:
     """Without parameters, positions are published ten times a second."""
     assert settings_of({}) == Settings(rate=10)
+    assert settings_of({'source_list': None}).source_list == ()
 
 
 def test_nested_parameters_are_by_joint() -> None:
@@ -38,7 +39,14 @@ def test_nested_parameters_are_by_joint() -> None:
 @pytest.mark.parametrize(
     ('values', 'sentence'),
     [
-        ({'rate': 0}, "'rate' must be above 0, and not 0."),
+        ({'rate': 0}, "'rate' must be from 0.001 to 1000, and not 0."),
+        ({'rate': 1e-300}, "'rate' must be from 0.001 to 1000, and not 1e-300."),
+        ({'rate': 1e12}, "'rate' must be from 0.001 to 1000, and not 1e+12."),
+        ({'rate': float('nan')}, "'rate' must be a number, and not nan."),
+        ({'delta': float('inf')}, "'delta' must be a number, and not inf."),
+        ({'zeros.knee': float('nan')}, "'zeros.knee' must be a number, and not nan."),
+        ({'source_list': 5}, "'source_list' must be a list of names, and not 5."),
+        ({'source_list': True}, "'source_list' must be a list of names, and not True."),
         ({'rate': 'often'}, "'rate' must be a number, and not 'often'."),
         ({'rate': True}, "'rate' must be a number, and not True."),
         ({'source_list': 'commands'}, "'source_list' must be a list of names, and not 'commands'"),

@@ -192,6 +192,38 @@ def test_missing_file_is_told_once(context: LaunchContext) -> None:
         assert sum(text in line for line in lines) == 1
 
 
+def test_path_that_became_several_words(context: LaunchContext, tmp_path: Path) -> None:
+    """A path with a space that nobody quoted is named, and how to quote it."""
+    path = tmp_path / 'my ws' / 'arm.xacro'
+    path.parent.mkdir()
+    path.touch()
+    context.launch_configurations['path'] = str(path)
+    with pytest.raises(SubstitutionFailure) as caught:
+        Command(['cat ', LaunchConfiguration('path')]).perform(context)
+    assert str(caught.value).splitlines()[-1] == (
+        f"The path '{path}' has a space in it, and became several words. "
+        """Quote it: Command(['cat "', path, '"'])"""
+    )
+    assert Command(['cat "', LaunchConfiguration('path'), '"']).perform(context) == ''
+
+
+@pytest.mark.parametrize(
+    'parts, question',
+    [
+        (['cat', 'arm.urdf'], "Is there a blank missing after 'cat'?"),
+        (['no_such_program', 'arm.urdf'], ''),
+        (['no_such_program ', 'arm.urdf'], ''),
+    ],
+)
+def test_missing_blank(context: LaunchContext, parts: list[str], question: str) -> None:
+    """A program that runs into its first argument is asked about."""
+    with pytest.raises(SubstitutionFailure) as caught:
+        Command(parts).perform(context)
+    first, *more = str(caught.value).splitlines()
+    assert first.startswith('file not found: ')
+    assert [line.split('? ')[0] + '?' for line in more] == [question] * bool(question)
+
+
 def test_python_expression(context: LaunchContext) -> None:
     """The members of math are known by name, other modules only when they are listed."""
     context.launch_configurations['n'] = '4'

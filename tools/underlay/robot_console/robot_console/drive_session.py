@@ -30,11 +30,13 @@ class DriveSession(Session):
         person: str,
         limits: SpeedLimits,
         say: Callable[[Velocity], None],
+        count_listeners: Callable[[], int],
     ) -> None:
         """Begin without driving."""
         super().__init__(link, person)
         self._limits = limits
         self._say = say
+        self._count_listeners = count_listeners
         self._velocity: Velocity | None = None
         self._press: Any = None
         self._ended: Any = None
@@ -53,7 +55,12 @@ class DriveSession(Session):
     def state(self) -> dict[str, Any]:
         """Return what the page is to show."""
         velocity, refusal = self._velocity, self._refusal
-        return {**super().state(), 'velocity': velocity, 'refusal': refusal}
+        return {
+            **super().state(),
+            'velocity': velocity,
+            'refusal': refusal,
+            'listeners': self._count_listeners(),
+        }
 
     def lose(self) -> None:
         """Stop the robot, since the page is gone."""

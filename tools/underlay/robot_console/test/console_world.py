@@ -58,6 +58,11 @@ class World:
     def _hear(self, kind: type, topic: str, qos: Any, key: str) -> None:
         self.robot.create_subscription(kind, topic, self.heard[key].append, qos)
 
+    @property
+    def stop_topic(self) -> str:
+        """Return where a stop of the robot is published."""
+        return str(self.robot.resolve_topic_name('emergency_stop'))
+
     def url(self, name: str) -> str:
         """Return the address of a small page."""
         below = f'/{self.namespace}' if self.namespace else ''

@@ -14,8 +14,15 @@ from robot_console.recordings.child import last_sentence
 from robot_console.recordings.commands_left_out import commands_among
 from robot_console.recordings.message_memory import MessageMemory
 from robot_console.recordings.message_memory import write_bag as write_kept
-from robot_console.recordings.shelf import Bag, Shelf
-from robot_console.recordings.words import about, clock_text, listed, memory_text, mixture_text
+from robot_console.recordings.shelf import Bag, BagTopic, Shelf
+from robot_console.recordings.words import (
+    about,
+    clock_text,
+    listed,
+    memory_text,
+    mixture_text,
+    topics_table,
+)
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.bag_writer import WriterOptions
 
@@ -153,7 +160,13 @@ def test_words() -> None:
     assert listed('abcdef') == 'a, b, c, d and 2 more'
     assert mixture_text({}) == ''
     assert mixture_text({'/tf': ['rsp']}).startswith('rsp publishes /tf as well')
-    assert about(Bag('x', '/x', problem='Bad *end*'))[0] == r'✖ Bad \*end\*'
+    assert about(Bag('x', '/x', problem='Bad *end*')) == r'✖ Bad \*end\*'
+
+
+def test_topics_table() -> None:
+    """What a file names its topics means nothing to the page."""
+    table = topics_table([BagTopic('/<img src=x>', 'a/msg/B', 3)])
+    assert '/&lt;img src=x&gt;' in table and '<img' not in table and '>3<' in table
 
 
 def test_memory_words() -> None:

@@ -148,6 +148,15 @@ def test_record(world: World) -> None:
     assert '✔ Recorded **walk**' in world.record._text.content
     assert recorded(world)['/ticks'] > 10
     world.run(lambda: world.play.chooser.bag, 'the recording is not listed')
+    write_bag(world.folder / 'newer', '/x')
+    world.run(lambda: len(world.play.chooser._bags) == 2, 'the other one is not listed')
+    assert world.play.chooser.bag.name == 'walk'
+    world.record._name.value = 'run'
+    world.record._press()
+    second = world.folder / 'run' / 'run_0.mcap'
+    world.run(lambda: second.exists() and second.stat().st_size > 10_000, 'no second one')
+    world.record._press()
+    world.run(lambda: world.play.chooser.bag.name == 'run', 'the new one is not chosen')
 
 
 def test_record_refused(world: World) -> None:
@@ -200,7 +209,7 @@ def test_play(world: World) -> None:
     world.play._press('Play')
     world.run(lambda: len(world.heard) > 2, 'nothing is played')
     assert world.heard[:3] == ['0', '1', '2'] and world.buffer.clears == 1
-    assert 'old. What is shown is recorded, not live.' in world.status.items()[0][2]
+    assert 'old. This is recorded, not live.' in world.status.items()[0][2]
     world.play._press('Pause')
     world.run(lambda: 'Paused' in world.play._text.content, 'it goes on')
     world.heard.clear()

@@ -11,7 +11,9 @@ import threading
 import time
 
 from console_world import World, world_of
+from geometry_msgs.msg import Twist
 import pytest
+import rclpy
 from robot_console.robot_link import LATCHED
 from robot_console.small_page import page_text
 from std_msgs.msg import Bool, String
@@ -61,6 +63,29 @@ def test_stop_of_others(world: World) -> None:
     world.wait_until(lambda: name in page.say({'do': 'beat'})['speakers'], 'no name')
     assert page.say({'do': 'beat'})['stop']['by'] == ''
     assert 'emergency stop' in drive.say(PUSH)['refusal']
+
+
+@pytest.mark.parametrize('name', ['rosbag2_recorder', '_ros2cli_1'])
+def test_who_only_listens_is_no_robot(world: World, name: str) -> None:
+    """Nobody may believe that a recorder stops."""
+    page = world.visit('safety')
+    recorder = rclpy.create_node(name, context=world.ros)
+    other = rclpy.create_node('other_robot', context=world.ros)
+    for node in (recorder, other):
+        node.create_subscription(Bool, world.stop_topic, print, 1)
+    both = sorted([other.get_fully_qualified_name(), world.robot.get_fully_qualified_name()])
+    world.wait_until(lambda: page.say({'do': 'beat'})['listeners'] == both, 'not both')
+    for node in (recorder, other):
+        node.destroy_node()
+
+
+def test_who_hears_the_driver(world: World) -> None:
+    """The page is told how many robots there are to drive."""
+    drive = world.visit('drive')
+    world.wait_until(lambda: drive.say({'do': 'beat'})['listeners'] == 1, 'not one')
+    other = world.robot.create_subscription(Twist, 'cmd_vel', print, 1)
+    world.wait_until(lambda: drive.say({'do': 'beat'})['listeners'] == 2, 'not two')
+    world.robot.destroy_subscription(other)
 
 
 def test_facts(world: World) -> None:

@@ -35,7 +35,7 @@ class Link:
     def drive(self, person: str) -> DriveSession:
         """Return a page to drive with."""
         limits = SpeedLimits(0.5, 0.3, 1.0)
-        return DriveSession(self, person, limits, self.said.append)  # type: ignore[arg-type]
+        return DriveSession(self, person, limits, self.said.append, lambda: 2)  # type: ignore[arg-type]
 
     def safety(self, person: str) -> SafetySession:
         """Return a page to stop with."""

@@ -5,7 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isfinite
 
+from robot_state_publisher.joint_positions import UnusableStateError
 from urdf import followed, Joint, RobotModel
 from urdf.kinematics import joint_motion, Pose
 
@@ -34,17 +36,26 @@ class MovingLinks:
         index_of = {name: index for index, name in enumerate(names)}
         drives = list(_drives(model, index_of))
         self.joints = tuple(drive.joint for drive in drives)
-        self._motions = [
-            (joint_motion(drive.joint), drive.index, drive.multiplier, drive.offset)
-            for drive in drives
-        ]
+        self._motions = [joint_motion(drive.joint) for drive in drives]
+        self._rules = [(drive.index, drive.multiplier, drive.offset) for drive in drives]
 
     def poses(self, positions: Sequence[float]) -> list[Pose]:
-        """Return a pose for each of `joints`."""
-        return [
-            pose(multiplier * positions[index] + offset)
-            for pose, index, multiplier, offset in self._motions
+        """Return a pose for each of `joints`, or raise UnusableStateError."""
+        values = [
+            multiplier * positions[index] + offset for index, multiplier, offset in self._rules
         ]
+        if not isfinite(sum(values)) and not all(map(isfinite, values)):
+            raise UnusableStateError(_beyond(self.joints, values))
+        return [pose(value) for pose, value in zip(self._motions, values)]
+
+
+def _beyond(joints: Sequence[Joint], values: Sequence[float]) -> str:
+    """Say which joints would be beyond all numbers."""
+    names = [f"'{joint.name}'" for joint, value in zip(joints, values) if not isfinite(value)]
+    return (
+        f'A joint state is left out, as it leads to positions of {", ".join(names)} that are '
+        'larger than any number.'
+    )
 
 
 def _drives(model: RobotModel, index_of: dict[str, int]) -> list[_Drive]:

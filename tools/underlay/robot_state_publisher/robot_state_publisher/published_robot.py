@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from builtin_interfaces.msg import Time
+from robot_state_publisher.joint_positions import UnusableStateError
 from robot_state_publisher.moving_links import MovingLinks
 from robot_state_publisher.publish_times import PublishTimes, S
 from robot_state_publisher.settings import Settings
@@ -49,15 +50,18 @@ class PublishedRobot:
         links, messages = self._lists.get(names) or self._remember(names)
         return messages.fill(stamp, links.poses(positions)) if links.joints else None
 
-    def notice_time(self, names: Sequence[str], stamp: Time) -> str | None:
-        """Begin anew if stamps have jumped back; return what the log should say of a stamp."""
-        if self._settings.ignore_timestamp:
-            return None
-        if not stamp.sec and not stamp.nanosec:
-            return (
+    def require_stamp(self, stamp: Time) -> None:
+        """Raise UnusableStateError if a joint state has no stamp, but needs one."""
+        if not (self._settings.ignore_timestamp or stamp.sec or stamp.nanosec):
+            raise UnusableStateError(
                 'A joint state without a stamp is left out. Stamp it, or set the parameter '
                 'ignore_timestamp.'
             )
+
+    def notice_time(self, names: Sequence[str], stamp: Time) -> str | None:
+        """Begin anew if stamps have jumped back; return what the log should say of it."""
+        if self._settings.ignore_timestamp:
+            return None
         if not self.times.went_back(names, stamp.sec * S + stamp.nanosec):
             return None
         self.times.forget()

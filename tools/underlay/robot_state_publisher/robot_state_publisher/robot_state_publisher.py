@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 import sys
 from typing import Any
 
@@ -64,8 +64,8 @@ class RobotStatePublisher(Node):
         if not self._settings.robot_description.strip() and file is None:
             raise ValueError(
                 "Node 'robot_state_publisher' needs the parameter robot_description, the text of "
-                'a URDF. In a launch file: parameters=[{"robot_description": '
-                'ParameterValue(Command(["xacro ", path]), value_type=str)}].'
+                "a URDF. In a launch file: parameters=[{'robot_description': "
+                """ParameterValue(Command(['xacro "', path, '"']), value_type=str)}]."""
             )
         return self._settings.model(file or 'robot_description')
 
@@ -85,28 +85,38 @@ class RobotStatePublisher(Node):
     def _on_joint_state(self, message: JointState) -> None:
         """Publish the transforms of what has moved."""
         try:
-            names, positions = usable_positions(message.name, message.position)
+            transforms = self._transforms(message)
         except UnusableStateError as reason:
             self.get_logger().warning(str(reason), throttle_duration_sec=REPEAT_S)
             return
+        if transforms is not None:
+            self._tf.publish(transforms)
+
+    def _transforms(self, message: JointState) -> TFMessage | None:
+        """Return the transforms that are due, or raise UnusableStateError."""
+        names, positions = usable_positions(message.name, message.position)
+        self._robot.require_stamp(message.header.stamp)
+        if len(names) < len(message.name):
+            self._warn(self._robot.watch.unknown(set(message.name).difference(names)))
         if not self._robot.knows(names):
             self._tell_about(names)
         self._notice_time(message, names)
-        transforms = self._robot.transforms(names, positions, message.header.stamp)
-        if transforms is not None:
-            self._tf.publish(transforms)
+        return self._robot.transforms(names, positions, message.header.stamp)
 
     def _tell_about(self, names: Sequence[str]) -> None:
         """Log what is remarkable about names that have not come together before."""
         watch = self._robot.watch
-        for sentence in watch.misspelt(names):
-            self.get_logger().warning(sentence)
+        self._warn(watch.misspelt(names))
         relief = watch.relief()
         if relief:
             self.get_logger().info(relief)
 
+    def _warn(self, sentences: Iterable[str]) -> None:
+        for sentence in sentences:
+            self.get_logger().warning(sentence)
+
     def _notice_time(self, message: JointState, names: Sequence[str]) -> None:
-        """Begin anew if stamps have jumped back; warn of states without a stamp."""
+        """Begin anew if stamps have jumped back, and say so."""
         notice = self._robot.notice_time(names, message.header.stamp)
         if notice:
             self.get_logger().warning(notice, throttle_duration_sec=REPEAT_S)

@@ -20,6 +20,7 @@ class StateWatch:
         self._names = {joint.name for joint in model.moving_joints}
         self._needed = [joint.name for joint in model.moving_joints if joint.name not in mimics]
         self._seen: set[str] = set()
+        self._unknown: set[str] = set()
         self._complained = False
 
     @property
@@ -43,6 +44,16 @@ class StateWatch:
                     f"Did you mean '{meant}'?"
                 )
 
+    def unknown(self, names: Iterable[str]) -> Iterator[str]:
+        """Return a sentence for each joint that came with a position which is no number."""
+        new = self._names.intersection(names) - self._unknown
+        self._unknown |= new
+        for name in sorted(new):
+            yield (
+                f"The position of joint '{name}' in a joint state is not a number, which means "
+                'that nobody knows it: the joint keeps its last pose.'
+            )
+
     def complaint(self, publishers: int, topic: str) -> str | None:
         """Return a sentence that names the joints without a state, if there are any."""
         missing = self.missing
@@ -51,8 +62,8 @@ class StateWatch:
         self._complained = True
         names = ', '.join(f"'{name}'" for name in missing)
         return (
-            f'{len(missing)} of {len(self._needed)} joints have had no state so far, so that tf '
-            f'does not know where the links below them are: {names}. {_sources(publishers, topic)}'
+            f'{_some(len(missing), len(self._needed))} had no state so far, so that tf does not '
+            f'know where the links below them are: {names}. {_sources(publishers, topic)}'
         )
 
     def relief(self) -> str | None:
@@ -60,7 +71,19 @@ class StateWatch:
         if not self._complained or self.missing:
             return None
         self._complained = False
-        return f'All {len(self._needed)} joints have a state now.'
+        return f'{_all(len(self._needed))} a state now.'
+
+
+def _all(needed: int) -> str:
+    """Return the beginning of a sentence on all joints."""
+    return 'The only joint has' if needed == 1 else f'All {needed} joints have'
+
+
+def _some(missing: int, needed: int) -> str:
+    """Return the beginning of a sentence on those that are missing."""
+    if missing == needed:
+        return _all(needed)
+    return f'{missing} of {needed} joints ' + ('has' if missing == 1 else 'have')
 
 
 def _sources(publishers: int, topic: str) -> str:

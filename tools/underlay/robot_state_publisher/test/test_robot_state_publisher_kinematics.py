@@ -11,6 +11,7 @@ import re
 import numpy as np
 import pytest
 from random_robots import random_urdf
+from robot_state_publisher.joint_positions import UnusableStateError
 from robot_state_publisher.moving_links import MovingLinks
 from urdf import parse_urdf, RobotModel
 from urdf.kinematics import joint_motion, Pose
@@ -140,6 +141,15 @@ def test_joints_that_are_not_named_do_not_move() -> None:
     """Names that are no joints, or of which nothing follows, move nothing."""
     moving = MovingLinks(parse_urdf(CHAIN), ['other', 'c'])
     assert [joint.name for joint in moving.joints] == ['c']
+
+
+@pytest.mark.parametrize('kind', ['prismatic', 'revolute'])
+def test_followers_beyond_all_numbers_are_refused(kind: str) -> None:
+    """A position that becomes infinite for a follower has no pose; large ones have."""
+    moving = MovingLinks(parse_urdf(CHAIN.replace('prismatic', kind)), ['a', 'other'])
+    assert len(moving.poses([1e300, 1.0])) == 3
+    with pytest.raises(UnusableStateError, match="positions of 'c', 'b' that are larger"):
+        moving.poses([1.7e308, 1.0])
 
 
 def slider(name: str, parent: str, mimic: str = '') -> str:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from itertools import count
 from pathlib import Path
 import signal
 
@@ -60,15 +61,17 @@ def test_publishes_description_and_all_transforms(
     fixed = probe.listen(TFMessage, '/tf_static', LATCHED)
     moving = probe.listen(TFMessage, '/tf')
     sender = probe.sender(JointState, '/joint_states')
-    state = probe.state(100.5, elbow=0.25, shoulder=3.0)
+    stamps_s = count(100.5)
     probe.send_until(
-        lambda: sender.publish(state), lambda: moving and fixed and descriptions, 'no transforms'
+        lambda: sender.publish(probe.state(next(stamps_s), elbow=0.25, shoulder=3.0)),
+        lambda: moving and fixed and descriptions,
+        'no transforms',
     )
     assert descriptions[0].data == ARM
     tool = frames(fixed)['tool']
     assert (tool.header.frame_id, tool.transform.translation.x) == ('lower', 0.5)
     upper, lower = frames(moving)['upper'], frames(moving)['lower']
-    assert (upper.header.stamp.sec, upper.header.stamp.nanosec) == (100, 500_000_000)
+    assert upper.header.stamp.sec >= 100 and upper.header.stamp.nanosec == 500_000_000
     assert upper.header.frame_id == 'base'
     assert upper.transform.translation.z == 1.0
     assert upper.transform.rotation.w == pytest.approx(0.0707372016677029)
@@ -100,10 +103,15 @@ def test_frequency_limits_what_is_published(probe: Probe, programs: Programs, ar
     started(probe, programs.start(MODULE, arm, publish_frequency='10.0'))
     moving = probe.listen(TFMessage, '/tf')
     sender = probe.sender(JointState, '/joint_states')
+    stamps_s = count(1.0)
     probe.send_until(
-        lambda: sender.publish(probe.state(50.0, shoulder=0.0)), lambda: moving, 'no transforms'
+        lambda: sender.publish(probe.state(next(stamps_s), shoulder=0.0)),
+        lambda: moving,
+        'no transforms',
     )
-    for stamp_s in (50.02, 50.04, 50.06, 50.11, 50.13, 50.25):
+    probe.for_some_time(0.2)
+    moving.clear()
+    for stamp_s in (5000.0, 5000.02, 5000.04, 5000.06, 5000.11, 5000.13, 5000.25):
         sender.publish(probe.state(stamp_s, shoulder=0.0))
         probe.for_some_time(0.1)
     probe.until(lambda: frames(moving)['upper'].header.stamp.nanosec == 250_000_000, 'no last one')
@@ -116,13 +124,13 @@ def test_states_without_stamp_are_reported(probe: Probe, programs: Programs, arm
     program = started(probe, programs.start(MODULE, arm, publish_frequency='50'))
     moving = probe.listen(TFMessage, '/tf')
     sender = probe.sender(JointState, '/joint_states')
-    state = probe.state(0.0, shoulder=0.0)
-    probe.send_until(
-        lambda: sender.publish(state),
-        lambda: 'A joint state without a stamp is left out.' in program.output,
-        'no warning',
-    )
+    state = probe.state(0.0, shoulder=0.0, elbow=0.0)
+    for text in ('joints have had no state so far', 'A joint state without a stamp is left out.'):
+        probe.send_until(
+            lambda: sender.publish(state), lambda text=text: text in program.output, 'no warning'
+        )
     assert moving == []
+    assert 'a state now' not in program.output
     probe.set_parameters('/robot_state_publisher', ignore_timestamp=True)
     probe.send_until(lambda: sender.publish(state), lambda: moving, 'no transforms')
 
@@ -191,6 +199,28 @@ def test_unusable_states_are_left_out(probe: Probe, programs: Programs, arm: str
         'no transforms',
     )
     assert set(frames(moving)) == {'lower'}
+    assert program.output.count("The position of joint 'shoulder' in a joint state is not") == 1
+
+
+def test_positions_beyond_all_numbers_are_left_out(
+    probe: Probe, programs: Programs, tmp_path: Path
+) -> None:
+    """A follower that would be infinitely far is reported, and the node works on."""
+    file = tmp_path / 'following.urdf'
+    follower = '<mimic joint="shoulder" multiplier="1e300"/>'
+    file.write_text(ARM.replace('<axis xyz="0 2 0"/>', follower))
+    program = started(probe, programs.start(MODULE, str(file)))
+    moving = probe.listen(TFMessage, '/tf')
+    sender = probe.sender(JointState, '/joint_states')
+    probe.send_until(
+        lambda: sender.publish(probe.state(shoulder=1e300)),
+        lambda: "positions of 'elbow' that are larger than any number" in program.output,
+        'no warning',
+    )
+    assert not moving
+    probe.send_until(
+        lambda: sender.publish(probe.state(shoulder=0.5)), lambda: moving, 'no transforms'
+    )
 
 
 def test_time_that_jumps_back_begins_anew(probe: Probe, programs: Programs, arm: str) -> None:
@@ -221,12 +251,12 @@ def test_stamps_that_jump_back_begin_anew(probe: Probe, programs: Programs, arm:
     program = started(probe, programs.start(MODULE, arm))
     moving = probe.listen(TFMessage, '/tf')
     sender = probe.sender(JointState, '/joint_states')
-    for stamp_s in (500, 5):
+    for stamps_s in (count(5000.0), count(5.0)):
         moving.clear()
         probe.send_until(
-            lambda stamp_s=stamp_s: sender.publish(probe.state(float(stamp_s), shoulder=0.0)),
+            lambda stamps_s=stamps_s: sender.publish(probe.state(next(stamps_s), shoulder=0.0)),
             lambda: moving,
-            f'no transforms at {stamp_s}',
+            f'no transforms before {next(stamps_s)}',
         )
     assert 'The stamps of joint states have jumped back' in program.output
 

@@ -81,12 +81,35 @@ def test_complaint_names_joints_and_sources() -> None:
     list(watch.misspelt(['index']))
     complaint = watch.complaint(2, '/joint_states')
     assert complaint is not None
-    assert complaint.startswith('1 of 2 joints have had no state so far')
+    assert complaint.startswith('1 of 2 joints has had no state so far')
     assert complaint.endswith("are: 'left_thumb'. /joint_states has 2 publishers.")
     assert watch.relief() is None
     list(watch.misspelt(['left_thumb']))
     assert watch.relief() == 'All 2 joints have a state now.'
     assert watch.relief() is None
+
+
+def test_texts_on_one_joint_and_on_all() -> None:
+    """One joint has, and several have."""
+    link = '<link name="palm"/><link name="thumb"/>'
+    ends = '<parent link="palm"/><child link="thumb"/>'
+    joint = f'<joint name="thumb" type="continuous">{ends}</joint>'
+    watch = StateWatch(parse_urdf(f'<robot name="hand">{link}{joint}</robot>'))
+    assert str(watch.complaint(0, '/joint_states')).startswith('The only joint has had no state')
+    list(watch.misspelt(['thumb']))
+    assert watch.relief() == 'The only joint has a state now.'
+    assert str(StateWatch(HAND).complaint(0, '/js')).startswith('All 2 joints have had no state')
+
+
+def test_unknown_positions_are_told_once_a_joint() -> None:
+    """Whoever sends no number is told what comes of it; other robots' joints do not matter."""
+    watch = StateWatch(HAND)
+    assert list(watch.unknown(['index', 'wheel'])) == [
+        "The position of joint 'index' in a joint state is not a number, which means that nobody "
+        'knows it: the joint keeps its last pose.'
+    ]
+    assert len(list(watch.unknown(['index', 'left_thumb']))) == 1
+    assert watch.missing == ['left_thumb', 'index']
 
 
 def test_similar_names_are_reported_once() -> None:

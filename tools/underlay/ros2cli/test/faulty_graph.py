@@ -4,6 +4,7 @@
 from geometry_msgs.msg import TransformStamped
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from spinning import run_until_signal
 from std_msgs.msg import String
@@ -21,6 +22,8 @@ def main() -> None:
     """Publish until a signal comes."""
     rclpy.init()
     camera = rclpy.create_node('camera')
+    simulated = Parameter('use_sim_time', value=True)
+    walker = rclpy.create_node('walker', parameter_overrides=[simulated])
     viewers = [rclpy.create_node('viewer'), rclpy.create_node('viewer')]
     best_effort = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -32,7 +35,7 @@ def main() -> None:
     moving = camera.create_publisher(TFMessage, '/tf', 10)
     camera.create_timer(0.05, lambda: moving.publish(transform('map', 'odom')))
     executor = SingleThreadedExecutor()
-    for node in (camera, *viewers):
+    for node in (camera, walker, *viewers):
         executor.add_node(node)
     print('ready', flush=True)
     executor.spin()

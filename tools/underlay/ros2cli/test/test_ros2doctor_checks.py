@@ -16,6 +16,7 @@ import pytest
 from ros2cli.graph.interfaces import Interface
 from ros2doctor.api.finding import Finding, Severity
 from ros2doctor.check.client_library import client_library_findings
+from ros2doctor.check.clock import clock_findings
 from ros2doctor.check.environment import environment_findings
 from ros2doctor.check.frames import frame_findings
 from ros2doctor.check.graphics import graphics_findings
@@ -439,6 +440,21 @@ def test_trees_are_joined_by_a_command() -> None:
     assert command[-3:-1] == ['/tf_static', 'tf2_msgs/msg/TFMessage']
     [transform] = yaml.safe_load(command[-1])['transforms']
     assert (transform['header']['frame_id'], transform['child_frame_id']) == ('odom', 'base')
+
+
+def test_trees_without_a_clock() -> None:
+    """Where nodes wait for /clock, nothing is to be published by hand."""
+    edges = [Transform('/tf', 'base', 'x'), Transform('/tf', 'odom', 'y')]
+    [finding] = frame_findings(edges, waits_for_clock=True)
+    assert finding.mend.startswith('let somebody publish /clock first')
+
+
+def test_nodes_without_a_clock() -> None:
+    """The nodes whose time stands still are named in one finding."""
+    assert sentences(clock_findings(())) == []
+    assert sentences(clock_findings(['/a', '/b'])) == [
+        'ERROR: use_sim_time is true, but nobody publishes /clock: /a, /b'
+    ]
 
 
 def test_frames_of_two_robots_are_two_trees() -> None:

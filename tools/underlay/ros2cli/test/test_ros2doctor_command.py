@@ -227,6 +227,7 @@ def test_faults_of_a_graph(ros2: Ros2, tmp_path: Path) -> None:
     expected = (
         "ERROR (qos): on '/image', what '/camera' offers is not what '/viewer' asks for",
         "WARNING (nodes): 2 nodes have the name '/viewer'",
+        'ERROR (clock): use_sim_time is true, but nobody publishes /clock: /walker\n',
         "WARNING (frames): on '/tf' there are 2 trees of frames, with the roots map, base_link",
     )
     result = ros2('doctor', '--exclude-packages', cwd=tmp_path)
@@ -236,6 +237,7 @@ def test_faults_of_a_graph(ros2: Ros2, tmp_path: Path) -> None:
         assert text in result.stdout
     assert result.returncode == 1
     assert 'Failed modules: ' in result.stdout
+    assert 'let somebody publish /clock first' in result.stdout
     assert 'other machines' not in result.stdout
     report = ros2('doctor', '--report', cwd=tmp_path)
     assert report.returncode == 0
@@ -254,7 +256,7 @@ def test_rclpy_that_ends_the_process(ros2: Ros2, tmp_path: Path) -> None:
     )
     assert 'ERROR (rclpy): rclpy does not start: ' in result.stdout
     assert 'the running nodes were not examined' in result.stdout
-    assert '2/11 check(s) failed\n\nFailed modules: environment rclpy\n' in result.stdout
+    assert '2/12 check(s) failed\n\nFailed modules: environment rclpy\n' in result.stdout
 
 
 @pytest.mark.parametrize(

@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rviz_common.polled_topic import WaitingGroup
 from tf2_ros import Buffer, TransformListener
 
 __all__ = ['FrameListener']
@@ -16,14 +15,6 @@ __all__ = ['FrameListener']
 DEPTH = 1000
 MOVING = QoSProfile(depth=DEPTH)
 STATIC = QoSProfile(depth=DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-
-
-class _Waiting(ReentrantCallbackGroup):
-    """Subscriptions that the executor leaves alone."""
-
-    def can_execute(self, entity: Any) -> bool:
-        """Tell the executor not to wait for them."""
-        return False
 
 
 class FrameListener(TransformListener):
@@ -48,4 +39,4 @@ class FrameListener(TransformListener):
                 subscription.callback(found[0])
 
     def _group(self) -> ReentrantCallbackGroup:
-        return _Waiting()
+        return WaitingGroup()

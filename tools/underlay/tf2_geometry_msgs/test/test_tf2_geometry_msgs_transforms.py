@@ -23,7 +23,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 import tf2_geometry_msgs
-from tf2_ros import Buffer, convert
+from tf2_ros import Buffer, convert, TypeException
 
 ROTATION = Rotation.from_rotvec([0.3, -0.7, 1.1])
 TRANSLATION = np.array([1.0, -2.0, 3.0])
@@ -38,6 +38,14 @@ def transform() -> TransformStamped:
     place.x, place.y, place.z = TRANSLATION.tolist()
     turn.x, turn.y, turn.z, turn.w = ROTATION.as_quat().tolist()
     return result
+
+
+def test_pose_and_stamped_pose(buffer: Buffer, transform: TransformStamped) -> None:
+    """Who takes one for the other is told which function is meant, and what has a frame."""
+    with pytest.raises(TypeError, match='this is a PoseStamped: use do_transform_pose_stamped'):
+        tf2_geometry_msgs.do_transform_pose(PoseStamped(), transform)
+    with pytest.raises(TypeException, match='A Pose has no header, .* as PoseStamped, or'):
+        buffer.transform(Pose(), 'map')
 
 
 @pytest.fixture

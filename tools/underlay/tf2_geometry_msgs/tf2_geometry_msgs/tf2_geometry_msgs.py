@@ -57,6 +57,11 @@ def do_transform_vector3(vector3: Vector3Stamped, transform: TransformStamped) -
 
 def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
     """Return a pose in another frame."""
+    if isinstance(pose, PoseStamped):
+        raise TypeError(
+            'do_transform_pose takes a Pose and returns one, but this is a PoseStamped: use '
+            'do_transform_pose_stamped, or give its pose'
+        )
     place, turn = pose.position, pose.orientation
     numbers = (place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w)
     x, y, z, qx, qy, qz, qw = chain(pose_of(transform.transform), numbers)

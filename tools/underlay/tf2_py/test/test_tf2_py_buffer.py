@@ -6,6 +6,7 @@ from __future__ import annotations
 import threading
 
 import pytest
+from rclpy.duration import Duration
 from tf2_messages import at, numbers, stamped
 from tf2_py import BufferCore
 from tf2_py._complaints import Complaints
@@ -118,3 +119,25 @@ def test_complaints() -> None:
     for text, kind in (('a', 'x'), ('b', 'x'), ('c', 'y'), ('d', 'x'), ('e', 'x')):
         complaints.add(text, kind)
     assert said == ['a', 'c', 'd']
+
+
+def test_strange_names_are_listed() -> None:
+    """Names with quotes, colons and backslashes are the same in YAML, and escaped for graphviz."""
+    names = ['it\'s: "a"', 'back\\slash', '- dash', 'l_wrist', 'robot1/base.link-2']
+    buffer = BufferCore()
+    for parent, child in zip(names, [*names[1:], names[0] + '#']):
+        buffer.set_transform_static(stamped(parent, child), 'me')
+    frames = yaml.safe_load(buffer.all_frames_as_yaml())
+    assert list(frames) == [*names[1:], names[0] + '#']
+    assert [frame['parent'] for frame in frames.values()] == names
+    assert 'l_wrist: \n' in buffer.all_frames_as_yaml()
+    assert '"it\'s: \\"a\\"" -> "back\\\\slash" [' in buffer._allFramesAsDot()
+
+
+def test_negative_cache_is_refused() -> None:
+    """A buffer that keeps less than nothing would know nothing, and not say why."""
+    with pytest.raises(ValueError, match='cannot keep -1 s of the past'):
+        BufferCore(Duration(seconds=-1))
+    buffer = BufferCore(Duration(seconds=0))
+    buffer.set_transform(stamped('map', 'odom', 1.0, (1, 0, 0)), 'me')
+    assert numbers(buffer.lookup_transform_core('map', 'odom', at(0)))[0] == 1

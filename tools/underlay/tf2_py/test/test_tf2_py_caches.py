@@ -86,3 +86,11 @@ def test_static() -> None:
         link = cache.link_at(time_s * S)
         assert link is not None and link.pose()[0] == 2.0
     assert [item.stamp_ns for item in cache.samples] == [0]
+
+
+def test_oldest_sample_that_is_taken() -> None:
+    """A sample just as old as what is kept is taken, and an older one is not."""
+    cache = filled(20.0)
+    assert cache.insert(sample(10.0))
+    assert not cache.insert(sample(9.999))
+    assert stamps_s(cache) == [10.0, 20.0]

@@ -8,7 +8,7 @@ import logging
 import pytest
 from rclpy.duration import Duration
 from rclpy.time import Time
-from tf2_messages import at, stamped
+from tf2_messages import at, numbers, stamped
 from tf2_py import (
     BufferCore,
     ConnectivityException,
@@ -91,9 +91,11 @@ def test_two_trees(buffer: BufferCore) -> None:
         assert isinstance(error, ConnectivityException)
         assert str(error).startswith(
             "Could not find a connection between 'base_link' and 'rover' because they are not "
-            'part of the same tree.Tf has two or more unconnected trees. '
+            'part of the same tree. Tf has two or more unconnected trees. '
         )
-        assert "'base_link' is below 'map', 'rover' below 'mars'" in str(error)
+        assert "'base_link' is below 'map', 'rover' is below 'mars': nobody" in str(error)
+    error = reason(buffer, 'map', 'rover', at(0))
+    assert "'map' is a root, 'rover' is below 'mars': nobody publishes" in str(error)
 
 
 @pytest.mark.parametrize(
@@ -187,3 +189,14 @@ def test_cache_time() -> None:
     for time in (1.0, 2.5):
         buffer.set_transform(stamped('map', 'odom', time), 'test')
     assert isinstance(reason(buffer, 'map', 'odom', at(1.2)), ExtrapolationException)
+
+
+def test_long_chain() -> None:
+    """Chains may have a thousand links; longer ones are refused like loops."""
+    buffer = BufferCore()
+    for number in range(1001):
+        message = stamped(f'f{number}', f'f{number + 1}', 0.0, (1, 0, 0))
+        buffer.set_transform_static(message, 'me')
+    assert numbers(buffer.lookup_transform_core('f0', 'f1000', at(0)))[0] == 1000
+    with pytest.raises(LookupException, match='a chain of more than 1000 frames'):
+        buffer.lookup_transform_core('f0', 'f1001', at(0))

@@ -35,7 +35,9 @@ def test_chain_and_inverse(seed: int) -> None:
     np.testing.assert_allclose(matrix(_pose.inverse(first)), inverse, atol=1e-12)
 
 
-@pytest.mark.parametrize('angle', [1e-9, 1e-6, 1e-4, 3e-4, 0.01, 1.0, 3.0, 3.14159, 5.0])
+@pytest.mark.parametrize(
+    'angle', [1e-9, 1e-6, 2e-6, 4e-6, 1e-4, 2.8e-4, 3e-4, 0.01, 1.0, 3.0, 3.14159, 5.0]
+)
 @pytest.mark.parametrize('fraction', [0.0, 0.1, 0.5, 0.999])
 def test_interpolation(angle: float, fraction: float) -> None:
     """Rotations are interpolated as by Slerp, for small and large angles."""
@@ -50,6 +52,8 @@ def test_interpolation(angle: float, fraction: float) -> None:
     result = _pose.interpolate(first, last, fraction)
     between = Rotation.from_quat(result[3:]).inv() * expected
     assert between.magnitude() < 1e-11
+    # scipy's rotations have the length 1 whatever they are made of.
+    assert np.linalg.norm(result[3:]) == pytest.approx(1.0, abs=1e-12)
     straight = np.array(first[:3]) * (1 - fraction) + np.array(last[:3]) * fraction
     np.testing.assert_allclose(result[:3], straight, atol=1e-12)
 
@@ -67,4 +71,5 @@ def test_normalized() -> None:
         1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0,
     )  # fmt: skip
     assert _pose.normalized((0.0,) * 7) is None
+    assert _pose.normalized((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.01)) is None
     assert _pose.normalized((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0)) is None

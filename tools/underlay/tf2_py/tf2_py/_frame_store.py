@@ -61,6 +61,10 @@ class FrameStore:
         """Return the names of all frames."""
         return list(self._caches)
 
+    def has(self, *frames: str) -> bool:
+        """Tell if all these are names of frames."""
+        return all(frame in self._caches for frame in frames)
+
     def known(self) -> Iterator[tuple[str, Cache]]:
         """Yield the frames of which more is known than the name."""
         return ((frame, cache) for frame, cache in self._caches.items() if cache is not None)

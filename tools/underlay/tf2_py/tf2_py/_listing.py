@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 from tf2_py._frame_store import Cache, FrameStore
 
 _SHORTEST_S = 1e-4
+_PLAIN = re.compile(r'[\w/][\w/.-]*')
 
 
 class Branch(NamedTuple):
@@ -45,14 +47,23 @@ def as_yaml(store: FrameStore) -> str:
 
 def _yaml(branch: Branch) -> str:
     return (
-        f'{branch.frame}: \n'
-        f"  parent: '{branch.parent}'\n"
+        f'{_key(branch.frame)}: \n'
+        f'  parent: {_yaml_text(branch.parent)}\n'
         f"  broadcaster: '{branch.broadcaster}'\n"
         f'  rate: {branch.rate_hz:.3f}\n'
         f'  most_recent_transform: {branch.latest_s:.6f}\n'
         f'  oldest_transform: {branch.oldest_s:.6f}\n'
         f'  buffer_length: {branch.length_s:.3f}\n'
     )
+
+
+def _key(frame: str) -> str:
+    """Return a frame as tf2 does, or in quotes if YAML would read it otherwise."""
+    return frame if _PLAIN.fullmatch(frame) else _yaml_text(frame)
+
+
+def _yaml_text(text: str) -> str:
+    return "'" + text.replace("'", "''") + "'"
 
 
 def as_string(store: FrameStore) -> str:
@@ -74,4 +85,9 @@ def _arrow(branch: Branch) -> str:
         f'Most recent transform: {branch.latest_s:.6f}\\n'
         f'Buffer length: {branch.length_s:.3f} s\\n'
     )
-    return f'"{branch.parent}" -> "{branch.frame}" [label="{label}"];\n'
+    return f'{_dot_text(branch.parent)} -> {_dot_text(branch.frame)} [label="{label}"];\n'
+
+
+def _dot_text(text: str) -> str:
+    escaped = text.replace('\\', '\\\\').replace('"', '\\"')
+    return f'"{escaped}"'

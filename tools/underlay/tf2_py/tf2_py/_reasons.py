@@ -9,6 +9,7 @@ from launch._did_you_mean import did_you_mean
 from tf2_py._link import Gap
 
 _SHOWN = 20
+_ADVICE_TO_WAIT = 'give a timeout to wait for it'
 
 
 def unknown_frame(call: str, argument: str, frame: str, known: Collection[str]) -> str:
@@ -38,10 +39,19 @@ def unconnected(target: str, source: str, roots: tuple[str, str]) -> str:
     """Say that no frame is above both."""
     return (
         f"Could not find a connection between '{target}' and '{source}' because they are not "
-        f"part of the same tree.Tf has two or more unconnected trees. '{target}' is below "
-        f"'{roots[0]}', '{source}' below '{roots[1]}': nobody publishes the transform between "
-        'these two, or not yet'
+        'part of the same tree. Tf has two or more unconnected trees. '
+        f'{_below(target, roots[0])}, {_below(source, roots[1])}: nobody publishes the transform '
+        f"between '{roots[0]}' and '{roots[1]}', or not yet"
     )
+
+
+def _below(frame: str, root: str) -> str:
+    return f"'{frame}' is a root" if frame == root else f"'{frame}' is below '{root}'"
+
+
+def after_waiting(reason: str, timeout_s: float) -> str:
+    """Return the reason of a lookup for one who has waited already."""
+    return reason.replace(_ADVICE_TO_WAIT, f'it has not come within {timeout_s:g} s; wait longer')
 
 
 def extrapolation(gap: Gap, target: str, source: str) -> str:
@@ -67,10 +77,7 @@ def _far(gap: Gap) -> str:
         ahead_s = (gap.requested_ns - gap.latest_ns) / 1e9
         if ahead_s > 60.0:
             return f'That is {ahead_s:.0f} s ahead: is use_sim_time the same everywhere?'
-        return (
-            f'That is {ahead_s:.3f} s ahead: give a timeout to wait for it, or ask for time 0, '
-            'the latest'
-        )
+        return f'That is {ahead_s:.3f} s ahead: {_ADVICE_TO_WAIT}, or ask for time 0, the latest'
     back_s = (gap.oldest_ns - gap.requested_ns) / 1e9
     return (
         f'That is {back_s:.3f} s too early: the buffer was made later, keeps less, or the clocks '

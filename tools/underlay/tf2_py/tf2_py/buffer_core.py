@@ -38,6 +38,10 @@ class BufferCore:
         :param cache_time: how much of the past is kept; 10 s unless given
         """
         cache_ns = _CACHE_NS if cache_time is None else nanoseconds(cache_time)
+        if cache_ns < 0:
+            raise ValueError(
+                f'A buffer cannot keep {cache_ns / 1e9:g} s of the past: give a time from 0'
+            )
         self._store = FrameStore(cache_ns)
         self._lock = threading.RLock()
         self._complaints = Complaints(self._warn)
@@ -164,7 +168,12 @@ class BufferCore:
 
     def _frameExists(self, frame_id: str) -> bool:  # noqa: N802
         """Tell if there is a frame of this name."""
-        return frame_id in self._getFrameStrings()
+        return self._knows(frame_id)
+
+    def _knows(self, *frames: str) -> bool:
+        """Tell if there are all these frames."""
+        with self._lock:
+            return self._store.has(*frames)
 
     def _getFrameStrings(self) -> list[str]:  # noqa: N802
         """Return the names of all frames."""

@@ -8,6 +8,7 @@ import os
 from pathlib import Path
 import subprocess
 import sys
+from typing import IO
 
 from domain_coordinator import domain_id
 import pytest
@@ -69,7 +70,9 @@ def start_program(domain: int) -> Iterator[Callable[..., subprocess.Popen[str]]]
     """Return a function that starts a module as a program; all end with the test."""
     started = []
 
-    def start(module: str, *words: str) -> subprocess.Popen[str]:
+    def start(
+        module: str, *words: str, stdout: int | IO[str] = subprocess.PIPE
+    ) -> subprocess.Popen[str]:
         process = subprocess.Popen(
             [sys.executable, '-m', module, *words],
             env={
@@ -77,7 +80,7 @@ def start_program(domain: int) -> Iterator[Callable[..., subprocess.Popen[str]]]
                 'ROS_DOMAIN_ID': str(domain),
                 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
             },
-            stdout=subprocess.PIPE,
+            stdout=stdout,
             stderr=subprocess.PIPE,
             text=True,
         )

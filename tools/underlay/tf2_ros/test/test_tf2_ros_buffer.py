@@ -14,7 +14,14 @@ from rclpy.duration import Duration
 from std_msgs.msg import Header
 from tf2_messages import at, numbers, stamped
 import tf2_ros
-from tf2_ros import Buffer, convert, LookupException, TransformRegistration, TypeException
+from tf2_ros import (
+    Buffer,
+    convert,
+    ExtrapolationException,
+    LookupException,
+    TransformRegistration,
+    TypeException,
+)
 
 LONG = Duration(seconds=20.0)
 SHORT = Duration(seconds=0.05)
@@ -80,6 +87,18 @@ def test_end_of_the_wait(buffer: Buffer) -> None:
     assert buffer.can_transform('map', 'odom', at(0), return_debug_tuple=True) == (True, '')
 
 
+def test_advice_after_a_wait(buffer: Buffer) -> None:
+    """Who has waited is not asked to give a timeout."""
+    buffer.set_transform(stamped('map', 'base', 10.0), 'test')
+    buffer.set_transform(stamped('map', 'base', 11.0), 'test')
+    text = 'it has not come within 0.05 s; wait longer, or ask for time 0'
+    found, reason = buffer.can_transform('map', 'base', at(11.5), SHORT, return_debug_tuple=True)
+    assert not found and text in reason
+    with pytest.raises(ExtrapolationException) as caught:
+        buffer.lookup_transform('map', 'base', at(11.5), SHORT)
+    assert text in str(caught.value) and 'give a timeout' not in str(caught.value)
+
+
 def test_wait_in_the_thread_that_receives(buffer: Buffer) -> None:
     """A wait that nothing can end is explained."""
     with pytest.raises(LookupException, match='TransformListener with spin_thread=True'):
@@ -99,6 +118,35 @@ def test_futures(buffer: Buffer) -> None:
     assert not future.done() and not full.done()
     buffer.set_transform(stamped('odom', 'base', 5.0), 'test')
     assert future.result() is True and full.result() is True and cancelled.result() is None
+
+
+def test_waiting_for_unknown_frames_is_cheap(
+    buffer: Buffer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What is missing is explained to who asks, not at each transform that comes meanwhile."""
+    explained: list[Any] = []
+    monkeypatch.setattr(
+        'tf2_py._reasons.unknown_frame', lambda *call: explained.append(call) or 'unknown'
+    )
+    future = buffer.wait_for_transform_async('map', 'hand', at(0))
+    later(lambda: buffer.set_transform(stamped('odom', 'base', 5.0), 'test'))
+    assert buffer.can_transform('map', 'base', at(0), LONG)
+    assert not explained and not future.done()
+    found = buffer.can_transform('map', 'hand', at(0), SHORT, return_debug_tuple=True)
+    assert found == (False, 'unknown') and len(explained) == 1
+
+
+def test_futures_are_not_kept(buffer: Buffer) -> None:
+    """What is done or cancelled is forgotten, and nothing gets a result twice."""
+    done = buffer.wait_for_transform_async('map', 'base', at(0))
+    cancelled = buffer.wait_for_transform_async('map', 'hand', at(0))
+    cancelled.cancel()
+    results: list[bool] = []
+    done.set_result = results.append
+    for time_s in (5.0, 6.0):
+        buffer.set_transform(stamped('odom', 'base', time_s), 'test')
+    assert results == [True]
+    assert not buffer._waiting._futures
 
 
 def test_coroutines(buffer: Buffer) -> None:

@@ -62,6 +62,22 @@ def test_one_message_holds_all_static_transforms(make_node: NodeMaker, spin_unti
     assert parents == {'camera': 'arm', 'lidar': 'base'}
 
 
+def test_static_broadcaster_keeps_what_it_was_given(
+    make_node: NodeMaker, spin_until: Spin
+) -> None:
+    """Who fills the same message for each frame loses none of them."""
+    received: list[Any] = []
+    node = make_node('robot')
+    static, message = StaticTransformBroadcaster(node), stamped('base', 'camera')
+    node.create_subscription(TFMessage, '/tf_static', received.append, 1)
+    static.sendTransform(message)
+    message.child_frame_id = 'lidar'
+    static.sendTransform(message)
+    spin_until(lambda: received and len(received[-1].transforms) == 2, node)
+    names = [item.child_frame_id for item in received[-1].transforms]
+    assert names == ['camera', 'lidar']
+
+
 def test_qos(make_node: NodeMaker, spin_until: Spin) -> None:
     """The topics are reliable; only the static one is for late comers."""
     node = make_node('qos_robot')

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import os
 from pathlib import Path
 import signal
 import subprocess
@@ -14,6 +15,15 @@ import pytest
 Start = Callable[..., subprocess.Popen[str]]
 TIMEOUT_S = 60.0
 PUBLISHER = 'tf2_ros.static_transform_publisher'
+OLDER_THREAD = """
+import sys
+import threading
+
+threading.Thread(target=threading.Event().wait, daemon=True).start()
+from tf2_ros.tf2_monitor import main
+
+sys.exit(main())
+"""
 ARGUMENTS = ['--x', '1', '--yaw', '0.5', '--frame-id', 'map', '--child-frame-id', 'odom']
 
 
@@ -67,6 +77,13 @@ def test_echo_waits(start_program: Start) -> None:
     end(echo, signal.SIGTERM)
 
 
+def test_echo_without_a_clock(start_program: Start) -> None:
+    """Whoever waits for simulated time that nobody publishes is told so."""
+    echo = start_program('tf2_ros.tf2_echo', 'a', 'b', '--ros-args', '-p', 'use_sim_time:=true')
+    read_until(echo.stderr, 'use_sim_time is true, but nobody publishes /clock: ')
+    end(echo, signal.SIGTERM)
+
+
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_monitor(start_program: Start, number: signal.Signals) -> None:
     """The monitor prints the frames between two."""
@@ -82,7 +99,16 @@ def test_bad_arguments(start_program: Start) -> None:
     """Mistakes are sentences, not tracebacks."""
     for module, words, text in (
         ('tf2_ros.tf2_echo', ['map'], 'required: target_frame'),
-        ('tf2_ros.tf2_echo', ['map', 'odom', '-1'], 'a rate of -1 Hz is not possible'),
+        (
+            'tf2_ros.tf2_echo',
+            ['map', 'odom', '-1'],
+            'no rate in Hz: give a number from 1e-06 to 1e+06',
+        ),
+        ('tf2_ros.tf2_echo', ['map', 'odom', 'fast'], "'fast' is no rate in Hz"),
+        ('tf2_ros.tf2_echo', ['map', 'odom', '1e-300'], "'1e-300' is no rate in Hz"),
+        ('tf2_ros.tf2_echo', ['map', 'odom', '-p', '16'], "'16' is not between 0 and 15 digits"),
+        ('tf2_ros.tf2_monitor', ['--period', '0'], "'0' is no period in seconds"),
+        ('tf2_ros.tf2_monitor', ['--period', 'nan'], "'nan' is no period in seconds"),
         ('tf2_ros.tf2_monitor', ['map'], 'give two frames'),
         (PUBLISHER, [*ARGUMENTS, '--ros-args', '-p', 'wrong'], 'The ROS arguments cannot be used'),
     ):
@@ -102,3 +128,25 @@ def test_no_place_for_the_log(
     _, errors = process.communicate(timeout=TIMEOUT_S)
     assert process.returncode == 1 and 'Traceback' not in errors
     assert 'The log cannot be written' in errors and 'Set ROS_LOG_DIR, or HOME' in errors
+
+
+def test_full_disk(start_program: Start) -> None:
+    """When the output finds no room, that is said, and the status is 1."""
+    with open('/dev/full', 'w') as full:
+        monitor = start_program('tf2_ros.tf2_monitor', stdout=full)
+        _, errors = monitor.communicate(timeout=TIMEOUT_S)
+    assert errors == 'The output cannot be written: No space left on device\n'
+    assert monitor.returncode == 1
+
+
+def test_impatience(start_program: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Several signals do no more than one, also if there is a thread that does not block them."""
+    (tmp_path / 'older_thread.py').write_text(OLDER_THREAD)
+    monkeypatch.setenv('PYTHONPATH', str(tmp_path), prepend=os.pathsep)
+    for numbers in ([signal.SIGINT] * 3, [signal.SIGTERM, signal.SIGINT] * 2):
+        monitor = start_program('older_thread')
+        read_until(monitor.stdout, 'Gathering data')
+        for number in numbers:
+            monitor.send_signal(number)
+        _, errors = monitor.communicate(timeout=TIMEOUT_S)
+        assert (monitor.returncode, errors) == (0, '')

@@ -6,7 +6,7 @@ from __future__ import annotations
 from math import pi, sqrt
 
 from tf2_messages import stamped
-from tf2_ros._delays import report, Traffic
+from tf2_ros._delays import Delays, report, Traffic
 from tf2_ros._echo_text import echo_text
 
 
@@ -58,3 +58,11 @@ def test_report() -> None:
         'RESULTS: for map to base\nChain is: map -> base\nNet delay     avg = 0.5: max = 0.5\n'
     )
     assert 'Frame: arm' not in chain
+
+
+def test_stamps_ahead() -> None:
+    """Transforms that come before their time have a negative delay, also the longest one."""
+    delays = Delays()
+    delays.add(-0.5)
+    delays.add(-0.25)
+    assert str(delays) == 'Average Delay: -0.375, Max Delay: -0.25'

@@ -45,6 +45,7 @@ def parsed(arguments: Sequence[str]) -> StaticTransform:
     parser = _parser()
     if arguments and not any(word.startswith('--') or word == '-h' for word in arguments):
         return _old_style(parser, arguments)
+    _refuse_unknown_options(parser, arguments)
     known = parser.parse_args(_joined(arguments))
     given = {name: vars(known)[name] for name in _NUMBERS if vars(known)[name] is not None}
     return _transform(parser, given, known.frame_id, known.child_frame_id)
@@ -66,7 +67,24 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _refuse_unknown_options(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
+    """End with a question if an option does not exist, before one is missed that it stands for."""
+    known = ['--help', '--frame-id', '--child-frame-id', *(f'--{name}' for name in _NUMBERS)]
+    for word in arguments:
+        option = word.partition('=')[0]
+        if option.startswith('--') and option not in known:
+            from launch._did_you_mean import did_you_mean
+
+            hint = did_you_mean(option, known) or f'The options are: {", ".join(known)}'
+            parser.error(f"there is no option '{option}'. {hint}")
+
+
 def _old_style(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> StaticTransform:
+    if _ends_with_period(arguments):
+        parser.error(
+            f"'{arguments[-1]}' is the period that ROS 1 had: leave it out, as ROS 2 publishes a "
+            'static transform once, also for those who come later'
+        )
     names = _OLD_STYLE.get(len(arguments))
     if names is None:
         parser.error(
@@ -81,6 +99,24 @@ def _old_style(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Sta
     return _transform(parser, given, frame, child, is_old_style=True)
 
 
+def _ends_with_period(arguments: Sequence[str]) -> bool:
+    """Tell if a number follows the two frames."""
+    return len(arguments) - 1 in _OLD_STYLE and [_is_number(word) for word in arguments[-4:]] == [
+        True,
+        False,
+        False,
+        True,
+    ]
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
 def _transform(
     parser: argparse.ArgumentParser,
     given: dict[str, float],
@@ -88,7 +124,15 @@ def _transform(
     child: str,
     is_old_style: bool = False,
 ) -> StaticTransform:
-    if frame.lstrip('/') == child.lstrip('/'):
+    if not frame.strip('/') or not child.strip('/'):
+        parser.error(f"'{frame}' and '{child}' are to be frames: none can be without a name")
+    for name in (frame, child):
+        if name.startswith('/'):
+            parser.error(
+                f"the frame '{name}' begins with a slash, which names of frames in tf2 do not: "
+                f"write '{name.lstrip('/')}'"
+            )
+    if frame == child:
         parser.error(f"'{frame}' cannot be placed in itself: give two different frames")
     x, y, z = (given.get(name, 0.0) for name in ('x', 'y', 'z'))
     return StaticTransform(

@@ -8,7 +8,7 @@ import threading
 import time
 from typing import Any
 
-Check = Callable[[], tuple[bool, str]]
+Check = Callable[[], bool]
 _LOOK_S = 0.1
 
 
@@ -23,20 +23,19 @@ class Waiting:
         self._futures: list[tuple[Check, Any]] = []
         self._feeding_thread = 0
 
-    def until(self, check: Check, timeout_s: float) -> tuple[bool, str]:
-        """Return what the check says when it succeeds, or at the end of the time."""
+    def until(self, check: Check, timeout_s: float) -> None:
+        """Return when the check succeeds, or at the end of the time."""
         end_s = time.monotonic() + timeout_s
         with self._changed:
             self._threads += 1
             try:
-                while not (result := check())[0] and self._is_alive():
+                while not check() and self._is_alive():
                     left_s = end_s - time.monotonic()
                     if left_s <= 0.0:
                         break
                     self._changed.wait(min(left_s, _LOOK_S))
             finally:
                 self._threads -= 1
-        return result
 
     def add(self, check: Check, future: Any) -> None:
         """Give the future a result as soon as the check succeeds."""
@@ -60,7 +59,7 @@ class Waiting:
     def _settle(self) -> None:
         with self._changed:
             entries = [entry for entry in self._futures if not _is_over(entry[1])]
-            ready = [entry for entry in entries if entry[0]()[0]]
+            ready = [entry for entry in entries if entry[0]()]
             self._futures = [entry for entry in entries if entry not in ready]
         for _, future in ready:
             future.set_result(True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import partial
-from typing import Any, Optional, TYPE_CHECKING, Union
+from typing import Any, NamedTuple, Optional, TYPE_CHECKING, Union
 
 from rclpy.clock import ClockChange, JumpThreshold
 from rclpy.duration import Duration
@@ -13,7 +13,8 @@ from rclpy.logging import get_logger
 from rclpy.task import Future
 from tf2_py import BufferCore, TransformException
 from tf2_py._messages import nanoseconds, Reading
-from tf2_ros._waiting import Check, Waiting
+from tf2_py._reasons import after_waiting
+from tf2_ros._waiting import Waiting
 from tf2_ros.buffer_interface import BufferInterface
 
 if TYPE_CHECKING:
@@ -27,6 +28,22 @@ _BLOCKED = (
     'receives them: create the TransformListener with spin_thread=True, or await '
     'lookup_transform_async'
 )
+
+
+class Question(NamedTuple):
+    """What is asked of a buffer: it can answer, or says why not."""
+
+    method: Callable[..., tuple[bool, str]]
+    arguments: tuple[Any, ...]
+
+    def ask(self) -> tuple[bool, str]:
+        """Ask now."""
+        return self.method(*self.arguments)
+
+    @property
+    def frames(self) -> list[str]:
+        """Return the frames that it is about."""
+        return [argument for argument in self.arguments if isinstance(argument, str)]
 
 
 class Buffer(BufferCore, BufferInterface):
@@ -86,8 +103,8 @@ class Buffer(BufferCore, BufferInterface):
         :param timeout: how long to wait for it
         """
         arguments = (target_frame, source_frame, time)
-        check = partial(self.can_transform_core, *arguments)
-        return self._look_up(partial(self.lookup_transform_core, *arguments), check, timeout)
+        question = Question(self.can_transform_core, arguments)
+        return self._look_up(partial(self.lookup_transform_core, *arguments), question, timeout)
 
     def lookup_transform_full(
         self,
@@ -109,9 +126,9 @@ class Buffer(BufferCore, BufferInterface):
         :param timeout: how long to wait for it
         """
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        check = partial(self.can_transform_full_core, *arguments)
+        question = Question(self.can_transform_full_core, arguments)
         look_up = partial(self.lookup_transform_full_core, *arguments)
-        return self._look_up(look_up, check, timeout)
+        return self._look_up(look_up, question, timeout)
 
     def can_transform(
         self,
@@ -130,8 +147,8 @@ class Buffer(BufferCore, BufferInterface):
         :param timeout: how long to wait for it
         :param return_debug_tuple: return a text as well that says why not
         """
-        check = partial(self.can_transform_core, target_frame, source_frame, time)
-        result = self._wait(check, timeout)
+        arguments = (target_frame, source_frame, time)
+        result = self._wait(Question(self.can_transform_core, arguments), timeout)
         return result if return_debug_tuple else result[0]
 
     def can_transform_full(
@@ -156,12 +173,13 @@ class Buffer(BufferCore, BufferInterface):
         :param return_debug_tuple: return a text as well that says why not
         """
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        result = self._wait(partial(self.can_transform_full_core, *arguments), timeout)
+        result = self._wait(Question(self.can_transform_full_core, arguments), timeout)
         return result if return_debug_tuple else result[0]
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future:
         """Return a future whose result is True as soon as the look-up would succeed."""
-        return self._future(partial(self.can_transform_core, target_frame, source_frame, time))
+        arguments = (target_frame, source_frame, time)
+        return self._future(Question(self.can_transform_core, arguments))
 
     def wait_for_transform_full_async(
         self,
@@ -173,7 +191,7 @@ class Buffer(BufferCore, BufferInterface):
     ) -> Future:
         """Return a future whose result is True as soon as the look-up would succeed."""
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        return self._future(partial(self.can_transform_full_core, *arguments))
+        return self._future(Question(self.can_transform_full_core, arguments))
 
     async def lookup_transform_async(
         self, target_frame: str, source_frame: str, time: Time
@@ -200,28 +218,32 @@ class Buffer(BufferCore, BufferInterface):
         self._waiting.announce()
 
     def _look_up(
-        self, look_up: Callable[[], TransformStamped], check: Check, timeout: Duration
+        self, look_up: Callable[[], TransformStamped], question: Question, timeout: Duration
     ) -> TransformStamped:
-        """Return the transform at once, or when the check succeeds in time."""
+        """Return the transform at once, or when it comes in time."""
         timeout_s = nanoseconds(timeout) / 1e9
         if timeout_s <= 0.0:
             return look_up()
-        self._waiting.until(check, timeout_s)
+        self._waiting.until(partial(self._answers, question), timeout_s)
         try:
             return look_up()
         except TransformException as error:
-            if not self._waiting.blocks_itself():
-                raise
-            raise type(error)(f'{error}. {_BLOCKED}') from None
+            reason = after_waiting(str(error), timeout_s)
+            blocked = f'. {_BLOCKED}' if self._waiting.blocks_itself() else ''
+            raise type(error)(reason + blocked) from None
 
-    def _wait(self, check: Check, timeout: Duration) -> tuple[bool, str]:
+    def _wait(self, question: Question, timeout: Duration) -> tuple[bool, str]:
         timeout_s = nanoseconds(timeout) / 1e9
-        return check() if timeout_s <= 0.0 else self._waiting.until(check, timeout_s)
+        if timeout_s <= 0.0:
+            return question.ask()
+        self._waiting.until(partial(self._answers, question), timeout_s)
+        is_there, reason = question.ask()
+        return is_there, after_waiting(reason, timeout_s)
 
-    def _future(self, check: Check) -> Future:
+    def _future(self, question: Question) -> Future:
         future = Future()
         future.add_done_callback(self._wake)
-        self._waiting.add(check, future)
+        self._waiting.add(partial(self._answers, question), future)
         return future
 
     def _wake(self, future: Future) -> None:
@@ -229,6 +251,10 @@ class Buffer(BufferCore, BufferInterface):
         executor = self._node.executor if self._node else None
         if executor is not None:
             executor.wake()
+
+    def _answers(self, question: Question) -> bool:
+        """Tell if there is an answer; a reason why not takes longer than all transforms."""
+        return self._knows(*question.frames) and question.ask()[0]
 
     def _is_alive(self) -> bool:
         return self._node is None or bool(self._node.context.ok())

@@ -57,7 +57,7 @@ class BufferInterface:
         :param timeout: how long to wait for the transform
         :param new_type: the type of the result, if not that of the object
         """
-        do_transform = self.registration.get(type(object_stamped))
+        do_transform = self._do_transform_of(object_stamped)
         header = object_stamped.header
         transform = self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout)
         return _converted(do_transform(object_stamped, transform), new_type)
@@ -81,12 +81,23 @@ class BufferInterface:
         :param timeout: how long to wait for the transforms
         :param new_type: the type of the result, if not that of the object
         """
-        do_transform = self.registration.get(type(object_stamped))
+        do_transform = self._do_transform_of(object_stamped)
         header = object_stamped.header
         transform = self.lookup_transform_full(
             target_frame, target_time, header.frame_id, header.stamp, fixed_frame, timeout
         )
         return _converted(do_transform(object_stamped, transform), new_type)
+
+    def _do_transform_of(self, object_stamped: Any) -> Any:
+        """Return the function that transforms an object with a header, or TypeException."""
+        kind = type(object_stamped)
+        if hasattr(object_stamped, 'header'):
+            return self.registration.get(kind)
+        raise TypeException(
+            f'A {kind.__name__} has no header, and so neither a frame nor a time: put it into a '
+            f'message with one, as {kind.__name__}Stamped, or look up the transform and apply a '
+            'function like tf2_geometry_msgs.do_transform_pose'
+        )
 
     def lookup_transform(
         self,

@@ -4,20 +4,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+import errno
 import os
 import signal
 import sys
 import threading
+import time
 from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
     from rclpy.executors import Executor
     from rclpy.node import Node
 
-__all__ = ['run', 'run_node', 'spin']
+__all__ = ['run', 'run_node', 'spin', 'wait_for_signal']
 
 ArgumentsT = TypeVar('ArgumentsT')
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+_LOOK_S = 1.0
 BROKEN_PIPE_STATUS = 128 + signal.SIGPIPE
 
 
@@ -54,20 +57,32 @@ def run(
     """
     Do the work of a program; return the exit status.
 
-    SIGINT and SIGTERM are blocked from here to the end, so that they interrupt nothing; `spin`
-    waits for them.
+    SIGINT and SIGTERM are blocked from here to the end of the process, so that they interrupt
+    nothing; `spin` waits for them. A thread that is older, as those of numpy, may get them all
+    the same, and hands them over.
 
     :param parse: makes the work's arguments of the words that are not for ROS
     :param work: runs while ROS does; may return an exit status
     :param arguments: the command line with the program's name; by default that of the process
     """
     before = signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)
+    _handle(_hand_over)
     try:
         return _run(parse, work, list(sys.argv if arguments is None else arguments))
     finally:
-        while signal.sigtimedwait(STOP_SIGNALS, 0.0):
-            pass  # who is impatient has sent several
+        # Who is impatient sends several, and the process has nothing left to do but to end.
+        _handle(signal.SIG_IGN)
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _handle(handler: Callable[[int, object], None] | signal.Handlers) -> None:
+    for number in STOP_SIGNALS:
+        signal.signal(number, handler)
+
+
+def _hand_over(number: int, _: object) -> None:
+    """Send a signal that another thread has got to the main thread, which waits for it."""
+    signal.pthread_kill(threading.main_thread().ident or 0, number)
 
 
 def _run(
@@ -87,9 +102,8 @@ def _run(
         return 1
     try:
         return work(parsed) or 0
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return BROKEN_PIPE_STATUS
+    except OSError as error:
+        return _status_of_lost_output(error)
     finally:
         rclpy.try_shutdown()
 
@@ -107,16 +121,30 @@ def _reason(error: RuntimeError) -> str:
     )
 
 
+def _status_of_lost_output(error: OSError) -> int:
+    """Drop what nobody reads or no disk has room for; raise other errors again."""
+    if error.errno not in (errno.EPIPE, errno.ENOSPC):
+        raise error
+    # The interpreter would try once more at the end, and complain.
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if error.errno == errno.EPIPE:
+        return BROKEN_PIPE_STATUS
+    sys.stderr.write(f'The output cannot be written: {error.strerror}\n')
+    return 1
+
+
 def spin(node: Node, timeout_s: float | None = None) -> bool:
     """Let a node work until a signal to stop, or so long; return whether a signal came."""
     from rclpy.executors import SingleThreadedExecutor
+    from tf2_ros._clock_watch import watch_clock
 
+    watch_clock(node)
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     failures: list[Exception] = []
     thread = threading.Thread(target=_work, args=(executor, failures), name='node')
     thread.start()
-    is_stopped = _wait_for_signal(timeout_s)
+    is_stopped = wait_for_signal(timeout_s)
     executor.shutdown()
     thread.join()
     if failures:
@@ -124,11 +152,16 @@ def spin(node: Node, timeout_s: float | None = None) -> bool:
     return is_stopped
 
 
-def _wait_for_signal(timeout_s: float | None) -> bool:
-    if timeout_s is None:
-        signal.sigwait(STOP_SIGNALS)
-        return True
-    return signal.sigtimedwait(STOP_SIGNALS, timeout_s) is not None
+def wait_for_signal(timeout_s: float | None) -> bool:
+    """Return whether a signal to stop came in time."""
+    # Now and then a look for one that another thread has got.
+    end_s = None if timeout_s is None else time.monotonic() + timeout_s
+    left_s = _LOOK_S
+    while left_s > 0.0:
+        left_s = _LOOK_S if end_s is None else end_s - time.monotonic()
+        if signal.sigtimedwait(STOP_SIGNALS, min(max(left_s, 0.0), _LOOK_S)) is not None:
+            return True
+    return False
 
 
 def _work(executor: Executor, failures: list[Exception]) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from copy import deepcopy
 from typing import Optional, TYPE_CHECKING, Union
 
 from tf2_msgs.msg import TFMessage
@@ -32,5 +33,7 @@ class StaticTransformBroadcaster:
 
     def sendTransform(self, transform: Transforms) -> None:  # noqa: N802
         """Publish a transform, or several, with all that were sent before."""
-        self._transforms.update({item.child_frame_id: item for item in as_list(transform)})
+        # The caller may fill the same message again.
+        sent = deepcopy(as_list(transform))
+        self._transforms.update({item.child_frame_id: item for item in sent})
         self.pub_tf.publish(TFMessage(transforms=list(self._transforms.values())))

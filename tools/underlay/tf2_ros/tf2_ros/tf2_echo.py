@@ -6,10 +6,12 @@ from __future__ import annotations
 import argparse
 import sys
 
+from tf2_ros.argument_types import number_in
 from tf2_ros.program import run, spin
 
 _LOOK_S = 0.1
 _LOOKS_UNTIL_WORD = 10
+_MOST_DIGITS = 15
 
 
 def main() -> int:
@@ -30,25 +32,18 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument('source_frame', help='the frame in which the other one is looked for')
     parser.add_argument('target_frame', help='the frame that is looked for')
-    parser.add_argument('rate', nargs='?', type=_rate, default=1.0, help='in Hz; 1 if not given')
+    rate = number_in(1e-6, 1e6, 'rate in Hz')
+    parser.add_argument('rate', nargs='?', type=rate, default=1.0, help='in Hz; 1 if not given')
     parser.add_argument(
         '-p', '--precision', type=_digits, default=3, help='digits after the point; 3 if not given'
     )
     return parser
 
 
-def _rate(text: str) -> float:
-    rate_hz = float(text)
-    if not 0.0 < rate_hz < 1e6:
-        raise argparse.ArgumentTypeError(f'a rate of {text} Hz is not possible')
-    return rate_hz
-
-
 def _digits(text: str) -> int:
-    digits = int(text)
-    if not 0 <= digits <= 15:
-        raise argparse.ArgumentTypeError(f'{text} is not between 0 and 15 digits')
-    return digits
+    if text not in map(str, range(_MOST_DIGITS + 1)):
+        raise argparse.ArgumentTypeError(f'{text!r} is not between 0 and {_MOST_DIGITS} digits')
+    return int(text)
 
 
 class Echo:

@@ -9,6 +9,7 @@ import time
 from typing import Any
 
 from tf2_ros._delays import AUTHORITY, report, Traffic
+from tf2_ros.argument_types import number_in
 from tf2_ros.program import run, spin
 
 _PERIOD_S = 10.0
@@ -40,7 +41,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument('source_frame', nargs='?', default='')
     parser.add_argument('target_frame', nargs='?', default='')
-    parser.add_argument('--period', type=float, default=_PERIOD_S, help='seconds of each report')
+    seconds = number_in(0.01, 1e6, 'period in seconds')
+    parser.add_argument('--period', type=seconds, default=_PERIOD_S, help='seconds of each report')
     return parser
 
 

@@ -43,6 +43,11 @@ def dot(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv('PATH', str(program.parent), prepend=os.pathsep)
 
 
+def never() -> bool:
+    """Return that nobody wants graphviz to stop."""
+    return False
+
+
 def start(environment: dict[str, str], *command: str) -> subprocess.Popen[str]:
     """Start a module as a program."""
     return subprocess.Popen(
@@ -58,7 +63,7 @@ def test_graph_is_drawn(tmp_path: Path, dot: None) -> None:
     """With graphviz there is a PDF; folders are made."""
     path = str(tmp_path / 'deep' / 'frames')
     assert write_graph(path, 'digraph G {}\n') == f'{path}.gv'
-    assert draw(path) == ''
+    assert draw(path, never) == ''
     assert Path(f'{path}.pdf').read_text() == 'drawn\n'
 
 
@@ -66,13 +71,34 @@ def test_graphviz_fails(tmp_path: Path, dot: None) -> None:
     """What graphviz says is handed on."""
     path = str(tmp_path / 'frames')
     write_graph(path, 'nothing')
-    assert draw(path) == f'dot could not draw {path}.gv: no graph in {path}.gv'
+    assert draw(path, never) == f'dot could not draw {path}.gv: no graph in {path}.gv'
+
+
+def test_graphviz_cannot_start(tmp_path: Path, dot: None) -> None:
+    """A program that is none is a sentence."""
+    (tmp_path / 'bin' / 'dot').write_text('#!/no/such/shell\n')
+    assert draw(str(tmp_path / 'frames'), never).startswith('dot cannot be started: No such file')
+
+
+def test_interrupt_of_graphviz(tmp_path: Path, dot: None, environment: dict[str, str]) -> None:
+    """Ctrl-C while a large graph is drawn ends graphviz and the program."""
+    (tmp_path / 'bin' / 'dot').write_text('#!/bin/sh\necho begun >&2; exec sleep 1000\n')
+    path = str(tmp_path / 'frames')
+    environment = {**environment, 'PATH': os.environ['PATH']}
+    viewer = start(environment, 'tf2_tools.view_frames', '-t', '0', '-o', path)
+    assert viewer.stderr is not None
+    while 'Generating graph' not in viewer.stderr.readline():
+        assert viewer.poll() is None
+    viewer.send_signal(signal.SIGINT)
+    _, errors = viewer.communicate(timeout=TIMEOUT_S / 2)
+    assert viewer.returncode == 0 and 'Traceback' not in errors
+    assert f'dot has not drawn {path}.gv so far, and was stopped' in errors
 
 
 def test_no_graphviz(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without graphviz the way out is named."""
     monkeypatch.setenv('PATH', str(tmp_path))
-    assert "'sudo apt install graphviz'" in draw(str(tmp_path / 'frames'))
+    assert "'sudo apt install graphviz'" in draw(str(tmp_path / 'frames'), never)
 
 
 def test_program(tmp_path: Path, environment: dict[str, str]) -> None:
@@ -121,3 +147,26 @@ def test_interrupt(tmp_path: Path, environment: dict[str, str]) -> None:
     viewer.send_signal(signal.SIGINT)
     _, errors = viewer.communicate(timeout=TIMEOUT_S)
     assert viewer.returncode == 0 and 'Traceback' not in errors
+
+
+@pytest.mark.parametrize('seconds', ['nan', 'inf', '-1', 'long'])
+def test_no_time_to_listen(environment: dict[str, str], seconds: str) -> None:
+    """A time that is none is named, and the status is 2."""
+    process = start(environment, 'tf2_tools.view_frames', f'--wait-time={seconds}')
+    _, errors = process.communicate(timeout=TIMEOUT_S)
+    assert process.returncode == 2 and 'Traceback' not in errors
+    assert f"'{seconds}' is no time in seconds: give a number from 0" in errors
+
+
+def test_closed_output(environment: dict[str, str], tmp_path: Path) -> None:
+    """The files are written also if nobody wants to read."""
+    words = [sys.executable, '-m', 'tf2_tools.view_frames', '-t', '0', '-o', str(tmp_path / 'f')]
+    result = subprocess.run(
+        ['sh', '-c', 'exec "$0" "$@" >&-', *words],
+        env=environment,
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=TIMEOUT_S,
+    )
+    assert result.returncode == 0 and 'Traceback' not in result.stderr
+    assert (tmp_path / 'f.gv').exists()

@@ -3,11 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import os
 import shutil
 import subprocess
+import time
 
 _TIMEOUT_S = 60.0
+_LOOK_S = 0.1
 
 
 def write_graph(path: str, graph: str) -> str:
@@ -18,8 +21,12 @@ def write_graph(path: str, graph: str) -> str:
     return f'{path}.gv'
 
 
-def draw(path: str) -> str:
-    """Draw PATH.gv as PATH.pdf; return what kept it from being drawn, or ''."""
+def draw(path: str, is_stopped: Callable[[], bool]) -> str:
+    """
+    Draw PATH.gv as PATH.pdf; return what kept it from being drawn, or ''.
+
+    :param is_stopped: is asked again and again while graphviz works
+    """
     if shutil.which('dot') is None:
         return (
             f"There is no {path}.pdf, because graphviz's program 'dot' is not installed. Install "
@@ -28,9 +35,24 @@ def draw(path: str) -> str:
         )
     command = ['dot', '-Tpdf', f'{path}.gv', '-o', f'{path}.pdf']
     try:
-        subprocess.run(command, check=True, capture_output=True, text=True, timeout=_TIMEOUT_S)
-    except subprocess.CalledProcessError as error:
-        return f'dot could not draw {path}.gv: {error.stderr.strip()}'
-    except subprocess.TimeoutExpired:
-        return f'dot has not drawn {path}.gv within {_TIMEOUT_S:g} s, and was stopped'
-    return ''
+        process = subprocess.Popen(
+            command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+        )
+    except OSError as error:
+        return f'dot cannot be started: {error.strerror}'
+    return _problem(process, path, is_stopped)
+
+
+def _problem(process: subprocess.Popen[str], path: str, is_stopped: Callable[[], bool]) -> str:
+    """Wait until graphviz has drawn, for a while; return what went wrong, or ''."""
+    end_s = time.monotonic() + _TIMEOUT_S
+    while True:
+        try:
+            _, errors = process.communicate(timeout=_LOOK_S)
+            return f'dot could not draw {path}.gv: {errors.strip()}' if process.returncode else ''
+        except subprocess.TimeoutExpired:
+            if is_stopped() or time.monotonic() > end_s:
+                break
+    process.kill()
+    process.communicate()
+    return f'dot has not drawn {path}.gv so far, and was stopped'

@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import argparse
 from datetime import datetime
+from functools import partial
 import sys
 from typing import TYPE_CHECKING
 
-from tf2_ros.program import run, spin
+from tf2_ros.argument_types import number_in
+from tf2_ros.program import run, spin, wait_for_signal
 from tf2_tools.drawing import draw, write_graph
 
 if TYPE_CHECKING:
@@ -29,7 +31,11 @@ def _parser() -> argparse.ArgumentParser:
         description='Listen to transforms for some seconds, then draw the tree of the frames.',
     )
     parser.add_argument(
-        '--wait-time', '-t', type=float, default=_WAIT_S, help='seconds to listen; 5 if not given'
+        '--wait-time',
+        '-t',
+        type=number_in(0.0, 1e6, 'time in seconds'),
+        default=_WAIT_S,
+        help='seconds to listen; 5 if not given',
     )
     parser.add_argument(
         '-o', '--output', default='', help='the files without their endings; else frames_<date>'
@@ -57,11 +63,11 @@ def _view(args: argparse.Namespace) -> int:
     except OSError as error:
         logger.error(f'{path}.gv cannot be written: {error.strerror}. Give another --output')
         return 1
-    problem = draw(path)
+    problem = draw(path, partial(wait_for_signal, 0.0))
     if problem:
         logger.warning(problem)
     _say_what_is_missing(node, buffer)
-    sys.stdout.write(f'{buffer.all_frames_as_yaml().rstrip()}\n')
+    print(buffer.all_frames_as_yaml().rstrip(), flush=True)
     return 0
 
 

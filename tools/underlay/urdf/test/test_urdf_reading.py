@@ -134,6 +134,11 @@ BROKEN = [
     ),
     (
         'mimic joint="shoulder"',
+        'mimic joint="elbw"',
+        "12: Joint 'elbow' mimics joint 'elbw', which does not exist.",
+    ),
+    (
+        'mimic joint="shoulder"',
         'mimic joint="elbow"',
         '12: Joints mimic each other in a loop: elbow -> elbow.',
     ),
@@ -208,7 +213,7 @@ def test_reads_joints() -> None:
     )
     assert [joint.line for joint in model.joints] == [5, 12]
     assert model.describe() == (
-        "Robot 'arm': 3 links below 'base', 2 joints, 2 of them moving, 1 of these follow others."
+        "Robot 'arm': 3 links below 'base', 2 joints, 2 of them moving, 1 of these follows others."
     )
 
 

@@ -103,7 +103,7 @@ def _check_mimics(model: RobotModel) -> None:
     for name, mimic in mimics.items():
         line, master = by_name[name].line, by_name.get(mimic.joint)
         if master is None:
-            meant = did_you_mean(mimic.joint, by_name)
+            meant = did_you_mean(mimic.joint, (other for other in by_name if other != name))
             raise UrdfError(
                 f"Joint '{name}' mimics joint '{mimic.joint}', which does not exist.{meant}", line
             )

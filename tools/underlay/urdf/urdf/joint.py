@@ -52,6 +52,10 @@ class Joint:
     limits: Limits | None = None
     soft_limits: Limits | None = None
     mimic: Mimic | None = None
+    max_velocity: float | None = None
+    """The speed that it may have, in radians or metres per second."""
+    max_effort: float | None = None
+    """The torque or force that it may have, in newton metres or newtons."""
     line: int | None = field(default=None, compare=False)
 
     @property

@@ -29,6 +29,8 @@ def read_joint(element: XmlElement) -> Joint:
         limits=_limits(element, where) if kind in LIMITED else None,
         soft_limits=_soft_limits(element, where) if kind in LIMITED else None,
         mimic=_mimic(element, where),
+        max_velocity=_maximum(element, 'velocity', where) if kind in MOVING else None,
+        max_effort=_maximum(element, 'effort', where) if kind in MOVING else None,
         line=element.line,
     )
 
@@ -58,6 +60,15 @@ def _limits(element: XmlElement, where: str) -> Limits:
     """Return the limits; one that is not given is zero."""
     limit = child(element, 'limit', where)
     return Limits(number(limit, 'lower', where, 0.0), number(limit, 'upper', where, 0.0))
+
+
+def _maximum(element: XmlElement, name: str, where: str) -> float | None:
+    """Return how fast or strong a joint may be; who does not know writes 0, or infinity."""
+    limit = element.find('limit')
+    if limit is None or 'inf' in limit.attributes.get(name, '').lower():
+        return None
+    maximum = number(limit, name, where, 0.0)
+    return maximum if maximum > 0.0 else None
 
 
 def _soft_limits(element: XmlElement, where: str) -> Limits | None:

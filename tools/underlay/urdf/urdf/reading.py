@@ -63,7 +63,8 @@ def _no_xml(text: str) -> str:
     if len(text.splitlines()) == 1 and os.path.splitext(text)[1] in ('.urdf', '.xacro', '.xml'):
         return (
             f'The robot description is {shown}, which looks like a file. Pass the text of the '
-            'URDF; in a launch file, ParameterValue(Command(["xacro ", path]), value_type=str).'
+            """URDF; in a launch file, ParameterValue(Command(['xacro "', path, '"']), """
+            'value_type=str).'
         )
     return f'The robot description is {shown}, which is no XML. Pass the text of a URDF.'
 

@@ -49,9 +49,15 @@ class RobotModel:
         """Return the robot in words."""
         moving = len(self.moving_joints)
         counts = [
-            f'{len(self.links)} links below {self.root!r}',
-            f'{len(self.joints)} joints, {moving} of them moving',
+            f'{_count(len(self.links), "link")} below {self.root!r}',
+            f'{_count(len(self.joints), "joint")}, {moving} of them moving',
         ]
         if self.mimics:
-            counts.append(f'{len(self.mimics)} of these follow others')
+            verb = 'follows' if len(self.mimics) == 1 else 'follow'
+            counts.append(f'{len(self.mimics)} of these {verb} others')
         return f'Robot {self.name!r}: {", ".join(counts)}.'
+
+
+def _count(number: int, noun: str) -> str:
+    """Return a number with its noun."""
+    return f'{number} {noun}' + ('' if number == 1 else 's')

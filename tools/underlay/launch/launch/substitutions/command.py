@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-import os
+from collections.abc import Sequence
 import shlex
 from typing import TYPE_CHECKING
 
@@ -55,7 +55,8 @@ class Command(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """Run the command, without a shell, and return what it wrote."""
-        command = perform_substitutions(context, self.__command)
+        parts = [perform_substitutions(context, [part]) for part in self.__command]
+        command = ''.join(parts)
         mode = perform_substitutions(context, self.__on_stderr)
         if context._before_start is not None:
             from launch._stale_files import note_files_of_command
@@ -66,16 +67,17 @@ class Command(Substitution):
                 f"invalid on_stderr '{mode}' of the command '{command}': expected one of "
                 f'{", ".join(_MODES)}'
             )
-        result = _run(command, merge=mode == 'capture')
+        result = _run(parts, merge=mode == 'capture')
         if mode != 'ignore':
             _show_hints(result)
-        _judge(command, mode, result)
+        _judge(parts, mode, result)
         return result.stdout
 
 
-def _run(command: str, merge: bool) -> subprocess.CompletedProcess[str]:
+def _run(parts: Sequence[str], merge: bool) -> subprocess.CompletedProcess[str]:
     import subprocess
 
+    command = ''.join(parts)
     try:
         return subprocess.run(
             shlex.split(command),
@@ -86,7 +88,10 @@ def _run(command: str, merge: bool) -> subprocess.CompletedProcess[str]:
             errors='replace',
         )
     except FileNotFoundError as error:
-        raise SubstitutionFailure(f'file not found: {error}') from error
+        from launch._command_advice import advice_on_program
+
+        advice = advice_on_program(parts)
+        raise SubstitutionFailure(f'file not found: {error}{advice}') from error
     except (OSError, ValueError) as error:
         raise SubstitutionFailure(
             f'executed command failed. Command: {command}\nIt cannot be run: {error}'
@@ -107,14 +112,17 @@ def _show_hints(result: subprocess.CompletedProcess[str]) -> None:
     setattr(result, stream, ''.join(line for line in lines if line not in hints))
 
 
-def _judge(command: str, mode: str, result: subprocess.CompletedProcess[str]) -> None:
+def _judge(parts: Sequence[str], mode: str, result: subprocess.CompletedProcess[str]) -> None:
     """Raise or warn if the result is not what the mode asks for."""
+    command = ''.join(parts)
     if result.returncode != 0:
+        from launch._command_advice import advice_on_failure
+
         said = result.stdout if mode == 'capture' else result.stderr
         raise SubstitutionFailure(
             f'executed command failed. Command: {command}'
             + _captured(said).rstrip()
-            + _advice(command, said)
+            + advice_on_failure(parts, said)
         )
     if result.stderr and mode == 'fail':
         raise SubstitutionFailure(
@@ -130,14 +138,3 @@ def _judge(command: str, mode: str, result: subprocess.CompletedProcess[str]) ->
 
 def _captured(text: str) -> str:
     return f'\nCaptured stderr output: {text}' if text else ''
-
-
-def _advice(command: str, said: str) -> str:
-    """Return a line about the first path in a command that does not exist, or nothing new."""
-    from launch._missing_file import explain_missing_file
-
-    for word in shlex.split(command)[1:]:
-        if word.startswith('/') and not os.path.exists(word):
-            explanation = explain_missing_file('file', word)
-            return '' if explanation in said else f'\n{explanation}'
-    return ''

@@ -12,12 +12,14 @@ from rviz_common.status import Level
 __all__ = ['Badge']
 
 SUBJECT = 'Playing'
-RECORDED = 'What is shown is recorded, not live.'
+RECORDED = 'This is recorded, not live.'
 MIXED = 'Recorded and live are mixed.'
-# Above the scene, and not among the widgets, which a person may scroll or fold away.
+# Over the scene, below toasts, and not among the widgets, which a person may scroll or fold away;
+# these are 24em wide.
 STYLE = (
-    'position: fixed; top: 0.8em; left: 50%; transform: translateX(-50%); z-index: 1000; '
-    'max-width: 90vw; padding: 0.45em 1em; border-radius: 4px; pointer-events: none; '
+    'position: fixed; bottom: 1em; left: max(9em, 50vw - 12em); transform: translateX(-50%); '
+    'z-index: 1000; width: max-content; max-width: 17em; '
+    'padding: 0.45em 1em; border-radius: 4px; pointer-events: none; '
     'color: #fff; font-size: 0.9em; line-height: 1.35; text-align: center; '
     'overflow-wrap: anywhere; background: '
 )
@@ -25,7 +27,7 @@ COLORS = {RECORDED: '#7048e8', MIXED: '#e8590c'}
 
 
 class Badge:
-    """Stands above the scene, and in the summary of the page, while a recording is played."""
+    """Stands over the scene, and in the summary of the page, while a recording is played."""
 
     def __init__(self, context: Context) -> None:
         """Show nothing yet."""

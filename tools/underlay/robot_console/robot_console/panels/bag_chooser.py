@@ -10,7 +10,7 @@ from typing import Any
 
 from robot_console.assigning import assign
 from robot_console.recordings.shelf import Bag, Shelf
-from robot_console.recordings.words import about, clock_text
+from robot_console.recordings.words import about, clock_text, topics_table
 from rviz_common.context import Context
 from rviz_common.pace import Pace
 from rviz_common.panels.marks import escaped
@@ -43,6 +43,7 @@ class BagChooser:
         self._chosen = chosen
         self._pace = Pace(PERIOD_S)
         self._is_looking = False
+        self._wanted = ''
         self._bags: dict[str, Bag] = {}
         self._list: Any = context.gui.add_dropdown('Recording', [NONE])
         self._text: Any = context.gui.add_markdown('')
@@ -50,8 +51,10 @@ class BagChooser:
 
     def add_details(self) -> None:
         """Add the widget with the topics, which may stand elsewhere."""
-        with self._context.gui.add_folder('Topics', expand_by_default=False):
-            self._details: Any = self._context.gui.add_markdown('')
+        gui = self._context.gui
+        self._topics: Any = gui.add_folder('Topics', expand_by_default=False, visible=False)
+        with self._topics:
+            self._details: Any = gui.add_html('')
 
     @property
     def bag(self) -> Bag | None:
@@ -65,8 +68,9 @@ class BagChooser:
             self._is_looking = True
             threading.Thread(target=self._look, daemon=True).start()
 
-    def hurry(self) -> None:
-        """Look soon, since there is something new."""
+    def choose(self, path: str) -> None:
+        """Choose a new recording, as soon as it is seen."""
+        self._wanted = path
         self._pace.hurry()
 
     def _look(self) -> None:
@@ -83,6 +87,9 @@ class BagChooser:
             self._bags = found
             before = self._list.value
             assign(self._list, options=tuple(found) or (NONE,))
+            for label in (each for each, bag in found.items() if bag.path == self._wanted):
+                self._wanted = ''
+                assign(self._list, value=label)
             if self._list.value != before:
                 self._chosen()
         self._describe()
@@ -94,13 +101,15 @@ class BagChooser:
     def _describe(self) -> None:
         bag = self._bags.get(self._list.value)
         if bag is None:
-            head, details = f'No recordings in {escaped(_short(self._shelf.folder))} yet.', ''
+            head = f'No recordings in {escaped(_short(self._shelf.folder))} yet.'
         else:
-            head, details = about(bag)
+            head = about(bag)
+        topics = bag.topics if bag is not None else ()
         if self._shelf.left_out_count:
             head += f'\n\n{self._shelf.left_out_count} older ones are not listed.'
         assign(self._text, content=head)
-        assign(self._details, content=details)
+        assign(self._details, content=topics_table(topics))
+        assign(self._topics, visible=bool(topics))
 
 
 def _label(bag: Bag) -> str:

@@ -56,7 +56,8 @@ class Drive(Panel):
         self.context.node.destroy_publisher(self._publisher)
 
     def _session(self, person: str) -> DriveSession:
-        return DriveSession(self._link, person, self._limits, self._say)
+        count_listeners = self._publisher.get_subscription_count
+        return DriveSession(self._link, person, self._limits, self._say, count_listeners)
 
     def _say(self, velocity: Velocity) -> None:
         """Publish a velocity, in the thread of the connection."""

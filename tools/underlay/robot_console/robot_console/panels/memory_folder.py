@@ -27,7 +27,7 @@ class MemoryFolder:
         folder: str,
         namespace: str,
         limits: tuple[float, float],
-        done: Callable[[], None],
+        done: Callable[[str], None],
     ) -> None:
         """Add the widgets; the limits are seconds and MiB."""
         self._folder, self._namespace, self._done = folder, namespace, done
@@ -37,7 +37,7 @@ class MemoryFolder:
         gui = context.gui
         with gui.add_folder(f'Messages: last {self._seconds:g} s'):
             self._on: Any = gui.add_checkbox(
-                'Keep', False, hint=f'In memory, up to {self._max_mib:g} MiB.'
+                'Keep messages', False, hint=f'In memory, up to {self._max_mib:g} MiB.'
             )
             self._button: Any = gui.add_button('Save', disabled=True)
             self._text: Any = gui.add_markdown('', visible=False)
@@ -105,5 +105,5 @@ class MemoryFolder:
         else:
             name = os.path.basename(saved['folder'])
             text = f'✔ Saved **{escaped(name)}**: {saved["messages"]} messages'
+            self._done(saved['folder'])
         assign(self._result, content=text, visible=True)
-        self._done()

@@ -134,12 +134,8 @@ class PlayFolder:
         arguments += ['--exclude-topics', *left_out] if left_out else []
         self._bag, self._child, self._jumps = bag, Child('play', arguments), 0
         self._mixture, self._wish = '', None
-        assign(
-            self._time,
-            max=max(math.ceil(bag.duration_s * 100) / 100, 0.01),
-            value=0.0,
-            disabled=False,
-        )
+        self._show_span(bag)
+        assign(self._time, value=0.0, disabled=False)
         assign(self._obeyed, disabled=True)
 
     def _finish(self, child: Child) -> None:
@@ -215,10 +211,15 @@ class PlayFolder:
         return commands_among((each.name for each in bag.topics), self._patterns)
 
     def _describe(self) -> None:
-        """Say what would be left out."""
+        """Say what would be played, and what left out."""
         if self._child is not None:
             return
         bag = self.chooser.bag
+        if bag is not None:
+            self._show_span(bag)
         left_out = self._left_out(bag) if bag is not None else []
         text = f'Left out, since a robot would obey: {listed(left_out)}' if left_out else ''
         assign(self._text, content=escaped(text))
+
+    def _show_span(self, bag: Bag) -> None:
+        assign(self._time, max=max(math.ceil(bag.duration_s * 100) / 100, 0.01))

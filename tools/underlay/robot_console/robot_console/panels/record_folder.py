@@ -30,7 +30,7 @@ class RecordFolder:
         context: Context,
         folder: str,
         namespace: str,
-        done: Callable[[], None],
+        done: Callable[[str], None],
     ) -> None:
         """Add the widgets; `done` is called when there is a new recording."""
         self._context, self._folder = context, folder
@@ -114,7 +114,7 @@ class RecordFolder:
             text = f'✔ Recorded **{escaped(self._name_now())}**: {size}'
         notes = ''.join(f'\n\n⚠ {escaped(each)}' for each in child.warnings[-3:])
         assign(self._text, content=text + notes)
-        self._done()
+        self._done(self._path)
 
     def _name_now(self) -> str:
         return os.path.basename(self._path)

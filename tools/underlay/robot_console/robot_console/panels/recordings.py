@@ -41,8 +41,8 @@ class Recordings(Panel):
         namespace, seconds = values['Namespace'], values['Seconds']
         limits = seconds, values['Largest Memory']
         self._pace = Pace(PERIOD_S)
-        self._record = RecordFolder(context, folder, namespace, self._hurry)
-        self._memory = MemoryFolder(context, folder, namespace, limits, self._hurry)
+        self._record = RecordFolder(context, folder, namespace, self._choose)
+        self._memory = MemoryFolder(context, folder, namespace, limits, self._choose)
         self._play = PlayFolder(context, folder, values['Commands'], lambda: self._record.path)
         self._scene = SceneFolder(context, seconds, values['Largest Page'], values['Keep Scene'])
         self._parts = (self._record, self._memory, self._play, self._scene)
@@ -59,6 +59,6 @@ class Recordings(Panel):
         for part in self._parts:
             part.close()
 
-    def _hurry(self) -> None:
-        """List a new recording."""
-        self._play.chooser.hurry()
+    def _choose(self, path: str) -> None:
+        """Offer a new recording to be played."""
+        self._play.chooser.choose(path)

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 import time
+from typing import Any
 
 from robot_console.connections import Connections
 from robot_console.namespaces import below, NAMESPACE
@@ -18,6 +20,7 @@ from std_msgs.msg import String
 
 __all__ = ['Safety']
 
+NO_ROBOTS = ('_', 'rosbag2_')
 PERIOD_S = 0.5
 
 
@@ -80,21 +83,21 @@ class Safety(Panel):
         """Return what the graph of nodes says about the robot."""
         node, topic = self.context.node, self._link.stop_topic
         own = node.get_fully_qualified_name()
-        names = [
-            sorted({_name(end.node_namespace, end.node_name) for end in ends} - {own})
-            for ends in (
-                node.get_subscriptions_info_by_topic(topic),
-                node.get_publishers_info_by_topic(topic),
-            )
-        ]
+        speakers = _names(node.get_publishers_info_by_topic(topic)) - {own}
+        listeners = _names(node.get_subscriptions_info_by_topic(topic)) - {own}
         is_said = node.count_publishers(self._state_topic) > 0
         return Facts(
             robot_kind(self.values['Robot'], node.count_publishers('/clock')),
-            tuple(names[0]),
-            tuple(names[1]),
+            tuple(sorted(filter(_may_be_robot, listeners))),
+            tuple(sorted(speakers)),
             self._says if is_said else None,
         )
 
 
-def _name(namespace: str, name: str) -> str:
-    return f'{namespace.rstrip("/")}/{name}'
+def _names(ends: Iterable[Any]) -> set[str]:
+    return {f'{end.node_namespace.rstrip("/")}/{end.node_name}' for end in ends}
+
+
+def _may_be_robot(name: str) -> bool:
+    """Tell it from hidden nodes and recorders, which do nothing about a stop."""
+    return not name.rpartition('/')[2].startswith(NO_ROBOTS)

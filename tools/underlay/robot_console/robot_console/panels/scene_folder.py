@@ -31,7 +31,7 @@ class SceneFolder:
         self._is_busy = False
         gui = context.gui
         with gui.add_folder(f'Scene: last {seconds:g} s'):
-            self._on: Any = gui.add_checkbox('Keep', is_on)
+            self._on: Any = gui.add_checkbox('Keep scene', is_on)
             self._button: Any = gui.add_button('Download as HTML', disabled=True, hint=HINT)
             self._text: Any = gui.add_markdown('', visible=False)
             self._result: Any = gui.add_markdown('', visible=False)

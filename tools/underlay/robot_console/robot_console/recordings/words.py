@@ -5,14 +5,24 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from datetime import datetime
+from html import escape
 
-from robot_console.recordings.shelf import Bag
+from robot_console.recordings.shelf import Bag, BagTopic
 from ros2bag.api.info import human_size
 from rviz_common.panels.marks import escaped
 
-__all__ = ['about', 'clock_text', 'listed', 'memory_text', 'mixture_text', 'size_text']
+__all__ = [
+    'about',
+    'clock_text',
+    'listed',
+    'memory_text',
+    'mixture_text',
+    'size_text',
+    'topics_table',
+]
 
 NAMED = 4
+TABLE = 'width: 100%; font-size: 0.8em; overflow-wrap: anywhere; padding: 0 0.5em'
 size_text = human_size
 
 
@@ -32,20 +42,26 @@ def listed(names: Iterable[str], most: int = NAMED) -> str:
     return f'{text} and {len(names) - most} more' if len(names) > most else text
 
 
-def about(bag: Bag) -> tuple[str, str]:
-    """Return what there is to say about a recording, and about its topics, as Markdown."""
+def about(bag: Bag) -> str:
+    """Return what there is to say about a recording, as Markdown."""
     if bag.problem:
-        return f'✖ {escaped(bag.problem)}', ''
+        return f'✖ {escaped(bag.problem)}'
     start = datetime.fromtimestamp(bag.start_s).strftime('%Y-%m-%d %H:%M:%S')
-    head = (
-        f'{clock_text(bag.duration_s)} from {start}: {bag.message_count} messages, '
+    return (
+        f'{start}, {clock_text(bag.duration_s)}, {bag.message_count} messages, '
         f'{size_text(bag.size_bytes)}'
     )
+
+
+def topics_table(topics: Iterable[BagTopic]) -> str:
+    """Return a table of topics with their types, as HTML that is not wider than its place."""
     rows = ''.join(
-        f'\n| {escaped(each.name)} | {escaped(each.type_name)} | {each.message_count} |'
-        for each in bag.topics
+        f'<tr style="vertical-align: top"><td style="padding-bottom: 0.3em">{escape(each.name)}'
+        f'<br><span style="opacity: 0.6">{escape(each.type_name)}</span></td>'
+        f'<td style="text-align: right">{each.message_count}</td></tr>'
+        for each in topics
     )
-    return head, f'| Topic | Type | Messages |\n|---|---|---:|{rows}'
+    return f'<table style="{TABLE}"><tbody>{rows}</tbody></table>'
 
 
 def memory_text(facts: Mapping[str, object], wanted_s: float, max_mib: float) -> str:

@@ -22,7 +22,7 @@ class ClockOutlet:
         from rosgraph_msgs.msg import Clock
 
         self._clock = Clock()
-        self._publisher = node.create_publisher(Clock, topic, 10)
+        self.publisher = node.create_publisher(Clock, topic, 10)
         self._period_ns = int(NS_PER_S / rate_hz)
         self._next_ns = 0
 
@@ -38,4 +38,4 @@ class ClockOutlet:
         """Publish a time."""
         stamp = self._clock.clock
         stamp.sec, stamp.nanosec = divmod(max(0, recorded_ns), NS_PER_S)
-        self._publisher.publish(self._clock)
+        self.publisher.publish(self._clock)

@@ -49,13 +49,12 @@ class Outlets:
         """Publish a serialized message."""
         self._publishers[topic].publish(data)
 
-    def wait_for_subscribers(self) -> None:
-        """Wait until the subscribers that are there already are connected."""
+    def wait_for_subscribers(self, *others: Any) -> None:
+        """Wait until the subscribers that are there already are connected; to others as well."""
         graph = self._node.graph
         end = time.monotonic() + MATCH_S
-        waiting = [
-            each for each in self._publishers.values() if graph.count_subscribers(each.topic_name)
-        ]
+        publishers = (*self._publishers.values(), *others)
+        waiting = [each for each in publishers if graph.count_subscribers(each.topic_name)]
         while waiting and time.monotonic() < end:
             self._node.spin_once(PERIOD_S)
             waiting = [each for each in waiting if not each.get_subscription_count()]

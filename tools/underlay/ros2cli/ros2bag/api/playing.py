@@ -46,7 +46,7 @@ def play(args: argparse.Namespace) -> None:
         clock = ClockOutlet(node, clock_topic, args.clock) if args.clock else None
         switch = PauseSwitch(args.start_paused, node.get_logger().info)
         offer_pause_services(node, switch)
-        outlets.wait_for_subscribers()
+        outlets.wait_for_subscribers(*([clock.publisher] if clock else []))
         if args.start_paused:
             node.get_logger().info('Paused: SPACE or the service ~/resume starts.')
         player = Player(node, outlets, clock, switch, keyboard)

@@ -21,6 +21,7 @@ CHECKS = {
     'qos': Entry('ros2doctor.check.qos:QosCheck', ''),
     'nodes': Entry('ros2doctor.check.nodes:NodesCheck', ''),
     'neighbours': Entry('ros2doctor.check.neighbours:NeighboursCheck', ''),
+    'clock': Entry('ros2doctor.check.clock:ClockCheck', ''),
     'frames': Entry('ros2doctor.check.frames:FramesCheck', ''),
 }
 REPORTS = {

@@ -13,6 +13,10 @@ from ros2doctor.facts.transforms import STATIC_SUFFIX, Transform, TRANSFORM_TYPE
 
 FRAMES_OF_WORLD = ('earth', 'world', 'map', 'odom')  # the order of REP-105
 
+AFTER_CLOCK = (
+    'let somebody publish /clock first, without which nodes publish no transforms of what moves; '
+    'then ask again'
+)
 Parents = dict[str, set[str]]
 
 
@@ -25,11 +29,17 @@ class FramesCheck(GraphCheck):
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
         """Yield what keeps transforms from being looked up."""
-        yield from frame_findings(graph.transforms)
+        yield from frame_findings(graph.transforms, bool(graph.without_clock))
 
 
-def frame_findings(transforms: Iterable[Transform]) -> Iterator[Finding]:
-    """Yield what is wrong with the trees that some transforms make."""
+def frame_findings(
+    transforms: Iterable[Transform], waits_for_clock: bool = False
+) -> Iterator[Finding]:
+    """
+    Yield what is wrong with the trees that some transforms make.
+
+    :param waits_for_clock: whether nodes wait for a /clock, and may publish no transforms thus
+    """
     trees: dict[str, Parents] = defaultdict(lambda: defaultdict(set))
     for transform in transforms:
         trees[transform.tree][transform.child].add(transform.parent)
@@ -38,7 +48,8 @@ def frame_findings(transforms: Iterable[Transform]) -> Iterator[Finding]:
         yield from doubtful
         found = roots(parents)
         if len(found) > 1 and not doubtful:
-            yield _two_roots(topic, found)
+            mend = AFTER_CLOCK if waits_for_clock else _joining(topic, found)
+            yield _two_roots(topic, found, mend)
         elif not found:
             yield _loop(topic, parents)
 
@@ -68,14 +79,21 @@ def _two_parents(topic: str, parents: Parents) -> Iterator[Finding]:
             )
 
 
-def _two_roots(topic: str, found: list[str]) -> Finding:
+def _two_roots(topic: str, found: list[str], mend: str) -> Finding:
     return Finding(
         Severity.WARNING,
         f"on '{topic}' there are {len(found)} trees of frames, with the roots {', '.join(found)}",
         'there is no transform between frames of different trees',
+        mend,
+    )
+
+
+def _joining(topic: str, found: list[str]) -> str:
+    """Say how the two first trees become one."""
+    return (
         'start the node that publishes what is missing, or publish it by hand until Ctrl-C (here '
         f"'{found[1]}' at the origin of '{found[0]}'; change that):\n"
-        f'{_publish_command(topic, found[0], found[1])}',
+        f'{_publish_command(topic, found[0], found[1])}'
     )
 
 

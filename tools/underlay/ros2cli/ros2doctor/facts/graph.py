@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 import sys
@@ -11,6 +11,8 @@ import time
 from typing import Any
 
 from ros2cli.graph.graph import Graph as ObservedGraph
+from ros2doctor.facts.clock import nodes_on_clock
+from ros2doctor.facts.clock import TOPIC as CLOCK
 from ros2doctor.facts.transforms import Transform, TransformListener
 
 TRANSFORM_TIME_S = 1.0
@@ -43,6 +45,7 @@ class Graph:
     :param nodes: full names, each as often as there are nodes of that name
     :param elsewhere: names of nodes that run on other machines
     :param domain_id: the domain that was looked at
+    :param without_clock: names of nodes that take the time from /clock, which nobody publishes
     """
 
     nodes: tuple[str, ...] = ()
@@ -50,6 +53,7 @@ class Graph:
     transforms: tuple[Transform, ...] = ()
     elsewhere: tuple[str, ...] = ()
     domain_id: int = 0
+    without_clock: tuple[str, ...] = ()
 
 
 @lru_cache(maxsize=1)
@@ -74,7 +78,14 @@ def read_graph() -> Graph:
             tuple(listener.transforms),
             tuple(sorted({each.node for each in endpoints if each.is_elsewhere})),
             node.watch.domain_id,
+            nodes_on_clock(node, _waiting_for_clock(endpoints)),
         )
+
+
+def _waiting_for_clock(endpoints: Iterable[Endpoint]) -> list[str]:
+    """Return the nodes that subscribe to /clock, if nobody publishes it."""
+    clock = [each for each in endpoints if each.topic == CLOCK]
+    return [] if any(each.is_publisher for each in clock) else [each.node for each in clock]
 
 
 def _spin(node: Any) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Iterator
 from contextlib import contextmanager
 import functools
@@ -11,7 +12,9 @@ import socket
 from typing import Any
 
 from rviz_common.page.admission import Admission, Refusal
+from rviz_common.page.complaints import complain_about_task, LOGGER
 from rviz_common.page.routes import Route, Routes
+from rviz_common.page.strainer import Strained
 from rviz_common.page.title import entitle
 import websockets.asyncio.server
 from websockets.asyncio.server import ServerConnection
@@ -20,6 +23,8 @@ from websockets.http11 import Request, Response
 
 __all__ = ['gated']
 
+# More than the parts of half a megabyte in which browsers send files.
+LARGEST_BYTES = 2_000_000
 # What a page may load and do: all from here, and inside no page of others.
 POLICY = "frame-ancestors 'self'"
 
@@ -38,7 +43,9 @@ def gated(
             raise RuntimeError('The page has been started already.')
         used.append(True)
         answer = _gate(options.pop('process_request'), title, admission, routes)
-        return serve(_routed(handler, routes), sock=bound, process_request=answer, **options)
+        options.update(process_request=answer, max_size=LARGEST_BYTES, logger=LOGGER)
+        asyncio.get_running_loop().set_exception_handler(complain_about_task)
+        return serve(_routed(handler, routes), sock=bound, **options)
 
     websockets.asyncio.server.serve = serve_gated  # type: ignore[assignment, misc]
     try:
@@ -55,7 +62,10 @@ def _routed(handler: Any, routes: Routes) -> Any:
     async def talk(connection: ServerConnection) -> None:
         request = connection.request
         route = routes.find(request.path) if request else None
-        await (handler if route is None or route.connect is None else route.connect)(connection)
+        if route is None or route.connect is None:
+            await handler(Strained(connection))
+        else:
+            await route.connect(connection)
 
     return talk
 

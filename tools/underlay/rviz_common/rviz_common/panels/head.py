@@ -30,7 +30,10 @@ class Head:
         self._pace = Pace()
         self._text = context.gui.add_markdown('', order=STATUS_ORDER)
         self._folder = context.gui.add_folder(
-            'Tools', order=TOOLS_ORDER, visible=bool(visualizer.tools.tools)
+            'Tools',
+            order=TOOLS_ORDER,
+            visible=bool(visualizer.tools.tools),
+            expand_by_default=False,
         )
         self._buttons: list[tuple[Tool | None, Any]] = []
         with self._folder:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from rviz_default_plugins.decoding.geometry import from_axes, Quaternion, Triple
+from rviz_default_plugins.decoding.geometry import FARTHEST, from_axes, Quaternion, Triple
 
 __all__ = ['Ellipsoid', 'ellipsoid_of']
 
@@ -21,8 +21,8 @@ class Ellipsoid(NamedTuple):
 def ellipsoid_of(covariance: Any) -> Ellipsoid:
     """Return one standard deviation of a position, from 6 x 6 numbers, or raise ValueError."""
     block = np.asarray(covariance, dtype=float).reshape(6, 6)[:3, :3]
-    if not np.isfinite(block).all():
-        raise ValueError('its covariance has numbers that are not finite.')
+    if not (np.abs(block) <= FARTHEST**2).all():
+        raise ValueError('its covariance has numbers that are not finite, or far too large.')
     variances, axes = np.linalg.eigh((block + block.T) / 2.0)
     if variances[0] < -1e-9 * max(1.0, variances[-1]):
         raise ValueError('its covariance is none: the variance in some direction is negative.')

@@ -9,13 +9,13 @@ from typing import Any
 
 from rviz_common.display import Display
 from rviz_common.frames import Frames, Pose
-from rviz_common.properties import Choice, Flag, Number, Text, topic_properties
+from rviz_common.properties import Choice, Flag, Number, qos_of, Text, topic_properties
 from rviz_common.status import Level
 from rviz_default_plugins.parts import Parts
 from rviz_default_plugins.robot.description import DescriptionTopic, read_description
 from rviz_default_plugins.robot.mesh_shelf import MeshShelf
 from rviz_default_plugins.robot.missing_links import say_missing
-from rviz_default_plugins.robot.robot_scene import Look, MAX_SHAPES, RobotScene
+from rviz_default_plugins.robot.robot_scene import Look, MAX_SHAPES, PoseOf, RobotScene
 from urdf import Joint, Mesh, parse_urdf, UrdfError
 from urdf import RobotModel as Robot
 
@@ -68,7 +68,7 @@ class RobotModel(Display):
         if self.values['Description Source'] == FILE:
             self._read_file()
         else:
-            self._topic = DescriptionTopic(self, self._take)
+            self._listen(self.topic_of('Description Topic'))
 
     def stop(self) -> None:
         """Show the robot no longer."""
@@ -85,12 +85,11 @@ class RobotModel(Display):
         if robot is None or now_s < self._next_s:
             return
         self._next_s = now_s + self.values['Update Interval']
-        frames, prefix = self.context.frames, self._prefix
-        root = frames.find(frames.fixed_frame, prefix + robot.model.root)
-        unknown = robot.place(root, _poses(frames, prefix))
+        root, pose_of = self.poses(robot.model)
+        unknown = robot.place(root, pose_of)
         if now_s >= self._next_reasons_s:
             self._next_reasons_s = now_s + REASONS_S
-            self._say_reasons(robot.model, root, unknown)
+            self.say_reasons(robot.model, root, unknown)
 
     def on_change(self, path: str) -> None:
         """Begin anew only for another description; draw what is known again for the rest."""
@@ -103,10 +102,34 @@ class RobotModel(Display):
         if path not in ('TF Prefix', 'Update Interval') and self._model is not None:
             self._prepare(self._model)
 
+    def poses(self, model: Robot) -> tuple[Pose | None, PoseOf]:
+        """Return where the root of a robot is, and what tells where each joint is."""
+        frames, prefix = self.context.frames, self.prefix
+        return frames.find(frames.fixed_frame, prefix + model.root), _poses(frames, prefix)
+
+    def topic_of(self, path: str) -> str:
+        """Return the topic that a property says."""
+        topic: str = self.values[f'{path}/Value']
+        return topic
+
     @property
-    def _prefix(self) -> str:
+    def prefix(self) -> str:
+        """Return what comes before links in names of frames."""
         prefix: str = self.values['TF Prefix'].strip('/')
         return f'{prefix}/' if prefix else ''
+
+    def _listen(self, topic: str) -> None:
+        try:
+            self._topic = DescriptionTopic(
+                self.context.node, topic, self._take, qos_of(self.values, 'Description Topic')
+            )
+        except ValueError as error:
+            self.say('URDF', str(error), Level.ERROR)
+            return
+        self.say(
+            'URDF',
+            f'No description has come on {topic} yet; robot_state_publisher publishes it.',
+        )
 
     def _read_file(self) -> None:
         name = self.values['Description File']
@@ -133,7 +156,7 @@ class RobotModel(Display):
     def _prepare(self, model: Robot) -> None:
         """Draw a robot, at once or as soon as its meshes have been read in the background."""
         self._awaited = awaited = object()
-        self._model, look = model, self._look()
+        self._model, look = model, self.look()
         shelf = MeshShelf(self._shelf)
         names = _mesh_names(model, look)
         if not names:
@@ -154,9 +177,9 @@ class RobotModel(Display):
         self._remove()
         self._shelf = shelf
         self._robot = RobotScene(self.context.scene, self.root, model, look, shelf.meshes)
-        self._say('Meshes', ' '.join(shelf.complaints))
+        self.say('Meshes', ' '.join(shelf.complaints))
         too_many = self._robot.left_out
-        self._say(
+        self.say(
             'Bodies',
             f'{MAX_SHAPES + too_many} bodies are too many: {MAX_SHAPES} are shown.'
             if too_many
@@ -168,21 +191,23 @@ class RobotModel(Display):
             self._robot.remove()
         self._robot = None
 
-    def _look(self) -> Look:
+    def look(self) -> Look:
+        """Return what is shown of the robot, and how."""
         return Look(
-            self.values['Visual Enabled'],
-            self.values['Collision Enabled'],
-            self.values['Alpha'],
-            self._links,
+            visuals=self.values['Visual Enabled'],
+            collisions=self.values['Collision Enabled'],
+            alpha=self.values['Alpha'],
+            links=self._links,
         )
 
-    def _say_reasons(self, model: Robot, root: Pose | None, unknown: list[Joint]) -> None:
-        frames, frame = self.context.frames, self._prefix + model.root
+    def say_reasons(self, model: Robot, root: Pose | None, unknown: list[Joint]) -> None:
+        """Say why the robot, or some of it, is not shown."""
+        frames, frame = self.context.frames, self.prefix + model.root
         reason = '' if root else frames.reason(frames.fixed_frame, frame)
-        self._say('Transform', reason and f'The robot is not shown: {reason}', Level.ERROR)
-        say_missing(self.status, unknown, model, frames.latest(), self._prefix)
+        self.say('Transform', reason and f'The robot is not shown: {reason}', Level.ERROR)
+        say_missing(self.status, unknown, model, frames.latest(), self.prefix)
 
-    def _say(self, subject: str, sentence: str, level: Level = Level.WARN) -> None:
+    def say(self, subject: str, sentence: str, level: Level = Level.WARN) -> None:
         """Say something, or nothing any longer."""
         if sentence:
             self.status.say(subject, level, sentence)
@@ -196,7 +221,7 @@ def _check_size(model: Robot, source: str) -> None:
         raise UrdfError(reason, source=source)
 
 
-def _poses(frames: Frames, prefix: str) -> Any:
+def _poses(frames: Frames, prefix: str) -> PoseOf:
     def pose_of(joint: Joint) -> Pose | None:
         return frames.find(prefix + joint.parent, prefix + joint.child)
 

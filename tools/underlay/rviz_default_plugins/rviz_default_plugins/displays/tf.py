@@ -11,6 +11,7 @@ import numpy as np
 from rviz_common.display import Display
 from rviz_common.properties import Flag, Number, Text
 from rviz_common.status import Level
+from rviz_default_plugins.decoding.geometry import FARTHEST
 from rviz_default_plugins.parts import Parts
 from rviz_default_plugins.tf.ageing import Age, Ageing
 from rviz_default_plugins.tf.frame_filter import FrameFilter
@@ -87,7 +88,8 @@ class TF(Display):
         self._next_s = now_s + self.values['Update Interval']
         samples = self.context.frames.latest()
         self._ageing.hear(samples, now_s)
-        poses, others = placed(samples, self.context.frames.fixed_frame)
+        found, others = placed(samples, self.context.frames.fixed_frame)
+        poses = {frame: pose for frame, pose in found.items() if _is_near(pose)}
         shown = self._shown(poses, now_s)
         old = {frame: pose for frame, pose in shown.items() if self._is_old(frame, now_s)}
         fresh = {frame: pose for frame, pose in shown.items() if frame not in old}
@@ -96,6 +98,7 @@ class TF(Display):
             self._next_sentences_s = now_s + SENTENCES_S
             self._say_how_many(poses, shown)
             self._say_unconnected(others)
+            self._say_far(sorted(found.keys() - poses.keys()))
 
     def on_change(self, path: str) -> None:
         """Begin anew; a change for all frames counts for those as well that the file names."""
@@ -154,6 +157,18 @@ class TF(Display):
         else:
             self.status.forget('Transform')
 
+    def _say_far(self, frames: list[str]) -> None:
+        if frames:
+            sentence = f'{len(frames)} frames are too far away to be shown ({_listed(frames)}).'
+            self.status.say('Distance', Level.WARN, sentence)
+        else:
+            self.status.forget('Distance')
+
+
+def _is_near(pose: Pose) -> bool:
+    """Tell whether a browser can draw something there."""
+    return all(abs(part) <= FARTHEST for part in pose[:3])
+
 
 def _listed(frames: list[str]) -> str:
     more = f' and {len(frames) - MAX_NAMED} more' if len(frames) > MAX_NAMED else ''
@@ -165,7 +180,7 @@ def _arrows(shown: Poses, poses: Poses, samples: Mapping[str, Sample]) -> Segmen
     ends = [
         (pose[:3], poses[samples[frame].parent][:3])
         for frame, pose in shown.items()
-        if frame in samples
+        if frame in samples and samples[frame].parent in poses
     ]
     arrows: Segments = np.array(ends, np.float32).reshape(-1, 2, 3)
     lengths = np.linalg.norm(arrows[:, 1] - arrows[:, 0], axis=1)

@@ -4,19 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import copy
 import os
 from typing import Any
 
-from rclpy.qos import DurabilityPolicy
-from rviz_common.display import Display
-from rviz_common.properties import qos_of
-from rviz_common.status import Level
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rviz_default_plugins.robot.mesh_file import find_file
 from urdf import read_urdf_file
 
 __all__ = ['DescriptionTopic', 'read_description']
 
-PATH = 'Description Topic'
 Take = Callable[[str, str], None]
 
 
@@ -28,41 +25,32 @@ class DescriptionTopic:
     of RViz say Volatile nevertheless. Who publishes without keeping is heard too.
     """
 
-    def __init__(self, display: Display, take: Take) -> None:
-        """Subscribe the topic of a display."""
-        self._display, self._take = display, take
-        self._name = display.values[f'{PATH}/Value']
+    def __init__(self, node: Any, name: str, take: Take, qos: QoSProfile | None = None) -> None:
+        """Subscribe a topic, or raise ValueError with the reason."""
+        self._node, self._name, self._take = node, name, take
         self._subscriptions: list[Any] = []
-        if not self._name:
-            display.status.say('URDF', Level.WARN, 'No description topic is chosen.')
-            return
+        if not name:
+            raise ValueError('No description topic is chosen.')
         try:
             for durability in (DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE):
-                self._subscribe(durability)
+                self._subscribe(durability, qos or QoSProfile(depth=1))
         except Exception as error:  # rclpy has no one exception for bad names
-            sentence = f"'{self._name}' cannot be subscribed: {error}"
-            display.status.say('URDF', Level.ERROR, sentence)
-            return
-        display.status.say(
-            'URDF',
-            Level.WARN,
-            f'No description has come on {self._name} yet; robot_state_publisher publishes it.',
-        )
+            raise ValueError(f"'{name}' cannot be subscribed: {error}") from error
 
     def close(self) -> None:
         """Subscribe no longer."""
         for subscription in self._subscriptions:
-            self._display.context.node.destroy_subscription(subscription)
+            self._node.destroy_subscription(subscription)
         self._subscriptions.clear()
 
-    def _subscribe(self, durability: DurabilityPolicy) -> None:
+    def _subscribe(self, durability: DurabilityPolicy, qos: QoSProfile) -> None:
         from rclpy.event_handler import SubscriptionEventCallbacks
         from std_msgs.msg import String
 
-        qos = qos_of(self._display.values, PATH)
+        qos = copy(qos)
         qos.durability = durability
         self._subscriptions.append(
-            self._display.context.node.create_subscription(
+            self._node.create_subscription(
                 String,
                 self._name,
                 lambda message: self._take(message.data, self._name),

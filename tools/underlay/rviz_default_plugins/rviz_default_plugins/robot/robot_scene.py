@@ -5,20 +5,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import Optional, TYPE_CHECKING
 from urllib.parse import quote
 
 from rviz_common.frames import Pose
 from rviz_default_plugins.parts import Parts
+from rviz_default_plugins.robot.inflating import inflated
 from rviz_default_plugins.robot.link_node import LinkNode
 from rviz_default_plugins.robot.mesh import DrawnMesh
 from rviz_default_plugins.robot.shape_drawing import draw_shape
-from urdf import Joint, Link, RobotModel, Shape
+from urdf import Color, Joint, Link, RobotModel, Shape
 
 if TYPE_CHECKING:
     from viser import SceneApi
 
-__all__ = ['MAX_SHAPES', 'Look', 'RobotScene', 'downwards']
+__all__ = ['MAX_SHAPES', 'Look', 'PoseOf', 'RobotScene', 'downwards']
+
+PoseOf = Callable[[Joint], Optional[Pose]]
 
 MAX_SHAPES = 3000
 AXES_M = 0.1
@@ -31,6 +34,10 @@ class Look:
     visuals: bool = True
     collisions: bool = False
     alpha: float = 1.0
+    color: Color | None = None
+    """A colour for all, or None for the colours of the description."""
+    margin_m: float = 0.0
+    """How much larger all is than it should be, on each side."""
     links: Parts = field(default_factory=lambda: Parts(None))
 
     def shapes(self, link: Link) -> list[tuple[str, Shape]]:
@@ -75,7 +82,7 @@ class RobotScene:
             node_path = paths[joint.child] = f'{paths[joint.parent]}/{_named(joint.child)}'
             self._below.append((joint, self._add(links[joint.child], node_path)))
 
-    def place(self, root: Pose | None, pose_of: Callable[[Joint], Pose | None]) -> list[Joint]:
+    def place(self, root: Pose | None, pose_of: PoseOf) -> list[Joint]:
         """Move the links; return the joints whose pose is not known."""
         self._root.place(root)
         unknown = []
@@ -105,7 +112,8 @@ class RobotScene:
                 self.left_out += 1
                 continue
             self._drawn += 1
-            draw_shape(self._scene, f'{path}/{name}', shape, alpha, self._meshes)
+            body = inflated(shape, self._look.margin_m)
+            draw_shape(self._scene, f'{path}/{name}', body, alpha, self._meshes, self._look.color)
         return LinkNode(handle)
 
 

@@ -20,18 +20,27 @@ GREY: Color = (0.7, 0.7, 0.7, 1.0)
 
 
 def draw_shape(
-    scene: SceneApi, path: str, shape: Shape, alpha: float, meshes: Mapping[str, DrawnMesh]
+    scene: SceneApi,
+    path: str,
+    shape: Shape,
+    alpha: float,
+    meshes: Mapping[str, DrawnMesh],
+    tint: Color | None = None,
 ) -> None:
-    """Draw a body at a path of the scene; a mesh that nobody could read is left out."""
+    """
+    Draw a body at a path of the scene, in its own colours or in that of a tint.
+
+    A mesh that nobody could read is left out.
+    """
     x, y, z, w = rotation_of(shape.origin.rpy)
     place: dict[str, Any] = {'position': shape.origin.xyz, 'wxyz': (w, x, y, z)}
     body = shape.geometry
     if isinstance(body, Mesh):
         mesh = meshes.get(body.file)
         if mesh is not None:
-            _draw_mesh(scene, path, mesh, body, shape.color, alpha, place)
+            _draw_mesh(scene, path, mesh, body, (tint, shape.color), alpha, place)
         return
-    look = _look(shape.color or GREY, alpha)
+    look = _look(tint or shape.color or GREY, alpha)
     if isinstance(body, Box):
         scene.add_box(path, dimensions=body.size, **look, **place)
     elif isinstance(body, Sphere):
@@ -66,14 +75,15 @@ def _draw_mesh(
     path: str,
     mesh: DrawnMesh,
     body: Mesh,
-    color: Color | None,
+    colors: tuple[Color | None, Color | None],
     alpha: float,
     place: dict[str, Any],
 ) -> None:
-    """Draw a mesh with the colours of its file; without any, with that of the URDF."""
+    """Draw a mesh with the colours of its file, without any with the second; or with a tint."""
+    tint, color = colors
     for index, surface in enumerate(mesh.surfaces):
         name = f'{path}_{index}'
-        if surface.glb is not None and alpha >= 1.0:
+        if surface.glb is not None and alpha >= 1.0 and tint is None:
             scene.add_glb(name, surface.glb, scale=body.scale, **place)
             continue
         scene.add_mesh_simple(
@@ -83,6 +93,6 @@ def _draw_mesh(
             scale=body.scale,
             flat_shading=mesh.is_flat,
             side='double',
-            **_look(surface.color or color or GREY, alpha),
+            **_look(tint or surface.color or color or GREY, alpha),
             **place,
         )

@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 from rviz_common.context import Context
 from rviz_common.display import Display
-from stage import NotingNode, page_of, sentence, Stage
+from rviz_common.page import Page
+from stage import NotingNode, sentence, Stage
 import viser
 
 __all__ = ['MessageStage', 'all_sentences', 'message_stage', 'near', 'sentence', 'vector']
@@ -55,11 +57,12 @@ class MessageStage(Stage):
 
     node: Any
 
-    def __init__(self, server: viser.ViserServer) -> None:
-        super().__init__(server)
+    def __init__(self, page: Page) -> None:
+        super().__init__(page)
         self.node = ClockedNode()
-        self.visited = VisitedServer(server)
-        self.context = Context(self.node, page_of(self.visited), self.frames, self.context.queue)
+        self.visited = VisitedServer(page.viser)
+        visited_page: Any = SimpleNamespace(viser=self.visited)
+        self.context = Context(self.node, visited_page, self.frames, self.context.queue)
 
     def listen(self, kind: type[Display], given: Mapping[str, Any] | None = None) -> Any:
         """Start a display that listens to the topic."""
@@ -92,9 +95,9 @@ class MessageStage(Stage):
 
 
 @pytest.fixture
-def message_stage(server: viser.ViserServer) -> Iterator[MessageStage]:
+def message_stage(page: Page) -> Iterator[MessageStage]:
     """Return an empty stage."""
-    stage = MessageStage(server)
+    stage = MessageStage(page)
     yield stage
     for display in stage.displays:
         display.stop()

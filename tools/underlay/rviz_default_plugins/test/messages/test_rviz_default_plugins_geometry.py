@@ -94,6 +94,8 @@ def test_ellipsoid_of_no_covariance_is_refused():
         ellipsoid_of([-1.0] + [0.0] * 35)
     with pytest.raises(ValueError, match='not finite'):
         ellipsoid_of([float('nan')] * 36)
+    with pytest.raises(ValueError, match='too large'):
+        ellipsoid_of([1e308] * 36)
 
 
 def volume(surface):

@@ -6,6 +6,6 @@ import sys
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from stage import server, stage  # noqa: E402
+from stage import page, stage  # noqa: E402
 
-__all__ = ['server', 'stage']
+__all__ = ['page', 'stage']

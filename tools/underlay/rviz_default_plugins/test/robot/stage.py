@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 import time
-from types import SimpleNamespace
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
@@ -17,9 +16,8 @@ from rviz_common.page import Page
 from rviz_common.work_queue import WorkQueue
 from std_msgs.msg import String
 from tf2_ros import Buffer
-import viser
 
-__all__ = ['Stage', 'server', 'stage']
+__all__ = ['Stage', 'page', 'stage']
 
 TIMEOUT_S = 30.0
 
@@ -47,20 +45,15 @@ class NotingNode:
                 callback(message)
 
 
-def page_of(server: Any) -> Any:
-    """Return what displays use of a page with a server."""
-    return SimpleNamespace(viser=server)
-
-
 class Stage:
     """What a display is shown on."""
 
-    def __init__(self, server: viser.ViserServer, fixed_frame: str = 'map') -> None:
-        self.server = server
+    def __init__(self, page: Page, fixed_frame: str = 'map') -> None:
+        self.server = page.viser
         self.node = NotingNode()
         self.buffer = Buffer()
         self.frames = Frames(self.buffer, fixed_frame)
-        self.context = Context(self.node, page_of(server), self.frames, WorkQueue())
+        self.context = Context(self.node, page, self.frames, WorkQueue())
         self.displays: list[Display] = []
         self._stamp = 0
 
@@ -112,16 +105,16 @@ class Stage:
 
 
 @pytest.fixture(scope='session')
-def server() -> Iterator[viser.ViserServer]:
+def page() -> Iterator[Page]:
     """Serve a page for all tests."""
     with Page('test') as page:
-        yield page.viser
+        yield page
 
 
 @pytest.fixture
-def stage(server: viser.ViserServer) -> Iterator[Stage]:
+def stage(page: Page) -> Iterator[Stage]:
     """Return an empty stage."""
-    stage = Stage(server)
+    stage = Stage(page)
     yield stage
     for display in stage.displays:
         display.stop()

@@ -193,6 +193,17 @@ def test_malformed_transforms(stage: Stage, values: Any) -> None:
     assert sentence(display, 'Frames') == '2 of 2 frames are shown.'
 
 
+def test_frames_far_away(stage: Stage) -> None:
+    """A frame that no browser can draw is left out, with its arrow and those below."""
+    stage.move('map', 'far', x=1e300)
+    stage.move('far', 'below', x=1.0)
+    stage.move('map', 'near', x=1.0)
+    display = stage.show(TF)
+    display.update()
+    assert '2 frames are too far away to be shown (below, far)' in sentence(display, 'Distance')
+    assert '2 of 2 frames are shown' in sentence(display, 'Frames')
+
+
 def test_loop() -> None:
     """Frames that go round in a loop have no place."""
     unit = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)

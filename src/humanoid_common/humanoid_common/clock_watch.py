@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say why nothing happens when a node waits for a time that nobody tells."""
+
+from __future__ import annotations
+
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+
+PATIENCE_S = 2.0
+TOPIC = '/clock'
+
+
+def watch_clock(node: Node) -> None:
+    """Log after a while that no time has come, if the node takes it from /clock."""
+    if not node.get_clock().ros_time_is_active:
+        return
+
+    def look() -> None:
+        timer.cancel()
+        if node.get_clock().now().nanoseconds == 0:
+            node.get_logger().warning(complaint(node.count_publishers(TOPIC)))
+
+    timer = node.create_timer(PATIENCE_S, look, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+
+def complaint(publishers: int) -> str:
+    """Return what is missing, and what to do."""
+    why = f'no time has come on {TOPIC} so far' if publishers else f'nobody publishes {TOPIC}'
+    return (
+        f'use_sim_time is true, but {why}: the time of this node stands still. Start the '
+        'simulator, or play the bag with --clock; without one, leave out use_sim_time.'
+    )

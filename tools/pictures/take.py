@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Take the pictures of the documentation anew, from robots that run: `make pictures`.
+
+A picture that shows too little is seen at once when it is looked at: do so after each run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+import os
+from pathlib import Path
+import re
+import signal
+import subprocess
+import tempfile
+import time
+from typing import Any
+
+from domain_coordinator import domain_id
+from playwright.sync_api import sync_playwright
+
+FOLDER = Path(__file__).resolve().parents[2] / 'docs' / 'pictures'
+CHROMIUM = '/usr/bin/chromium'
+LARGEST = 150_000
+WIDTH, HEIGHT = 1200, 800
+TIMEOUT_S = 60.0
+PATIENCE_MS = 120_000
+SETTLE_MS = 8000
+"""A page fades in, and a processor that draws it takes its time."""
+ADDRESS = re.compile(r'(RViz is|The sliders are) at (http://\S+)')
+
+
+def main() -> None:
+    """Take all pictures."""
+    FOLDER.mkdir(exist_ok=True)
+    with domain_id() as domain, sync_playwright() as playwright:
+        os.environ['ROS_DOMAIN_ID'] = str(domain)
+        os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+        browser = playwright.chromium.launch(
+            executable_path=CHROMIUM,
+            args=['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+        )
+        with launched('humanoid_bringup', 'bringup.launch.py', 1) as addresses:
+            picture_console(browser, addresses['RViz is'])
+        with launched('humanoid_description', 'view.launch.py', 2) as addresses:
+            picture_sliders(browser, addresses['The sliders are'])
+            picture_frames(browser, addresses['RViz is'])
+        browser.close()
+
+
+def picture_console(browser: Any, address: str) -> None:
+    """Show the whole page, its button once it was pressed, its stick while it is held, topics."""
+    tab = opened(browser, address)
+    keep('console', tab.screenshot)
+    safety = tab.frame_locator('iframe[title=safety]')
+    safety.locator('#stop').click()
+    safety.locator('#robot', has_text='holds still').wait_for()
+    keep('stopped', tab.locator('iframe[title=safety]').screenshot)
+    safety.locator('#release').click()
+    safety.locator('#release').click()
+    tab.get_by_role('tab', name='Drive').click()
+    hold_stick(tab)
+    keep('drive', tab.locator('iframe[title=drive]').screenshot)
+    tab.mouse.up()
+    tab.get_by_role('tab', name='Topics').click()
+    tab.frame_locator('iframe[title=topics]').get_by_text('/joint_commands').first.click()
+    tab.wait_for_timeout(4000)
+    keep('topics', tab.locator('iframe[title=topics]').screenshot)
+    tab.close()
+
+
+def hold_stick(tab: Any) -> None:
+    """Drive forwards and to the left, until the pointer is released."""
+    stick = tab.frame_locator('iframe[title=drive]').locator('#stick')
+    stick.scroll_into_view_if_needed()
+    tab.wait_for_timeout(2000)
+    box = stick.bounding_box()
+    x, y = box['x'] + box['width'] / 2, box['y'] + box['height'] / 2
+    tab.mouse.move(x, y)
+    tab.mouse.down()
+    tab.mouse.move(x - 20, y - 45)
+    tab.wait_for_timeout(1500)
+
+
+def picture_sliders(browser: Any, address: str) -> None:
+    """Raise an arm with the sliders, and show them."""
+    tab = opened(browser, address)
+    for label, angle in (('shoulder_roll', '1.2'), ('elbow', '-1.4')):
+        name = tab.locator('label', has_text=label).first
+        row = name.locator('xpath=ancestor::*[contains(@class, "Flex-root")][1]')
+        row.locator('input').last.fill(angle)
+    tab.wait_for_timeout(2000)
+    panel = {'x': WIDTH - 464, 'y': 0, 'width': 464, 'height': HEIGHT}
+    keep('sliders', lambda path: tab.screenshot(path=path, clip=panel))
+    tab.close()
+
+
+def picture_frames(browser: Any, address: str) -> None:
+    """Show the frames of the robot."""
+    tab = opened(browser, address)
+    keep('frames', tab.screenshot)
+    tab.close()
+
+
+@contextmanager
+def launched(package: str, file: str, count: int) -> Iterator[dict[str, str]]:
+    """Run a launch file for the time of a `with`; give the addresses that it prints."""
+    with tempfile.NamedTemporaryFile() as output:
+        process = subprocess.Popen(
+            ['ros2', 'launch', package, file], stdout=output, stderr=subprocess.STDOUT
+        )
+        try:
+            yield addresses_in(Path(output.name), count)
+        finally:
+            process.send_signal(signal.SIGINT)
+            process.wait()
+
+
+def addresses_in(output: Path, count: int) -> dict[str, str]:
+    """Wait for some addresses in what is printed."""
+    end_s = time.monotonic() + TIMEOUT_S
+    while time.monotonic() < end_s:
+        found = dict(ADDRESS.findall(output.read_text()))
+        if len(found) == count:
+            return found
+        time.sleep(0.1)
+    raise SystemExit(f'The launch did not print {count} addresses:\n{output.read_text()}')
+
+
+def opened(browser: Any, address: str) -> Any:
+    """Open a page without the notes that only concern this browser."""
+    tab = browser.new_page(viewport={'width': WIDTH, 'height': HEIGHT})
+    tab.set_default_timeout(PATIENCE_MS)
+    tab.goto(f'{address}?fixedDpr=1')
+    tab.wait_for_timeout(SETTLE_MS)
+    for close in tab.locator('.mantine-Notification-closeButton').all():
+        close.click()
+    tab.wait_for_timeout(1500)
+    return tab
+
+
+def keep(name: str, screenshot: Callable[..., Any]) -> None:
+    """Write a picture to its file."""
+    path = FOLDER / f'{name}.png'
+    screenshot(path=str(path))
+    size = path.stat().st_size
+    print(f'{path}  {size // 1000} kB')
+    if size > LARGEST:
+        raise SystemExit(f'{path.name} has more than {LARGEST // 1000} kB: choose less to show.')
+
+
+if __name__ == '__main__':
+    main()

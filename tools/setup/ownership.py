@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which workspace an environment belongs to: no other one may change or delete it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+import sys
+
+from console import SetupError
+from locations import cache_folder, Locations
+from stamp import Stamp
+
+
+def python_version() -> str:
+    """Return the running Python's minor version, as in 3.12."""
+    return f'{sys.version_info[0]}.{sys.version_info[1]}'
+
+
+class Home:
+    """The note in an environment on the workspace, the place and the Python it was made for."""
+
+    def __init__(self, locations: Locations) -> None:
+        """Take no look yet."""
+        self._locations = locations
+        self._path = locations.environment / 'stamp' / 'home'
+        self._text = f'{locations.root}\n{locations.environment}\n{python_version()}'
+
+    def write(self) -> None:
+        """Note that the environment is made for this workspace."""
+        Stamp(self._path).write(self._text)
+
+    def require_same(self) -> None:
+        """Refuse an environment that was moved, or made for another workspace or Python."""
+        if not self._path.exists() or Stamp(self._path).matches(self._text):
+            return
+        environment = self._locations.environment
+        other = self.other_workspace()
+        if other:
+            raise SetupError(
+                f'The environment in {environment} belongs to the workspace in {other}: '
+                f'{self._advice()}'
+            )
+        raise SetupError(
+            f'The environment in {environment} was made for a workspace in another place or by '
+            f'another Python than {python_version()}, and its programs name those: '
+            f'{self._advice()}'
+        )
+
+    def other_workspace(self) -> Path | None:
+        """Return the other workspace that the environment belongs to, if it still exists."""
+        try:
+            root = Path(self._path.read_text().splitlines()[0])
+        except (OSError, IndexError):
+            return None
+        is_other = root != self._locations.root and (root / 'tools' / 'setup').is_dir()
+        return root if is_other else None
+
+    def is_deleted_with_the_workspace(self) -> bool:
+        """Tell whether the set-up has placed the environment, for nobody else."""
+        locations = self._locations
+        is_placed = not locations.is_elsewhere or locations.environment.parent == cache_folder()
+        return is_placed and self.other_workspace() is None
+
+    def _advice(self) -> str:
+        """Say how this workspace gets an environment of its own, without harm to another one."""
+        if self.is_deleted_with_the_workspace():
+            return 'run `make distclean setup` to make it anew'
+        if self._locations.is_linked:
+            return (
+                'choose another VENV, as in: make setup VENV=/opt/venv; or run '
+                '`make distclean setup`, which leaves that one alone'
+            )
+        return 'choose another VENV, as in: make setup VENV=/opt/venv'

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say why a command line that is made of several texts does not work."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import os
+import shlex
+import shutil
+
+
+def advice_on_failure(parts: Sequence[str], said: str) -> str:
+    """Return a line about a path that the command line names, or nothing new."""
+    return _split_path(parts) or _missing_path(''.join(parts), said)
+
+
+def advice_on_program(parts: Sequence[str]) -> str:
+    """Return a line about a program that is not there, since no blank ends its name."""
+    first = parts[0].split()
+    if len(parts) < 2 or not first or parts[0][-1].isspace() or shutil.which(first[-1]) is None:
+        return ''
+    return (
+        f"\nIs there a blank missing after '{parts[0]}'? The parts of a command are joined as "
+        f"they are: Command(['{parts[0]} ', ...])"
+    )
+
+
+def _split_path(parts: Sequence[str]) -> str:
+    """Return a line about a part with a space in it that is no longer one word."""
+    words = shlex.split(''.join(parts))
+    for part in parts[1:]:
+        is_path = os.path.isabs(part) and len(part.split()) > 1
+        if is_path and not any(part in word for word in words):
+            return (
+                f"\nThe path '{part}' has a space in it, and became several words. Quote it: "
+                f"Command(['{parts[0].rstrip()} \"', path, '\"'])"
+            )
+    return ''
+
+
+def _missing_path(command: str, said: str) -> str:
+    """Return a line about the first path that does not exist."""
+    from launch._missing_file import explain_missing_file
+
+    for word in shlex.split(command)[1:]:
+        if word.startswith('/') and not os.path.exists(word):
+            explanation = explain_missing_file('file', word)
+            return '' if explanation in said else f'\n{explanation}'
+    return ''

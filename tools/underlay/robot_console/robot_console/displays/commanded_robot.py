@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A ghost of the robot, which stands as the robot was told to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+import time
+
+from robot_console.ghost.commanded_joints import CommandedJoints
+from robot_console.namespaces import below, NAMESPACE
+from rviz_common.frames import Pose
+from rviz_common.polled_topic import PolledTopic
+from rviz_common.properties import ColorOf, Flag, Property, qos_of, topic_properties
+from rviz_common.status import Level
+from rviz_default_plugins.displays.robot_model import RobotModel
+from rviz_default_plugins.robot.robot_scene import Look, PoseOf
+from urdf import Color, Joint
+from urdf import RobotModel as Robot
+
+__all__ = ['CommandedRobot']
+
+COMMANDS = 'Command Topic'
+OWN_COLOR = 'Use Color'
+MARGIN_M = 0.003
+MAX_NAMES = 5
+DEFAULTS = {
+    'Alpha': 0.3,
+    'Description Topic/Value': 'robot_description',
+    'Command Topic/Reliability Policy': 'Best Effort',
+}
+
+
+def _with_default(each: Property) -> Property:
+    """Return a property of a robot with the default that it has of a ghost."""
+    return replace(each, default=DEFAULTS.get(each.path, each.default))
+
+
+class CommandedRobot(RobotModel):
+    """
+    The robot as its joints were told to stand, at the place where it is.
+
+    Joints that were told nothing are shown as they are. It is hidden a second after commands.
+    """
+
+    CLASS = 'robot_console/CommandedRobot'
+    PROPERTIES = (
+        NAMESPACE,
+        *map(
+            _with_default,
+            topic_properties('sensor_msgs/msg/JointState', 'joint_commands', path=COMMANDS),
+        ),
+        Flag(OWN_COLOR, True, 'Show it in one colour, and not in those of the description.'),
+        ColorOf('Color', (77, 171, 247), 'The colour of the ghost.'),
+        *map(_with_default, RobotModel.PROPERTIES),
+    )
+
+    def start(self) -> None:
+        """Ask for the description, and listen to the commands."""
+        self._joints: CommandedJoints | None = None
+        self._commands: PolledTopic | None = None
+        super().start()
+        self._hear(self.topic_of(COMMANDS))
+
+    def stop(self) -> None:
+        """Show the ghost no longer."""
+        if self._commands is not None:
+            self._commands.close()
+        self._commands = None
+        super().stop()
+
+    def on_change(self, path: str) -> None:
+        """Begin anew for other topics; draw what is known again for the rest."""
+        if path == NAMESPACE.path or path.startswith(COMMANDS):
+            self.stop()
+            self.start()
+        else:
+            super().on_change(path)
+
+    def topic_of(self, path: str) -> str:
+        """Return the topic that a property says, of the robot that the namespace says."""
+        return below(self.values['Namespace'], super().topic_of(path))
+
+    def look(self) -> Look:
+        """Return how the ghost looks: a little larger than the robot, where it is inside of it."""
+        color: Color | None = None
+        if self.values[OWN_COLOR]:
+            red, green, blue = (part / 255.0 for part in self.values['Color'])
+            color = red, green, blue, 1.0
+        return replace(super().look(), color=color, margin_m=MARGIN_M)
+
+    def poses(self, model: Robot) -> tuple[Pose | None, PoseOf]:
+        """Return where the robot is, and where its joints were told to be."""
+        if self._joints is None or self._joints.model is not model:
+            self._joints = CommandedJoints(model)
+        self._obey(self._joints)
+        told = self._joints.poses(time.time())
+        if not told:
+            return None, lambda joint: None
+        root, measured = super().poses(model)
+        return root, lambda joint: told.get(joint.name) or measured(joint)
+
+    def say_reasons(self, model: Robot, root: Pose | None, unknown: list[Joint]) -> None:
+        """Say why the ghost is not shown."""
+        joints = self._joints
+        if joints is None or not joints.is_told(time.time()):
+            self.say('Transform', '')
+            self.say('Command', f'{self._without_command()} The ghost is hidden.')
+            return
+        self.say('Command', 'The ghost stands as commanded.', Level.OK)
+        self.say('Joints', _not_known(joints.unknown))
+        super().say_reasons(model, root, unknown)
+
+    def _hear(self, topic: str) -> None:
+        from sensor_msgs.msg import JointState
+
+        try:
+            qos = qos_of(self.values, COMMANDS)
+            self._commands = PolledTopic(self.context.node, JointState, topic, qos)
+        except Exception as error:  # rclpy has no one exception for bad names
+            self.say('Command', f"'{topic}' cannot be subscribed: {error}", Level.ERROR)
+
+    def _obey(self, joints: CommandedJoints) -> None:
+        """Take the commands that have come."""
+        if self._commands is None:
+            return
+        for message, time_s in self._commands.take():
+            try:
+                joints.take(message.name, message.position, time_s)
+            except ValueError as error:
+                self.say('Message', f'A command is left out: {error}')
+            else:
+                self.status.forget('Message')
+
+    def _without_command(self) -> str:
+        """Say that there is no command, and who could give one."""
+        node = self.context.node
+        topic = node.resolve_topic_name(self.topic_of(COMMANDS))
+        if node.count_publishers(topic):
+            return f'No positions have come on {topic} for a second.'
+        return f'Nobody publishes {topic}.'
+
+
+def _not_known(names: Sequence[str]) -> str:
+    """Name joints of a command that the robot does not have."""
+    if not names:
+        return ''
+    more = f' and {len(names) - MAX_NAMES} more' if len(names) > MAX_NAMES else ''
+    return f'The description has no joint {", ".join(names[:MAX_NAMES])}{more}.'

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the links of a robot would be if its joints were where they were told to be."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+
+from rviz_common.frames import Pose
+from urdf import followed, RobotModel
+from urdf.kinematics import joint_motion
+from urdf.kinematics import Pose as JointPose
+
+__all__ = ['CommandedJoints']
+
+VALID_S = 1.0
+
+
+class CommandedJoints:
+    """The commands of the last second, several of which may each be about some of the joints."""
+
+    def __init__(self, model: RobotModel) -> None:
+        """Take a robot that has not been told anything."""
+        self.model = model
+        self._mimics = model.mimics
+        self._motions = {joint.name: joint_motion(joint) for joint in model.moving_joints}
+        self._fixed = {
+            joint.name: _pose(joint_motion(joint)(0.0))
+            for joint in model.joints
+            if joint.kind == 'fixed'
+        }
+        self._told: dict[str, tuple[float, float]] = {}
+        self.unknown: list[str] = []
+
+    def take(self, names: Sequence[str], positions: Sequence[float], now_s: float) -> None:
+        """Take a command, or raise ValueError with the reason why it cannot be shown."""
+        if len(positions) != len(names):
+            raise ValueError(f'it has {len(names)} names but {len(positions)} positions.')
+        for name, position in zip(names, positions):
+            if isfinite(position) and name in self._motions:
+                self._told[name] = float(position), now_s
+        self.unknown = sorted(set(names).difference(self._motions))
+
+    def is_told(self, now_s: float) -> bool:
+        """Tell if there has been a command in the last second."""
+        return any(now_s - at_s < VALID_S for _, at_s in self._told.values())
+
+    def poses(self, now_s: float) -> dict[str, Pose]:
+        """
+        Return where joints are in the frames of their parents; nothing a second after commands.
+
+        Joints that were not told anything, and do not follow others that were, are left out.
+        """
+        told = {
+            name: position
+            for name, (position, at_s) in self._told.items()
+            if now_s - at_s < VALID_S
+        }
+        if not told:
+            return {}
+        poses = dict(self._fixed)
+        for name, motion in self._motions.items():
+            leader = followed(name, self._mimics, told)
+            if leader is not None:
+                poses[name] = _pose(motion(leader.multiplier * told[leader.joint] + leader.offset))
+        return poses
+
+
+def _pose(pose: JointPose) -> Pose:
+    """Return a pose as the page wants it."""
+    x, y, z, qx, qy, qz, qw = pose
+    return Pose((x, y, z), (qw, qx, qy, qz))

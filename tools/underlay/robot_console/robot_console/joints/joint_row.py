@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A joint, as the table shows it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from robot_console.joints.joint_state import JointState
+from rviz_common.status import Level
+from urdf import Joint, Limits
+
+__all__ = ['JointRow', 'load_level', 'position_level']
+
+UNKNOWN = JointState()
+NEAR = 0.9
+NEAR_LIMIT = 0.05
+
+
+@dataclass(frozen=True)
+class JointRow:
+    """What a joint does, what it was told, and what it may do."""
+
+    name: str
+    label: str
+    joint: Joint | None = None
+    state: JointState = UNKNOWN
+    target: float | None = None
+    is_stale: bool = False
+
+    @property
+    def is_angle(self) -> bool:
+        """Tell if positions are angles; a joint that nobody describes is taken to turn."""
+        return self.joint is None or self.joint.kind != 'prismatic'
+
+    @property
+    def limits(self) -> Limits | None:
+        """Return how far the joint goes."""
+        limits = self.joint.limits if self.joint else None
+        return limits if limits and limits.lower < limits.upper else None
+
+    @property
+    def error(self) -> float | None:
+        """Return how far the joint is from where it was told to be."""
+        if self.target is None or self.state.position is None:
+            return None
+        return self.target - self.state.position
+
+    def share(self, position: float | None) -> float | None:
+        """Return where a position is between the limits, from 0 to 1; beyond them, 0 or 1."""
+        if position is None or self.limits is None:
+            return None
+        span = self.limits.upper - self.limits.lower
+        return min(max((position - self.limits.lower) / span, 0.0), 1.0)
+
+
+def position_level(row: JointRow) -> Level:
+    """Return how close to its limits a joint is: within 5 % of its way, or beyond them."""
+    position, limits = row.state.position, row.limits
+    if position is None or limits is None:
+        return Level.OK
+    if not limits.lower <= position <= limits.upper:
+        return Level.ERROR
+    margin = NEAR_LIMIT * (limits.upper - limits.lower)
+    is_near = min(position - limits.lower, limits.upper - position) < margin
+    return Level.WARN if is_near else Level.OK
+
+
+def load_level(value: float | None, maximum: float | None) -> Level:
+    """Return how close to its maximum a velocity or an effort is: above 90 %, or beyond it."""
+    if value is None or maximum is None or abs(value) < NEAR * maximum:
+        return Level.OK
+    return Level.ERROR if abs(value) > maximum else Level.WARN

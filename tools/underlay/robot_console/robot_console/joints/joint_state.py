@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What messages say about joints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import inf, isfinite
+
+__all__ = ['JointState', 'JointStates']
+
+MAX_JOINTS = 1000
+FORGET_S = 60.0
+Numbers = Sequence[float]
+
+
+@dataclass(frozen=True)
+class JointState:
+    """What is known of a joint, in radians or metres, per second, newton metres or newtons."""
+
+    position: float | None = None
+    velocity: float | None = None
+    effort: float | None = None
+    at_s: float = -inf
+
+
+class JointStates:
+    """
+    The newest that messages of a topic have said about each joint.
+
+    Several may publish, each about some of the joints. A message is only looked at when somebody
+    wants to know, so that fast ones cost little.
+    """
+
+    def __init__(self) -> None:
+        """Begin without any."""
+        self.received = 0
+        self.last_s: float | None = None
+        self.complaint = ''
+        self._waiting: dict[tuple[str, ...], tuple[Numbers, Numbers, Numbers, float]] = {}
+        self._states: dict[str, JointState] = {}
+
+    def take(
+        self,
+        names: Sequence[str],
+        positions: Numbers,
+        velocities: Numbers,
+        efforts: Numbers,
+        now_s: float,
+    ) -> None:
+        """Take what a message says."""
+        self.received += 1
+        self.last_s = now_s
+        if len(self._waiting) > MAX_JOINTS:
+            self._look()
+        self._waiting[tuple(names)] = positions, velocities, efforts, now_s
+
+    @property
+    def states(self) -> Mapping[str, JointState]:
+        """Return what is known of each joint of which something has come in the last minute."""
+        if self._waiting:
+            self._look()
+        return self._states
+
+    def _look(self) -> None:
+        """Look at the messages that have come; what does not fit to the names is left out."""
+        waiting, self._waiting = self._waiting, {}
+        for names, (positions, velocities, efforts, at_s) in waiting.items():
+            lists = {'positions': positions, 'velocities': velocities, 'efforts': efforts}
+            self.complaint = _complaint(names, lists)
+            for index, name in enumerate(names):
+                if len(self._states) >= MAX_JOINTS and name not in self._states:
+                    self.complaint = f'There are more than {MAX_JOINTS} joints.'
+                    break
+                position, velocity, effort = (
+                    _number(each, index, len(names)) for each in lists.values()
+                )
+                self._states[name] = JointState(position, velocity, effort, at_s)
+        newest_s = self.last_s or 0.0
+        self._states = {
+            name: state for name, state in self._states.items() if newest_s - state.at_s < FORGET_S
+        }
+
+
+def _number(numbers: Numbers, index: int, count: int) -> float | None:
+    """Return one of the numbers, if there is one for each name and this one is finite."""
+    if len(numbers) != count or not isfinite(numbers[index]):
+        return None
+    return float(numbers[index])
+
+
+def _complaint(names: Sequence[str], lists: Mapping[str, Numbers]) -> str:
+    for what, numbers in lists.items():
+        if len(numbers) not in (0, len(names)):
+            return (
+                f'A message has {len(names)} names but {len(numbers)} {what}, which are left out.'
+            )
+    return ''

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Curves of numbers that are in messages."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+import time
+from typing import Any
+
+from robot_console.message_types import fields_of
+from robot_console.namespaces import below, NAMESPACE
+from robot_console.panels.plot_chart import PlotChart
+from robot_console.panels.series_chooser import SeriesChooser
+from robot_console.plots.csv_text import csv_text
+from robot_console.plots.field_path import PathError
+from robot_console.plots.plot_board import MAX_WINDOW_S, PlotBoard
+from robot_console.plots.plot_legend import legend_html, STYLE
+from robot_console.plots.series import parse_all
+from robot_console.topic_listener import TopicListener
+from rviz_common.pace import Pace
+from rviz_common.panel import Panel
+from rviz_common.properties import Number, Text
+
+__all__ = ['PlotsPanel']
+
+DRAW_S, WRITE_S, LOOK_S = 0.1, 0.2, 1.0
+MIN_WINDOW_S = 2.0
+PAUSE, GO_ON, CLEAR, CSV = 'Pause', 'Continue', 'Clear', 'Save CSV'
+
+
+class PlotsPanel(Panel):
+    """A plot of some series; a file lists one panel for each plot."""
+
+    CLASS = 'robot_console/Plots'
+    PROPERTIES = (
+        NAMESPACE,
+        Text('Series', '', 'Paths of numbers, with semicolons between them.'),
+        Number('Window', 10.0, 'How many seconds are shown.', MIN_WINDOW_S, MAX_WINDOW_S),
+    )
+
+    def start(self) -> None:
+        """Add the widgets, and listen."""
+        node = self.context.node
+        self._board = PlotBoard(self.values['Window'])
+        self._listener = TopicListener(node, self.full_name, self._found, self._board.take)
+        self._draw, self._write, self._look = Pace(DRAW_S), Pace(WRITE_S), Pace(LOOK_S)
+        self._add_widgets()
+        try:
+            self.show(parse_all(self.values['Series']))
+        except PathError as error:
+            self._chooser.say(f'Series of the file: {error}')
+
+    def update(self) -> None:
+        """Draw what is new, if anybody looks."""
+        if self._look.is_due():
+            self._listen()
+        self._chooser.update()
+        if self._draw.is_due():
+            self._listener.take_all()
+            self._show_news()
+
+    def _show_news(self) -> None:
+        if not self.context.server.get_clients():
+            return
+        if not self._board.is_resting:
+            self._chart.draw(self._board.window_s, self._board.drawn(time.time()))
+        if self._write.is_due():
+            self._legend.content = legend_html(self._board.plotted)
+
+    def close(self) -> None:
+        """Listen no longer."""
+        self._listener.close()
+        self._chooser.close()
+
+    def full_name(self, topic: str) -> str:
+        """Return the full name of a topic of the robot."""
+        name: str = self.context.node.resolve_topic_name(below(self.values['Namespace'], topic))
+        return name
+
+    def show(self, series: Any) -> None:
+        """Plot these series only."""
+        self._board.replace(series)
+        self._follow()
+
+    def add(self, text: str) -> None:
+        """Plot one more series, or raise PathError."""
+        self._board.add(text)
+        self._follow()
+
+    def remove(self, text: str) -> None:
+        """Plot a series no longer."""
+        self._board.remove(text)
+        self._follow()
+
+    def _add_widgets(self) -> None:
+        gui = self.context.gui
+        gui.add_html(STYLE)
+        self._chart = PlotChart(gui)
+        self._legend = gui.add_html('')
+        self._buttons = gui.add_button_group('Plot', (PAUSE, CLEAR, CSV))
+        self._buttons.on_click(self._press)
+        window = gui.add_slider(
+            'Seconds', MIN_WINDOW_S, MAX_WINDOW_S, step=1.0, initial_value=self._board.window_s
+        )
+        self.context.on_input(window, self._set_window)
+        self._chooser = SeriesChooser(self)
+
+    def _follow(self) -> None:
+        """Show and hear what is plotted now."""
+        plotted = self._board.plotted
+        texts = [str(each.series) for each in plotted]
+        self.values['Series'] = '; '.join(texts)
+        self._chart.set_series(plotted)
+        self._chart.draw(self._board.window_s, self._board.drawn(time.time()))
+        self._chooser.list_series(texts)
+        self._listen()
+
+    def _listen(self) -> None:
+        reasons = self._listener.listen(self._board.topics)
+        for each in self._board.plotted:
+            for path in each.series.paths:
+                each.trouble = reasons.get(path.topic, each.trouble)
+
+    def _found(self, topic: str, type_name: str) -> None:
+        for each in self._board.plotted:
+            each.trouble = ''
+        self._board.find_type(topic, type_name, fields_of)
+
+    def _set_window(self, window_s: float) -> None:
+        self._board.window_s = self.values['Window'] = window_s
+        self._chart.draw(window_s, self._board.drawn(time.time()))
+
+    def _press(self, event: Any) -> None:
+        """Do what a button says; a thread of the page calls this."""
+        pressed, client = event.target.value, event.client
+        self.context.queue.post(lambda: self._do(pressed, client))
+
+    def _do(self, pressed: str, client: Any) -> None:
+        if pressed == CLEAR:
+            self._board.clear()
+        elif pressed == CSV:
+            self._send_csv(client)
+        elif self._board.is_resting:
+            self._board.go_on()
+        else:
+            self._board.rest(time.time())
+        self._buttons.options = (GO_ON if self._board.is_resting else PAUSE, CLEAR, CSV)
+
+    def _send_csv(self, client: Any) -> None:
+        text = csv_text(self._board.columns(time.time()))
+        name = time.strftime('plot_%Y-%m-%d_%H-%M-%S.csv')
+        with suppress(ConnectionError):
+            client.send_file_download(name, text.encode())

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Paths of numbers in messages, such as `joint_states.position[left_knee]`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import re
+from typing import Union
+
+__all__ = ['Element', 'Field', 'FieldPath', 'PathError', 'Step', 'parse_path']
+
+EXAMPLE = 'A path is like joint_states.position[left_knee] or imu.angular_velocity.z.'
+TOPIC = re.compile(r'~?/?[A-Za-z0-9_/]+')
+STEP = re.compile(r'\.([A-Za-z]\w*)|\[([^\[\]]+)\]')
+WHOLE = re.compile(r'-?\d+')
+
+
+class PathError(ValueError):
+    """A path that leads to no number, with the reason."""
+
+
+@dataclass(frozen=True)
+class Field:
+    """A step to a field of a message."""
+
+    name: str
+
+    def __str__(self) -> str:
+        """Return the step as paths have it."""
+        return f'.{self.name}'
+
+
+@dataclass(frozen=True)
+class Element:
+    """A step to an element of a list, by its place or by what it is about."""
+
+    key: int | str
+
+    def __str__(self) -> str:
+        """Return the step as paths have it."""
+        return f'[{self.key}]'
+
+
+Step = Union[Field, Element]
+
+
+@dataclass(frozen=True)
+class FieldPath:
+    """A topic, and the steps to a number in its messages."""
+
+    topic: str
+    steps: tuple[Step, ...]
+
+    def __str__(self) -> str:
+        """Return the path."""
+        return self.topic + ''.join(map(str, self.steps))
+
+
+def parse_path(text: str) -> FieldPath:
+    """Return the path that a text means, or raise PathError."""
+    text = text.strip()
+    topic = TOPIC.match(text)
+    if topic is None:
+        raise PathError(f"'{text}' does not begin with a topic. {EXAMPLE}")
+    steps: list[Step] = []
+    at = topic.end()
+    while at < len(text):
+        found = STEP.match(text, at)
+        if found is None:
+            raise PathError(f"'{text}' goes wrong at '{text[at:]}': {_why(text[at:])} {EXAMPLE}")
+        steps.append(_step(found))
+        at = found.end()
+    if not steps or isinstance(steps[0], Element):
+        raise PathError(f"'{text}' names no field of the messages of a topic. {EXAMPLE}")
+    return FieldPath(topic[0], tuple(steps))
+
+
+def _step(found: re.Match[str]) -> Step:
+    if found[1]:
+        return Field(found[1])
+    key = found[2].strip()
+    return Element(int(key) if WHOLE.fullmatch(key) else key)
+
+
+def _why(rest: str) -> str:
+    """Explain what cannot be a step."""
+    if rest.startswith('['):
+        return 'brackets hold a number or a name, and are closed.'
+    if rest.startswith('.'):
+        return 'after a dot comes the name of a field.'
+    return 'a dot or a bracket is expected.'

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the types of fields mean, as interfaces of ROS write them: `sequence<double>`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+import re
+
+__all__ = ['Schema', 'element_type', 'is_message', 'is_number', 'is_text']
+
+Schema = Callable[[str], Mapping[str, str]]
+"""Returns the fields of a type of message with their types, in their order."""
+NUMBERS = (
+    {'double', 'float', 'boolean', 'octet', 'char', 'long double'}
+    | {f'int{bits}' for bits in (8, 16, 32, 64)}
+    | {f'uint{bits}' for bits in (8, 16, 32, 64)}
+)
+LIST = re.compile(r'sequence<(?P<sequence>.+?)(?:, *\d+)?>|(?P<array>.+)\[\d*\]')
+
+
+def element_type(kind: str) -> str | None:
+    """Return the type of the elements of a list, or None for what is no list."""
+    found = LIST.fullmatch(kind)
+    return None if found is None else found['sequence'] or found['array']
+
+
+def is_number(kind: str) -> bool:
+    """Tell if values of a type are numbers."""
+    return kind in NUMBERS
+
+
+def is_text(kind: str) -> bool:
+    """Tell if values of a type are texts."""
+    return kind.startswith(('string', 'wstring'))
+
+
+def is_message(kind: str) -> bool:
+    """Tell if values of a type have fields."""
+    return '/' in kind and element_type(kind) is None

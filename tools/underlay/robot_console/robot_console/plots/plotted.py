@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A series with the values that it has had."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from robot_console.plots.field_path import PathError
+from robot_console.plots.field_reader import FieldReader
+from robot_console.plots.field_types import Schema
+from robot_console.plots.series import Series
+from robot_console.plots.value_trace import Trace
+
+__all__ = ['Plotted']
+
+TOGETHER_S = 1.0
+
+
+class Plotted:
+    """A series with the values that it has had, and what prevents it from having some."""
+
+    def __init__(self, series: Series, keep_s: float) -> None:
+        """Take a series; the types of its topics are not known yet."""
+        self.series = series
+        self.trace = Trace(keep_s)
+        self.trouble = ''
+        self._readers: list[FieldReader | None] = [None] * len(series.paths)
+        self._newest: list[tuple[float, float] | None] = [None] * len(series.paths)
+
+    def find_type(self, topic: str, type_name: str, schema: Schema) -> None:
+        """Take the type of a topic; if it does not have what is plotted, that is the trouble."""
+        for index, path in enumerate(self.series.paths):
+            if path.topic == topic:
+                try:
+                    self._readers[index] = FieldReader(path, type_name, schema)
+                except PathError as error:
+                    self.trouble = str(error)
+
+    def take(self, topic: str, message: Any, time_s: float) -> None:
+        """Take a message of a topic."""
+        has_news = False
+        for index, reader in enumerate(self._readers):
+            if reader is not None and reader.path.topic == topic:
+                try:
+                    self._newest[index] = time_s, reader.read(message)
+                except PathError as error:
+                    self.trouble = f'{reader.path}: {error}'
+                else:
+                    has_news = True
+        if has_news:
+            self._add(time_s)
+
+    def _add(self, time_s: float) -> None:
+        """Add a value, if all that it is made of is known and belongs together."""
+        together = [
+            each[1] for each in self._newest if each and abs(time_s - each[0]) < TOGETHER_S
+        ]
+        if len(together) == len(self._newest):
+            self.trouble = ''
+            self.trace.add(time_s, self.series.value(together))

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Thin out values until there are not more than a plot can show.
+
+The time is cut into slices; of each slice the lowest and the highest value stay, so that no peak
+gets lost. The slices are the same for all series of a plot, and begin at multiples of their
+length: else a curve that moves through them would tremble.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+from robot_console.plots.value_trace import Numbers
+
+__all__ = ['SLICES', 'slice_times', 'thinned']
+
+SLICES = 400
+PAUSE_S = 1.0
+PAUSE_PERIODS = 4.0
+
+
+def slice_times(window_s: float) -> Numbers:
+    """Return the times of what is drawn, two in each slice, in seconds before now."""
+    return np.linspace(-window_s, 0.0, 2 * SLICES, dtype=np.float64)
+
+
+def thinned(times: Numbers, values: Numbers, now_s: float, window_s: float) -> Numbers:
+    """
+    Return a value for each of the times of the slices, or NaN where the curve has a gap.
+
+    A gap is where values were no numbers, and where none came for a second and much longer than
+    it usually takes. Between other values, the curve goes straight on.
+    """
+    finite = np.flatnonzero(np.isfinite(values))
+    if len(finite) == 0:
+        return np.full(2 * SLICES, np.nan)
+    slice_s = window_s / SLICES
+    first = math.floor(now_s / slice_s) - SLICES + 1
+    at_s = (first + (np.arange(2 * SLICES) + 0.5) / 2.0) * slice_s
+    known_s, known = times[finite], values[finite]
+    drawn: Numbers = np.interp(at_s, known_s, known, left=np.nan, right=np.nan)
+    is_gap = (np.diff(finite) > 1) | (np.diff(known_s) > _longest_s(times))
+    after = np.searchsorted(known_s, at_s)
+    drawn[np.concatenate(([False], is_gap, [False]))[after]] = np.nan
+    _fill(drawn, np.floor(known_s / slice_s).astype(np.int64) - first, known)
+    return drawn
+
+
+def _longest_s(times: Numbers) -> float:
+    """Return how long it may take until the next value, without that being a gap."""
+    if len(times) < 2:
+        return PAUSE_S
+    return max(PAUSE_S, PAUSE_PERIODS * float(times[-1] - times[0]) / (len(times) - 1))
+
+
+def _fill(drawn: Numbers, places: npt.NDArray[np.int64], values: Numbers) -> None:
+    """Set the lowest and the highest value of each slice that has some."""
+    inside = (places >= 0) & (places < SLICES)
+    places, values = places[inside], values[inside]
+    if len(places) == 0:
+        return
+    starts = np.flatnonzero(np.diff(places, prepend=-1))
+    low, high = np.minimum.reduceat(values, starts), np.maximum.reduceat(values, starts)
+    ends = np.append(starts[1:], len(values)) - 1
+    rises = values[ends] >= values[starts]
+    at = 2 * places[starts]
+    drawn[at] = np.where(rises, low, high)
+    drawn[at + 1] = np.where(rises, high, low)

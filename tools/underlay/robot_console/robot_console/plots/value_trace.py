@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The values that a number has had, with their times."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ['Numbers', 'Trace']
+
+Numbers = npt.NDArray[np.float64]
+FIRST_CAPACITY = 256
+MAX_CAPACITY = 1 << 17
+"""A minute and more of a topic that comes 1000 times a second."""
+
+
+class Trace:
+    """
+    The values of some last seconds; what is older is forgotten.
+
+    Two arrays are filled from the left. When they are full, what is still wanted moves back to
+    their beginning, or into larger ones: so adding a value is quick, and no copy is needed to
+    look at them.
+    """
+
+    def __init__(self, keep_s: float) -> None:
+        """Begin without values."""
+        self.keep_s = keep_s
+        self._times = np.empty(FIRST_CAPACITY)
+        self._values = np.empty(FIRST_CAPACITY)
+        self._end = 0
+
+    def add(self, time_s: float, value: float) -> None:
+        """Add a value; if time has jumped back, what was before is forgotten."""
+        if self._end and time_s < self._times[self._end - 1]:
+            if self._times[self._end - 1] - time_s < self.keep_s:
+                time_s = float(self._times[self._end - 1])
+            else:
+                self._end = 0
+        if self._end == len(self._times):
+            self._make_room(time_s - self.keep_s)
+        self._times[self._end] = time_s
+        self._values[self._end] = value
+        self._end += 1
+
+    def clear(self) -> None:
+        """Forget all values."""
+        self._end = 0
+
+    @property
+    def newest(self) -> float | None:
+        """Return the last value, if there is one."""
+        return float(self._values[self._end - 1]) if self._end else None
+
+    def since(self, first_s: float) -> tuple[Numbers, Numbers]:
+        """Return times and values from a time on, and the one before; they are not to be kept."""
+        start = max(int(np.searchsorted(self._times[: self._end], first_s)) - 1, 0)
+        seen = slice(start, self._end)
+        return self._times[seen], self._values[seen]
+
+    def _make_room(self, oldest_s: float) -> None:
+        start = int(np.searchsorted(self._times, oldest_s))
+        capacity = len(self._times)
+        kept = capacity - start
+        if kept > capacity // 2:
+            if capacity < MAX_CAPACITY:
+                capacity *= 2
+            else:
+                start, kept = capacity // 2, capacity // 2
+        times, values = np.empty(capacity), np.empty(capacity)
+        wanted = slice(start, start + kept)
+        times[:kept], values[:kept] = self._times[wanted], self._values[wanted]
+        self._times, self._values, self._end = times, values, kept

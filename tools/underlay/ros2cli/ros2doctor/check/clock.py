@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check that somebody tells the time to the nodes that take it from a topic."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+
+from ros2doctor.api.finding import Finding, Severity
+from ros2doctor.check.graph_check import GraphCheck
+from ros2doctor.facts.graph import Graph
+
+
+class ClockCheck(GraphCheck):
+    """The check of the time that a simulator, or a bag, publishes."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'clock'
+
+    def findings(self, graph: Graph) -> Iterator[Finding]:
+        """Yield the nodes whose time stands still."""
+        yield from clock_findings(graph.without_clock)
+
+
+def clock_findings(nodes: Collection[str]) -> Iterator[Finding]:
+    """Yield one finding on all nodes that wait for a /clock that nobody publishes."""
+    if nodes:
+        yield Finding(
+            Severity.ERROR,
+            f'use_sim_time is true, but nobody publishes /clock: {", ".join(nodes)}',
+            'the time of these nodes stands still: what they do at times, they never do, and '
+            'transforms that they publish do not change',
+            'start the simulator, or play the bag with --clock; without one, start these nodes '
+            'without use_sim_time, or set it back: ros2 param set NODE use_sim_time false',
+        )

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say in a sentence, and not too often, what goes wrong with connections."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from typing import Any
+
+from rviz_common.described_error import described_error
+from rviz_common.pace import Pace
+from websockets.exceptions import InvalidHandshake
+
+__all__ = ['LOGGER', 'complain', 'complain_about_task']
+
+LOGGER = logging.getLogger('rviz_common.page')
+REPEAT_S = 10.0
+_PACE = Pace(REPEAT_S)
+
+
+def complain(sentence: str) -> None:
+    """Log a sentence, if none has been logged lately."""
+    if _PACE.is_due():
+        LOGGER.warning(sentence)
+
+
+def complain_about_task(loop: asyncio.AbstractEventLoop, about: dict[str, Any]) -> None:
+    """Log what a task of the page has failed with."""
+    error = about.get('exception')
+    said = described_error(error) if isinstance(error, Exception) else about.get('message', '')
+    complain(f'What a browser has sent failed: {said}')
+
+
+class _Brief(logging.Filter):
+    """Shortens what the `websockets` library says; says nothing of who speaks no HTTP."""
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Tell whether there is something to say, and put it in a sentence."""
+        error = record.exc_info[1] if record.exc_info else None
+        if isinstance(error, Exception):
+            record.msg = f'A connection has failed: {described_error(error)}'
+            record.args, record.exc_info = (), None
+            return not isinstance(error, InvalidHandshake)
+        return record.levelno >= logging.WARNING
+
+
+LOGGER.addFilter(_Brief())

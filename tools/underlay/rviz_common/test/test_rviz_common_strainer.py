@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Send what no page sends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import random
+import socket
+import time
+from typing import Any
+
+import msgspec
+import pytest
+from rviz_common.page import Page
+from rviz_common.page.strainer import objection
+import viser
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Subprotocol
+
+CAMERA: dict[str, Any] = {
+    'type': 'ViewerCameraMessage',
+    'wxyz': [1, 0, 0, 0],
+    'position': [3, 0, 1.5],
+    'fov': 0.8,
+    'near': 0.01,
+    'far': 1000,
+    'image_height': 600,
+    'image_width': 800.0,
+    'look_at': [0, 0, 0],
+    'up_direction': [0, 0, 1],
+}
+UPDATE: dict[str, Any] = {'type': 'GuiUpdateMessage', 'uuid': 'x', 'updates': {'value': [1, 'a']}}
+
+
+@pytest.fixture
+def page() -> Iterator[Page]:
+    """Serve a page on a port of its own."""
+    with Page('test') as page:
+        yield page
+
+
+def visit(page: Page) -> ClientConnection:
+    """Connect as a browser does."""
+    protocol = Subprotocol(f'viser-v{viser.__version__}')
+    return connect(f'ws://127.0.0.1:{page.port}', subprotocols=[protocol])
+
+
+def wait_for_clients(page: Page, count: int) -> None:
+    """Wait until so many browsers have said how they look at the scene."""
+    end_s = time.monotonic() + 20.0
+    while len(page.viser.get_clients()) != count:
+        assert time.monotonic() < end_s, f'not {count} clients'
+        time.sleep(0.01)
+
+
+def test_what_pages_send() -> None:
+    """A camera and the value of a widget pass."""
+    assert objection(msgspec.msgpack.encode(CAMERA)) == ''
+    assert objection(msgspec.msgpack.encode(UPDATE)) == ''
+
+
+@pytest.mark.parametrize(
+    ('message', 'reason'),
+    [
+        (7, 'type None'),
+        ({}, 'type None'),
+        ({'type': ['a']}, 'type'),
+        ({'type': 'ShareUrlRequest'}, "type 'ShareUrlRequest'"),
+        ({**CAMERA, 'wxyz': [1, 0, 0]}, 'length 4'),
+        ({**CAMERA, 'fov': 'wide'}, 'float'),
+        ({**CAMERA, 'near': float('nan')}, 'not finite'),
+        ({**CAMERA, 'more': 1}, 'too much'),
+        ({'type': 'ViewerCameraMessage'}, 'missing'),
+        ({**UPDATE, 'updates': {'value': [{'a': float('inf')}]}}, 'not finite'),
+        ({**UPDATE, 'updates': {'value': 1, 'update_cb': []}}, 'other properties'),
+        ({**UPDATE, 'updates': {}}, 'other properties'),
+    ],
+)
+def test_what_pages_do_not_send(message: Any, reason: str) -> None:
+    """Other types, wrong fields and wrong numbers do not pass, and the reason is said."""
+    assert reason in objection(msgspec.msgpack.encode(message))
+
+
+def test_what_cannot_be_read() -> None:
+    """Neither does what is no message, or is nested too deeply."""
+    chance = random.Random(1)
+    assert objection('{}') == 'a text'
+    assert all(objection(chance.randbytes(size)) for size in range(200))
+    assert objection(b'\x91' * 1_000_000)
+
+
+def test_a_page_outlives_it(page: Page, capfd: pytest.CaptureFixture[str]) -> None:
+    """A browser that sends them stays connected, and the widgets stay as they are."""
+    box = page.viser.gui.add_number('n', 1.0)
+    with socket.create_connection(('127.0.0.1', page.port)) as stranger:
+        stranger.sendall(b'\x16\x03\x01 this is no HTTP\r\n\r\n')
+        assert stranger.recv(100) == b''
+    with visit(page) as browser:
+        for message in (7, {'type': 'ShareUrlRequest'}, {**CAMERA, 'fov': float('nan')}):
+            browser.send(msgspec.msgpack.encode(message))
+        update = {'type': 'GuiUpdateMessage', 'uuid': box._impl.uuid}
+        browser.send(msgspec.msgpack.encode({**update, 'updates': {'value': ['no number']}}))
+        browser.send(msgspec.msgpack.encode({**update, 'updates': {'disabled': True}}))
+        browser.send(msgspec.msgpack.encode(CAMERA))
+        wait_for_clients(page, 1)
+        assert (box.value, box.disabled) == (1.0, False)
+    wait_for_clients(page, 0)
+    assert 'Traceback' not in capfd.readouterr().err
+
+
+def test_large_messages(page: Page) -> None:
+    """A message that is much larger than a part of a file ends the connection."""
+    with visit(page) as browser:
+        browser.send(b'x' * 3_000_000)
+        with pytest.raises(ConnectionClosed, match='1009'):
+            while True:
+                browser.recv(timeout=20)

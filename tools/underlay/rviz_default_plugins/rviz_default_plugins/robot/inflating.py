@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Make bodies a little larger, so that they are seen around others at the same place."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from urdf import Box, Capsule, Cylinder, Geometry, Mesh, Shape, Sphere
+
+__all__ = ['inflated']
+
+MESH_SIZE_M = 0.3
+"""How large meshes are taken to be; how large they are is only known when they are read."""
+
+
+def inflated(shape: Shape, margin_m: float) -> Shape:
+    """Return a body whose surface is everywhere farther out by a margin."""
+    return replace(shape, geometry=_inflated(shape.geometry, margin_m)) if margin_m else shape
+
+
+def _inflated(body: Geometry, margin_m: float) -> Geometry:
+    if isinstance(body, Box):
+        x, y, z = body.size
+        return Box((x + 2 * margin_m, y + 2 * margin_m, z + 2 * margin_m))
+    if isinstance(body, Cylinder):
+        return Cylinder(body.radius + margin_m, body.length + 2 * margin_m)
+    if isinstance(body, Capsule):
+        return Capsule(body.radius + margin_m, body.length)
+    if isinstance(body, Sphere):
+        return Sphere(body.radius + margin_m)
+    factor = 1.0 + 2 * margin_m / MESH_SIZE_M
+    x, y, z = body.scale
+    return Mesh(body.file, (x * factor, y * factor, z * factor))
