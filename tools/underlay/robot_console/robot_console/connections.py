@@ -22,6 +22,8 @@ SILENCE_S = 0.3
 """For how long a page that is in control may be silent."""
 READING_S = 0.05
 """How long it may take to read what has come while the thread of the page was busy."""
+PAUSE_S = 0.005
+"""How long a page waits that says several things at once, so that others get their turn."""
 ENDING_S = 1.0
 REFUSED = 1008
 
@@ -86,6 +88,7 @@ async def _exchange(connection: ServerConnection, session: Session) -> None:
             await connection.close(REFUSED, ascii(str(answer))[:100])
             return
         await connection.send(answer)
+        await asyncio.sleep(PAUSE_S)
 
 
 def _answer(session: Session, text: Any) -> str | ValueError:

@@ -46,7 +46,13 @@ class SmallPage:
         self._context = context
         self._connections = connections
         self._path = f'/{name}/{namespace}' if namespace else f'/{name}'
-        context.page.routes.add(self._path, Route(page_text(name, settings), connections.talk))
+        try:
+            context.page.routes.add(self._path, Route(page_text(name, settings), connections.talk))
+        except ValueError:
+            raise ValueError(
+                'There is such a panel for this robot already. Remove one of both from the file, '
+                "or give it another 'Namespace'."
+            ) from None
         self._frame = context.gui.add_html(
             f'<iframe src="{escape(quote(self._path))}" title="{escape(name)}" style="{STYLE}">'
             '</iframe>',

@@ -50,7 +50,7 @@ def _numbers(given: Any, count: int, least: float) -> list[float]:
     if not isinstance(given, list) or len(given) != count:
         raise ValueError(f'must be {count} numbers, and not {given}')
     for each in given:
-        is_finite = isinstance(each, int) or (isinstance(each, float) and math.isfinite(each))
-        if isinstance(each, bool) or not is_finite:
+        is_number = isinstance(each, (int, float)) and not isinstance(each, bool)
+        if not is_number or not -math.inf < each < math.inf:  # a whole number may fit no float
             raise ValueError(f'must be finite numbers, and not {given}')
     return [float(max(least, min(1.0, each))) for each in given]

@@ -184,3 +184,13 @@ def test_last_sentence() -> None:
     assert last_sentence(lines) == 'Nothing is chosen'
     assert last_sentence(['[WARN] [1.2] [node]: Odd']) == 'Odd'
     assert last_sentence(['[INFO] [1.2] [node]: Fine']) == ''
+
+
+def test_shelf_strange_names(tmp_path: Path) -> None:
+    """A name that is no text can be shown, and its path still leads there."""
+    folder = os.fsencode(tmp_path) + b'/b\xff'
+    os.mkdir(folder)
+    (Path(os.fsdecode(folder)) / 'metadata.yaml').touch()
+    (bag,) = Shelf(str(tmp_path)).look()
+    assert bag.name == 'b?' and os.path.isdir(bag.path)
+    assert ''.join((bag.name, *about(bag))).encode()

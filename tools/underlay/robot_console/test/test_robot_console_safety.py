@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from http.client import HTTPConnection
+import json
 from pathlib import Path
 import threading
 import time
@@ -214,3 +215,15 @@ def test_files_are_installed() -> None:
     """What the pages are made of is package data."""
     setup = (Path(__file__).parents[1] / 'setup.py').read_text(encoding='utf-8')
     assert "'web/*'" in setup
+
+
+def test_page_that_says_too_much(world: World) -> None:
+    """However much a page says, the robot does not get it all at once, and others are heard."""
+    drive, other = world.visit('drive'), world.visit('safety', 'bob')
+    start_s = time.monotonic()
+    for _ in range(300):
+        drive.connection.send(json.dumps(PUSH))
+    assert other.say({'do': 'stop'})['stop']['pressed']
+    answers = [json.loads(drive.connection.recv(timeout=30)) for _ in range(300)]
+    assert time.monotonic() - start_s > 1.0
+    assert 'emergency stop' in answers[-1]['refusal']

@@ -95,3 +95,9 @@ def test_wrong_stick(stick: Any) -> None:
         LIMITS.velocity(stick, [1.0, 1.0])
     with pytest.raises(ValueError, match='numbers'):
         LIMITS.velocity([0, 0, 0], stick)
+
+
+def test_number_that_fits_no_float() -> None:
+    """A whole number may be as long as it likes; the limit holds."""
+    assert LIMITS.velocity([10**400, 0, 0], [1, 1]) == (0.5, 0.0, 0.0)
+    assert LIMITS.velocity([-(10**400), 0, 0], [10**400, 1]) == (-0.5, 0.0, 0.0)

@@ -30,7 +30,7 @@ def _job(words: list[str]) -> Job:
     """Return what is to be shown; what cannot be read ends the program before anything starts."""
     arguments = parse(words)
     try:
-        if arguments.display_config is None:
+        if not arguments.display_config:  # launch files pass '' for none
             configuration = Configuration.default()
         else:
             configuration = Configuration.read(arguments.display_config)

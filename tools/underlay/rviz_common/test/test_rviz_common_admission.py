@@ -82,3 +82,21 @@ def test_cookies_of_others(cookies: str) -> None:
     refusal = SECRET.refusal('/', HOST, None, cookies)
     assert refusal is not None
     assert refusal.status == HTTPStatus.UNAUTHORIZED
+
+
+@pytest.mark.parametrize('token', ['a&b#c%d e;x', 'é, ü', 'a\r\nX: y', '"quoted\\"', ' '])
+def test_strange_token(token: str) -> None:
+    """Whatever is in a token, the cookie that is set brings it, and breaks no header."""
+    admission = Admission(8080, token)
+    header = admission.set_cookie
+    assert header.isascii() and header.isprintable() and header.count(';') == 3
+    assert admission.refusal('/', HOST, None, header.partition(';')[0]) is None
+    assert admission.refusal('/', HOST, None, f'{admission.cookie}=x') is not None
+
+
+@pytest.mark.parametrize(('path', 'origin'), [('//[::1', None), ('/', 'http://[::1')])
+def test_no_address(path: str, origin: str | None) -> None:
+    """What is no address is refused, too."""
+    refusal = LOCAL.refusal(path, 'localhost:8080', origin, None)
+    assert refusal is not None
+    assert refusal.status == HTTPStatus.BAD_REQUEST

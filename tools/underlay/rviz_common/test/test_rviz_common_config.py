@@ -164,3 +164,15 @@ def test_saving_keeps_permissions_and_links(tmp_path: Path) -> None:
     replace_file(str(link), 'new')
     assert link.is_symlink() and path.read_text() == 'new'
     assert stat.S_IMODE(path.stat().st_mode) == 0o640
+
+
+def test_what_never_ends_is_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A pipe is not waited for, and a file that is too large is not read."""
+    os.mkfifo(tmp_path / 'pipe.rviz')
+    for path in (str(tmp_path / 'pipe.rviz'), '/dev/zero'):
+        with pytest.raises(ConfigError, match='This is no regular file'):
+            Configuration.read(path)
+    (tmp_path / 'large.rviz').touch()
+    os.truncate(tmp_path / 'large.rviz', 10_000_001)
+    with pytest.raises(ConfigError, match='larger than 10 MB'):
+        Configuration.read(str(tmp_path / 'large.rviz'))

@@ -174,3 +174,39 @@ def test_foreign_protocol(page: Page) -> None:
         with pytest.raises(ConnectionClosed):
             client.recv(timeout=30)
     assert ask(page).status == 200
+
+
+@pytest.mark.parametrize(
+    ('headers', 'status'),
+    [
+        ((), b'200'),
+        (('Cookie: a=b', 'Cookie: c=d'), b'200'),
+        (('Host: evil.example',), b'403'),
+        (('Origin: http://evil.example', 'Origin: http://127.0.0.1:{port}'), b'403'),
+    ],
+)
+def test_headers_that_come_twice(page: Page, headers: tuple[str, ...], status: bytes) -> None:
+    """Cookies may come in several headers; a second host or origin makes no friend."""
+    lines = ['GET / HTTP/1.1', 'Host: 127.0.0.1:{port}', *headers, '', '']
+    with socket.create_connection(('127.0.0.1', page.port), timeout=30) as client:
+        client.sendall('\r\n'.join(lines).format(port=page.port).encode())
+        assert client.recv(1000).split()[1] == status
+
+
+def test_strange_token() -> None:
+    """An address that is printed can be opened, whatever is in the token; and leads here."""
+    with Page('test', PageSettings(token='a&b#c%d é\r\nX: y')) as page:
+        printed = page.url.removeprefix(f'http://127.0.0.1:{page.port}')
+        answer = ask(page, printed)
+        assert (answer.status, answer.getheader('X')) == (303, None)
+        cookie = answer.getheader('Set-Cookie', '').partition(';')[0]
+        assert ask(page, Cookie=cookie).status == 200
+        assert ask(page, f'//evil.example{printed}').getheader('Location') == '/evil.example/'
+
+
+def test_foreign_address() -> None:
+    """An address that is not of this machine is named, and not the port."""
+    with pytest.raises(
+        PortError, match=r'^192\.0\.2\.9 cannot be used: .* address of this machine'
+    ):
+        Page('test', PageSettings(host='192.0.2.9'))

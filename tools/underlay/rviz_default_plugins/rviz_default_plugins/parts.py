@@ -46,9 +46,11 @@ class Parts:
         """Tell if a part is to be shown with its axes."""
         return bool(self._setting(name, AXES, AXES.default))
 
-    def to_file(self) -> dict[str, Any]:
-        """Return what the file is to have of the parts."""
-        return {name: each for name, each in self._given.items() if isinstance(each, dict)}
+    def put_into(self, written: dict[str, Any], name: str) -> dict[str, Any]:
+        """Return what a file is to have, with the parts below a name."""
+        parts = {part: each for part, each in self._given.items() if isinstance(each, dict)}
+        section = written.get(name)
+        return {**written, name: {**section, **parts}} if isinstance(section, dict) else written
 
     def _setting(self, name: str, setting: Property, default: Any) -> Any:
         settings = self._given.get(name)

@@ -118,6 +118,18 @@ def test_bad_arguments(start_program: Start) -> None:
         assert text in errors
 
 
+def test_no_place_for_the_log(
+    start_program: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where the log cannot be written, it is not the arguments that are to blame."""
+    (tmp_path / 'file').touch()
+    monkeypatch.setenv('ROS_LOG_DIR', str(tmp_path / 'file'))
+    process = start_program('tf2_ros.tf2_echo', 'map', 'odom')
+    _, errors = process.communicate(timeout=TIMEOUT_S)
+    assert process.returncode == 1 and 'Traceback' not in errors
+    assert 'The log cannot be written' in errors and 'Set ROS_LOG_DIR, or HOME' in errors
+
+
 def test_full_disk(start_program: Start) -> None:
     """When the output finds no room, that is said, and the status is 1."""
     with open('/dev/full', 'w') as full:

@@ -98,10 +98,7 @@ def _run(
         parsed = parse(list(remove_ros_args(words))[1:])
         rclpy.init(args=words, signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:
-        sys.stderr.write(
-            f'The ROS arguments cannot be used: {error}. '
-            'Correct what follows --ros-args, or the parameter file that it names.\n'
-        )
+        sys.stderr.write(f'{_reason(error)}\n')
         return 1
     try:
         return work(parsed) or 0
@@ -109,6 +106,19 @@ def _run(
         return _status_of_lost_output(error)
     finally:
         rclpy.try_shutdown()
+
+
+def _reason(error: RuntimeError) -> str:
+    """Say why ROS cannot be used, and what to do."""
+    if 'initialize logging' in str(error):
+        return (
+            f'The log cannot be written: {error}. Set ROS_LOG_DIR, or HOME, to a folder that can '
+            'be written.'
+        )
+    return (
+        f'The ROS arguments cannot be used: {error}. '
+        'Correct what follows --ros-args, or the parameter file that it names.'
+    )
 
 
 def _status_of_lost_output(error: OSError) -> int:

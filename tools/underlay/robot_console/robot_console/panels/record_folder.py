@@ -14,7 +14,7 @@ from robot_console.recordings.bag_names import bag_folder, regex_of_robot, topic
 from robot_console.recordings.child import Child
 from robot_console.recordings.words import clock_text, size_text
 from rviz_common.context import Context
-from rviz_common.panels.marks import escaped
+from rviz_common.panels.marks import escaped, printable
 
 __all__ = ['RecordFolder']
 
@@ -43,7 +43,9 @@ class RecordFolder:
             self._all: Any = gui.add_checkbox('All topics', True)
             self._topics: Any = gui.add_text('Topics', '', multiline=True, visible=False)
             self._more: Any = gui.add_dropdown('Add', [ADD], visible=False)
-            self._button: Any = gui.add_button(RECORD, color='red', hint=f'Into {folder}')
+            self._button: Any = gui.add_button(
+                RECORD, color='red', hint=f'Into {printable(folder)}'
+            )
             self._text: Any = gui.add_markdown('')
         context.on_input(self._all, self._choose)
         context.on_input(self._more, self._add)

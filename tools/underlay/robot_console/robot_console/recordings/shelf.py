@@ -10,6 +10,7 @@ from typing import NamedTuple
 from ros2bag.storage import BagError
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.metadata_yaml import FILE_NAME
+from rviz_common.panels.marks import printable
 
 __all__ = ['Bag', 'BagTopic', 'Shelf']
 
@@ -90,7 +91,7 @@ def _is_part(name: str) -> bool:
 
 
 def _described(path: str) -> Bag:
-    name = os.path.basename(path)
+    name = printable(os.path.basename(path))
     try:
         reader = BagReader(path)
         span = reader.metadata.span

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 import os
+import stat
 from typing import Any
 
 from rviz_common.config.config_error import ConfigError
@@ -14,7 +15,17 @@ from rviz_common.config.saving import replace_file
 from rviz_common.config.yaml_reading import read_yaml
 from rviz_common.config.yaml_writing import write_yaml
 
-__all__ = ['DISPLAYS', 'OPTIONS', 'PANELS', 'SAVED_VIEWS', 'TOOLS', 'VIEW', 'Configuration']
+__all__ = [
+    'DISPLAYS',
+    'LARGEST',
+    'OPTIONS',
+    'PANELS',
+    'SAVED_VIEWS',
+    'TOOLS',
+    'TOO_LARGE',
+    'VIEW',
+    'Configuration',
+]
 
 MANAGER: Place = ('Visualization Manager',)
 DISPLAYS: Place = (*MANAGER, 'Displays')
@@ -24,6 +35,8 @@ VIEW: Place = (*MANAGER, 'Views', 'Current')
 SAVED_VIEWS: Place = (*MANAGER, 'Views', 'Saved')
 PANELS: Place = ('Panels',)
 GROUP = 'rviz_common/Group'
+LARGEST = 10_000_000
+TOO_LARGE = f'The file is larger than {LARGEST // 1_000_000} MB.'
 
 
 class Configuration:
@@ -59,8 +72,7 @@ class Configuration:
     def read(cls, path: str) -> Configuration:
         """Return what a file says, or raise ConfigError."""
         try:
-            with open(path, encoding='utf-8-sig') as file:
-                text = file.read()
+            text = _text_of(path)
         except OSError as error:
             raise ConfigError(path, None, _unreadable(path, error)) from error
         except UnicodeDecodeError as error:
@@ -151,6 +163,21 @@ def _replaced(values: Any, place: Place, section: Any) -> Any:
 
 def _shown(value: Any) -> str:
     return KINDS.get(type(value), f"'{value}'")
+
+
+def _text_of(path: str) -> str:
+    """Return the text of a file; a pipe, which might never end, is not waited for."""
+    with open(path, 'rb', opener=_open_at_once) as file:
+        about = os.fstat(file.fileno())
+        if not stat.S_ISREG(about.st_mode):
+            raise ConfigError(path, None, 'This is no regular file.')
+        if about.st_size > LARGEST:
+            raise ConfigError(path, None, TOO_LARGE)
+        return file.read(LARGEST + 1).decode('utf-8-sig')
+
+
+def _open_at_once(path: str, flags: int) -> int:
+    return os.open(path, flags | os.O_NONBLOCK)
 
 
 def _unreadable(path: str, error: OSError) -> str:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from http import HTTPStatus
 from http.cookies import CookieError, SimpleCookie
 import secrets
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import parse_qs, quote, unquote, urlsplit
 
 __all__ = ['Admission', 'Refusal']
 
@@ -44,6 +44,8 @@ class Admission:
         self, path: str, host: str, origin: str | None, cookies: str | None
     ) -> Refusal | None:
         """Return why a request with these headers is refused, or None if it is not."""
+        if not all(map(_is_address, (path, origin or ''))):
+            return Refusal(HTTPStatus.BAD_REQUEST, 'This is no address.')
         if origin is not None and urlsplit(origin).netloc != host:
             return Refusal(
                 HTTPStatus.FORBIDDEN, f'Pages of {origin} may not use this one, which is {host}.'
@@ -65,6 +67,11 @@ class Admission:
             )
         return None
 
+    @property
+    def set_cookie(self) -> str:
+        """Return the header that has a browser keep the token."""
+        return f'{self.cookie}={quote(self.token, safe="")}; HttpOnly; SameSite=Strict; Path=/'
+
     def brings_token(self, path: str) -> bool:
         """Tell if the address has the token, which from then on a cookie is to hold."""
         return bool(self.token and _token_in(path))
@@ -83,7 +90,15 @@ class Admission:
             cookie = SimpleCookie(cookies or '').get(self.cookie)
         except CookieError:
             cookie = None
-        return _token_in(path) or (cookie.value if cookie else '')
+        return _token_in(path) or (unquote(cookie.value) if cookie else '')
+
+
+def _is_address(text: str) -> bool:
+    try:
+        urlsplit(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _token_in(path: str) -> str:

@@ -77,9 +77,9 @@ def _gate(answer: Any, title: str, admission: Admission, routes: Routes) -> Any:
         headers = request.headers
         refusal = admission.refusal(
             request.path,
-            headers.get('Host', ''),
-            headers.get('Origin'),
-            headers.get('Cookie'),
+            ', '.join(headers.get_all('Host')),
+            ', '.join(headers.get_all('Origin')) if 'Origin' in headers else None,
+            '; '.join(headers.get_all('Cookie')),
         )
         if refusal is not None:
             return _refused(refusal)
@@ -87,7 +87,7 @@ def _gate(answer: Any, title: str, admission: Admission, routes: Routes) -> Any:
             return _with_cookie(request.path, admission)
         route = routes.find(request.path)
         if route is not None:
-            return None if headers.get('Upgrade') == 'websocket' else _served(route)
+            return None if 'Upgrade' in headers else _served(route)
         response: Response | None = answer(connection, request)
         if response is not None:
             response.headers['Content-Security-Policy'] = POLICY
@@ -116,9 +116,9 @@ def _answer(status: HTTPStatus, text: str, kind: str) -> Response:
 
 def _with_cookie(path: str, admission: Admission) -> Response:
     """Send the browser to the address without the token, which the history must not keep."""
-    cookie = f'{admission.cookie}={admission.token}; HttpOnly; SameSite=Strict; Path=/'
+    place = '/' + path.partition('?')[0].lstrip('/\\')  # two slashes would lead elsewhere
     headers = Headers(
-        {'Location': path.partition('?')[0], 'Set-Cookie': cookie, 'Content-Length': '0'}
+        {'Location': place, 'Set-Cookie': admission.set_cookie, 'Content-Length': '0'}
     )
     headers['Connection'] = 'close'
     return Response(HTTPStatus.SEE_OTHER, HTTPStatus.SEE_OTHER.phrase, headers)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import socket
 
@@ -37,9 +38,19 @@ def _bind(host: str, port: int) -> socket.socket:
         bound.bind((host, port))
     except OSError as error:
         bound.close()
-        why = os.strerror(error.errno or 0)
-        raise PortError(
-            f'Port {port} of {host} cannot be taken: {why}. End what uses it, or choose another '
-            'port; without a choice the next free one is taken.'
-        ) from error
+        raise PortError(_reason(host, port, error.errno or 0)) from error
     return bound
+
+
+def _reason(host: str, port: int, number: int) -> str:
+    """Say why a port cannot be taken, and what to do."""
+    why = os.strerror(number)
+    if number not in (errno.EADDRINUSE, errno.EACCES):
+        return (
+            f'{host} cannot be used: {why}. The host must be an address of this machine, such as '
+            '127.0.0.1, or 0.0.0.0 for all of them.'
+        )
+    return (
+        f'Port {port} of {host} cannot be taken: {why}. End what uses it, or choose another port; '
+        'without a choice the next free one is taken.'
+    )

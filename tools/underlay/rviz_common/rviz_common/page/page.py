@@ -8,6 +8,7 @@ import ipaddress
 import secrets
 import socket
 from types import TracebackType
+from urllib.parse import urlencode
 
 import rich
 from rviz_common.page.admission import Admission
@@ -54,7 +55,7 @@ class Page:
         """Return the address to open, with the token if there is one."""
         address = _reachable(self.settings.host)
         host = f'[{address}]' if ':' in address else address
-        query = f'?token={self.settings.token}' if self.settings.token else ''
+        query = f'?{urlencode({"token": self.settings.token})}' if self.settings.token else ''
         return f'http://{host}:{self.port}/{query}'
 
     def close(self) -> None:

@@ -7,12 +7,12 @@ import os
 from typing import Any
 
 from rviz_common.config import ConfigError, Configuration
+from rviz_common.config.configuration import LARGEST, TOO_LARGE
 from rviz_common.context import Context
+from rviz_common.panels.marks import printable
 from rviz_common.panels.order import FILE_ORDER
 
 __all__ = ['FileFolder']
-
-LARGEST = 10_000_000
 
 
 class FileFolder:
@@ -27,7 +27,9 @@ class FileFolder:
         # It remains when a file is loaded: viser does not forgive the loss of the button.
         self._folder = gui.add_folder('File', order=FILE_ORDER, expand_by_default=False)
         with self._folder:
-            self._path: Any = gui.add_text('Path', path, hint='On the machine where rviz2 runs.')
+            self._path: Any = gui.add_text(
+                'Path', printable(path), hint='On the machine where rviz2 runs.'
+            )
             save = gui.add_button('Save', hint='Write what is shown to this file.')
             download = gui.add_button('Download', hint='Save it where the browser runs.')
             upload = gui.add_upload_button('Load a .rviz file', mime_type='*/*')
@@ -59,7 +61,7 @@ class FileFolder:
     def _load(self, name: str, content: bytes) -> None:
         try:
             if len(content) > LARGEST:
-                raise ConfigError(name, None, 'The file is larger than 10 MB.')
+                raise ConfigError(name, None, TOO_LARGE)
             configuration = Configuration.parse(content.decode(), name)
         except UnicodeDecodeError as error:
             self._visualizer.notify('Not loaded', f'{name}: The file is no text: {error}.')

@@ -73,7 +73,10 @@ class PanelTabs:
     def _started(self, panel: Panel) -> bool:
         tab = nullcontext() if panel.IS_ALWAYS_VISIBLE else self._tabs.add_tab(panel.name)
         with tab:
-            return self._guarded(panel, panel.start)
+            has_started = self._guarded(panel, panel.start)
+            if not has_started and not panel.IS_ALWAYS_VISIBLE:
+                self._context.gui.add_markdown('✖ It has been stopped by an error: see the log.')
+        return has_started
 
     def _guarded(self, panel: Panel, work: Callable[[], None]) -> bool:
         """Have a panel do something; return whether it succeeded."""

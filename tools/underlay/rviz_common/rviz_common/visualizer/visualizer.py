@@ -27,6 +27,7 @@ from rviz_common.frames import Frames
 from rviz_common.pace import Pace
 from rviz_common.panels.file_folder import FileFolder
 from rviz_common.panels.head import Head
+from rviz_common.panels.marks import printable
 from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.properties import topic_path, Values
 from rviz_common.status import Statuses
@@ -134,7 +135,7 @@ class Visualizer:
         """Show a message in all browsers, and log it."""
         self._logger.info(f'{title}: {text}')
         for client in self.context.server.get_clients().values():
-            client.add_notification(title, text, auto_close_seconds=10.0)
+            client.add_notification(title, printable(text), auto_close_seconds=10.0)
 
     def close(self) -> None:
         """Show nothing any longer."""

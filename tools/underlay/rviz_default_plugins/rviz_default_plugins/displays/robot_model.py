@@ -55,8 +55,7 @@ class RobotModel(Display):
 
     def to_file(self) -> dict[str, Any]:
         """Return what the file is to have, with what it says of single links."""
-        written = super().to_file()
-        return {**written, 'Links': {**written['Links'], **self._links.to_file()}}
+        return self._links.put_into(super().to_file(), 'Links')
 
     def start(self) -> None:
         """Ask for the description."""

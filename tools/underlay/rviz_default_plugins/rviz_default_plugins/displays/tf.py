@@ -61,8 +61,7 @@ class TF(Display):
 
     def to_file(self) -> dict[str, Any]:
         """Return what the file is to have, with what it says of single frames."""
-        written = super().to_file()
-        return {**written, 'Frames': {**written['Frames'], **self._frames.to_file()}}
+        return self._frames.put_into(super().to_file(), 'Frames')
 
     def start(self) -> None:
         """Begin without frames."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from copy import copy
+import os
 from typing import Any
 
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -63,4 +64,7 @@ def read_description(name: str) -> str:
     """Return the text of a file, or raise ValueError with the reason."""
     if not name:
         raise ValueError('No description file is chosen.')
-    return read_urdf_file(str(find_file(name)))
+    path = str(find_file(name))
+    if os.path.exists(path) and not os.path.isfile(path):  # a pipe might never end
+        raise ValueError(f"'{name}' is no regular file.")
+    return read_urdf_file(path)

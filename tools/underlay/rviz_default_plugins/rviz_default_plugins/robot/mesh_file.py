@@ -20,7 +20,11 @@ def find_mesh(name: str) -> Path:
     path = find_file(name)
     if path.suffix.lower() not in KINDS:
         raise MeshError(f"'{name}' is of no kind that can be shown: {', '.join(KINDS)}.")
-    if not path.is_file():
+    try:
+        is_there = path.is_file()
+    except OSError as error:
+        raise MeshError(f"'{name}' cannot be read: {error.strerror}.") from None
+    if not is_there:
         raise MeshError(f"'{name}' is not there: {path} is no file.{_meant(path)}")
     return path
 
@@ -57,7 +61,10 @@ def find_file(name: str) -> Path:
 
 
 def _local(name: str) -> Path:
-    parts = urlsplit(name)
+    try:
+        parts = urlsplit(name)
+    except ValueError:
+        raise MeshError(f"'{name}' is no address. Write file:/// and an absolute path.") from None
     if parts.netloc not in ('', 'localhost'):
         raise MeshError(
             f"'{name}' is on the machine '{parts.netloc}'. Write file:/// and an absolute path."
@@ -92,7 +99,7 @@ def _share(name: str, package: str) -> Path:
 def _meant(path: Path) -> str:
     """Ask if the file beside it is meant whose name is close."""
     try:
-        beside = [each.name for each in path.parent.iterdir()]
+        beside = [each.name for each in path.parent.iterdir() if each.name != path.name]
     except OSError:
         return ''
     return did_you_mean(path.name, beside)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 import os
+from pathlib import Path
 import time
 from typing import Any
 
@@ -14,6 +15,7 @@ import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rviz_default_plugins.displays.robot_model import RobotModel
+from rviz_default_plugins.robot.description import read_description
 from stage import Stage
 from std_msgs.msg import String
 
@@ -54,3 +56,11 @@ def test_description_comes(stage: Stage, context: Any, durability: str) -> None:
     executor.shutdown()
     own.destroy_node()
     other.destroy_node()
+
+
+def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
+    """A description is read from a file, and not from what might never end."""
+    os.mkfifo(tmp_path / 'pipe.urdf')
+    for name in (str(tmp_path / 'pipe.urdf'), 'file:///dev/zero'):
+        with pytest.raises(ValueError, match='is no regular file'):
+            read_description(name)

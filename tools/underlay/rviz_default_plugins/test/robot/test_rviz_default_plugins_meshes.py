@@ -82,6 +82,8 @@ def test_symbolic_links(package: Path, tmp_path: Path) -> None:
         ('file://other/box.stl', "on the machine 'other'"),
         ('box.stl', 'Write package://PACKAGE/box.stl'),
         ('', 'does not say where it is'),
+        (f'/{"x" * 5000}.stl', 'cannot be read: File name too long'),
+        ('file://[::1/box.stl', 'is no address'),
     ],
 )
 def test_refused_names(package: Path, name: str, reason: str) -> None:

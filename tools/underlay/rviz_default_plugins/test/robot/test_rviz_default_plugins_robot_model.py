@@ -334,3 +334,11 @@ def test_defaults_are_valid() -> None:
     values = Values(RobotModel.PROPERTIES)
     again = Values(RobotModel.PROPERTIES, values.to_file())
     assert again.refusals == []
+
+
+@pytest.mark.parametrize('links', [None, 'x', 3, []])
+def test_a_file_without_links_can_be_saved(stage: Stage, links: Any) -> None:
+    """A file may say nothing of single links, or something that cannot be used; it is kept."""
+    given = {'Class': 'c', 'Name': 'n'}
+    assert stage.show(RobotModel, given).to_file() == given
+    assert stage.show(RobotModel, {**given, 'Links': links}).to_file()['Links'] == links

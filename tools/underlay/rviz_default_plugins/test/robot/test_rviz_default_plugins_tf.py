@@ -227,3 +227,10 @@ def test_ageing() -> None:
     assert ageing.age('a', 4.0, 9.0) is Age.FRESH
     assert ageing.age('a', 14.0, 9.0) is Age.GONE
     assert ageing.age('a_parent', 99.0, 9.0) is Age.FRESH
+
+
+@pytest.mark.parametrize('frames', [None, 'x', 3, []])
+def test_a_file_without_frames_can_be_saved(stage: Stage, frames: Any) -> None:
+    """A file may say nothing of single frames, or something that cannot be used; it is kept."""
+    assert stage.show(TF, {'Class': 'c', 'Name': 'n'}).to_file() == {'Class': 'c', 'Name': 'n'}
+    assert stage.show(TF, {'Class': 'c', 'Frames': frames}).to_file()['Frames'] == frames
