@@ -341,3 +341,12 @@ def is_alive(pid: int) -> bool:
             return file.read().rpartition(b')')[2].split()[0] not in (b'Z', b'X')
     except OSError:
         return False
+
+
+def test_what_is_found_too_late(world: World) -> None:
+    """What is found in the folder after the panel was closed changes no widget that is gone."""
+    world.panel.close()
+    world.play.chooser._list.remove()
+    write_bag(world.folder / 'late')
+    world.play.chooser._look()
+    world.context.queue.run()

@@ -42,7 +42,7 @@ class BagChooser:
         self._unfinished = unfinished
         self._chosen = chosen
         self._pace = Pace(PERIOD_S)
-        self._is_looking = False
+        self._is_looking = self._is_over = False
         self._wanted = ''
         self._bags: dict[str, Bag] = {}
         self._list: Any = context.gui.add_dropdown('Recording', [NONE])
@@ -73,6 +73,10 @@ class BagChooser:
         self._wanted = path
         self._pace.hurry()
 
+    def close(self) -> None:
+        """Change the widgets no longer, whatever is still found."""
+        self._is_over = True
+
     def _look(self) -> None:
         try:
             bags = self._shelf.look()
@@ -81,6 +85,8 @@ class BagChooser:
         self._context.queue.post(lambda: self._take(bags))
 
     def _take(self, bags: list[Bag]) -> None:
+        if self._is_over:
+            return
         unfinished = self._unfinished()
         found = {_label(bag): bag for bag in bags if bag.path != unfinished}
         if found != self._bags:

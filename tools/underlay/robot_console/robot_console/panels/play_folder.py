@@ -98,6 +98,7 @@ class PlayFolder:
 
     def close(self) -> None:
         """End the playing."""
+        self.chooser.close()
         if self._child is not None:
             self._child.close()
         self._badge.update('')
