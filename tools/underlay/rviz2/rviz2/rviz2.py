@@ -54,7 +54,6 @@ def _show(job: Job) -> int:
         sys.stderr.write(f'{error}\n')
         return 1
     with page:
-        node.get_logger().info(f'RViz is at {page.url}')
         _visualize(node, page, *job)
     node.destroy_node()
     return 0
@@ -72,6 +71,7 @@ def _visualize(
         visualizer.set_option(FIXED_FRAME, arguments.fixed_frame)
     for sentence in unknown_parameters(node):
         node.get_logger().warning(sentence)
+    node.get_logger().info(f'RViz is at {page.url}')
     spin(node)
     visualizer.close()
 
