@@ -13,11 +13,19 @@ from domain_coordinator import domain_id
 from programs import Program, wait_until
 from ros_side import ros_side, RosSide
 
-__all__ = ['RVIZ', 'SLIDERS', 'World', 'memory_mb', 'pid_of', 'url_of', 'world']
+__all__ = ['RVIZ', 'SLIDERS', 'STRAINED', 'World', 'memory_mb', 'pid_of', 'url_of', 'world']
 
 RVIZ, SLIDERS = 'RViz is', 'The sliders are'
+STRAINED = 'A browser has sent what this page does not'
 STARTED = re.compile(r'\[(\w+)-\d+\]: process started with pid \[(\d+)\]')
-BAD = ('Traceback', 'has died', 'has met an error', 'has been stopped', 'never retrieved')
+BAD = (
+    'Traceback',
+    'has died',
+    'has met an error',
+    'has been stopped',
+    'never retrieved',
+    'A connection has failed',
+)
 
 
 class World:

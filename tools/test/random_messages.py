@@ -116,20 +116,9 @@ def viser_messages(chance: Random, widgets: list[str]) -> Iterator[bytes | str]:
 
 def page_messages(chance: Random, actions: tuple[str, ...]) -> Iterator[bytes | str]:
     """Yield what no small page sends."""
-    names = (
-        'stick',
-        'share',
-        'press',
-        'node',
-        'name',
-        'text',
-        'topic',
-        'service',
-        'request',
-        'on',
-    )
+    names = 'share press node name text topic service request on'.split()
     while True:
         message = {'do': chance.choice(actions), **{each: thing(chance) for each in names}}
-        message.update({chance.choice(names): 10**400} if chance.random() < 0.1 else {})
+        message['stick'] = [chance.choice((0.5, 10**400, thing(chance))) for _ in range(3)]
         text = json.dumps(chance.choice((message, message, message, thing(chance))))
         yield chance.choice((text, text, text, text[:-1], '[' * 50_000, chance.randbytes(30)))

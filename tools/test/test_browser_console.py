@@ -9,7 +9,7 @@ import signal
 from typing import Any
 
 from browser import Browser, browser_started, Tab
-from browser_world import pid_of, url_of, World, world
+from browser_world import pid_of, STRAINED, url_of, World, world
 from programs import wait_until
 import pytest
 from ros_side import expected_place, LATCHED
@@ -162,3 +162,4 @@ def test_all_programs_live_and_end_in_order(robot: World, tab: Tab) -> None:
     assert pid_of(program, 'rviz2') in program.members()
     assert program.end() == 0
     assert robot.complaints() == []
+    assert STRAINED not in program.output

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import math
 
 from browser import Browser, browser_started
-from browser_world import RVIZ, SLIDERS, url_of, World, world
+from browser_world import RVIZ, SLIDERS, STRAINED, url_of, World, world
 from programs import wait_until
 import pytest
 from ros_side import expected_place
@@ -57,3 +57,4 @@ def test_a_slider_moves_the_robot(shown: World, browser: Browser) -> None:
         assert (tab.elsewhere, tab.failures) == ([], [])
     assert program.end() == 0
     assert shown.complaints() == []
+    assert STRAINED not in program.output

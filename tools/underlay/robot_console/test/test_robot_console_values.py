@@ -83,6 +83,7 @@ def test_velocity() -> None:
     assert LIMITS.velocity([1, 0, -0.5], [0.5, 1]) == (0.25, 0.0, -1.0)
     assert LIMITS.velocity([9.0, -9.0, 9.0], [7.0, 7.0]) == (0.5, -0.3, 2.0)
     assert LIMITS.velocity([1.0, 1.0, 1.0], [-1.0, -1.0]) == (0.0, 0.0, 0.0)
+    assert LIMITS.velocity([10**400, 0, 0], [1, 1]) == (0.5, 0.0, 0.0)
 
 
 @pytest.mark.parametrize(
