@@ -6,6 +6,7 @@ from __future__ import annotations
 from datetime import datetime
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 from recorded_samples import find_definition, LATCHED, MS, S, START_NS, text, topic, write_bag
@@ -166,6 +167,8 @@ def test_words() -> None:
 def test_topics_table() -> None:
     """What a file names its topics means nothing to the page."""
     table = topics_table([BagTopic('/<img src=x>', 'a/msg/B', 3)])
+    count: Any = '<img>'
+    assert '<img' not in topics_table([BagTopic('/a', 'a/msg/B', count)])
     assert '/&lt;img src=x&gt;' in table and '<img' not in table and '>3<' in table
 
 

@@ -141,6 +141,32 @@ def test_broken_metadata_is_a_sentence(text: str) -> None:
         metadata_from_text(text, 'x')
 
 
+@pytest.mark.parametrize(
+    ('old', 'new', 'reason'),
+    [
+        ('message_count: 2', 'message_count: <b>', "'<b>' is no whole number"),
+        ('nanoseconds: 5', "nanoseconds: '5'", "'5' is no whole number"),
+        ('name: /a', 'name: [1]', r'\[1\] is no text'),
+        ('- a_0.mcap', '- 3', '3 is no text'),
+    ],
+)
+def test_metadata_with_values_of_other_kinds(old: str, new: str, reason: str) -> None:
+    """Numbers are numbers and names are texts, whoever has written the file."""
+    text = (
+        'rosbag2_bagfile_information:\n  version: 4\n  storage_identifier: mcap\n'
+        '  duration: {nanoseconds: 5}\n  starting_time: {nanoseconds_since_epoch: 10}\n'
+        '  message_count: 2\n  topics_with_message_count:\n  - topic_metadata:\n'
+        '      name: /a\n      type: std_msgs/msg/String\n      serialization_format: cdr\n'
+        '    message_count: 2\n  relative_file_paths:\n  - a_0.mcap\n'
+    )
+    assert metadata_from_text(text, 'x').span.message_count == 2
+    for part in range(1, text.count(old) + 1):
+        pieces = text.split(old)
+        broken = old.join(pieces[:part]) + new + old.join(pieces[part:])
+        with pytest.raises(BagError, match=f'no metadata of a recording .*{reason}'):
+            metadata_from_text(broken, 'x')
+
+
 def test_split_by_duration_repeats_latched_messages(tmp_path: Path) -> None:
     """Each file can be played alone: the latched message is at its head."""
     write_bag(tmp_path / 'bag', count=20, period_ns=10 * MS, max_duration_ns=50 * MS)

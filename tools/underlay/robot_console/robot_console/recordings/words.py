@@ -58,7 +58,7 @@ def topics_table(topics: Iterable[BagTopic]) -> str:
     rows = ''.join(
         f'<tr style="vertical-align: top"><td style="padding-bottom: 0.3em">{escape(each.name)}'
         f'<br><span style="opacity: 0.6">{escape(each.type_name)}</span></td>'
-        f'<td style="text-align: right">{each.message_count}</td></tr>'
+        f'<td style="text-align: right">{escape(str(each.message_count))}</td></tr>'
         for each in topics
     )
     return f'<table style="{TABLE}"><tbody>{rows}</tbody></table>'

@@ -108,26 +108,42 @@ def _from_dict(content: dict[str, Any]) -> BagMetadata:
 def _files(content: dict[str, Any]) -> tuple[FileInformation, ...]:
     """Return the files; before version 5 only their paths were listed."""
     if content.get('files'):
-        return tuple(FileInformation(each['path'], _span(each)) for each in content['files'])
-    paths = content['relative_file_paths']
+        return tuple(
+            FileInformation(_text(each['path']), _span(each)) for each in content['files']
+        )
+    paths = [_text(each) for each in content['relative_file_paths']]
     spans = [_span(content), *(MessageSpan() for _ in paths[1:])]
     return tuple(FileInformation(path, span) for path, span in zip(paths, spans))
 
 
 def _span(content: dict[str, Any]) -> MessageSpan:
-    start_ns = content['starting_time']['nanoseconds_since_epoch']
-    count = content['message_count']
-    end_ns = start_ns + content['duration']['nanoseconds']
+    start_ns = _whole(content['starting_time']['nanoseconds_since_epoch'])
+    count = _whole(content['message_count'])
+    end_ns = start_ns + _whole(content['duration']['nanoseconds'])
     return MessageSpan(count, start_ns, end_ns) if count else MessageSpan()
 
 
 def _topic(content: dict[str, Any]) -> TopicInformation:
     values = content['topic_metadata']
     topic = Topic(
-        name=values['name'],
-        type_name=values['type'],
-        type_hash=values.get('type_description_hash') or '',
+        name=_text(values['name']),
+        type_name=_text(values['type']),
+        type_hash=_text(values.get('type_description_hash') or ''),
         offered_qos=qos_from_text(values.get('offered_qos_profiles') or []),
-        serialization_format=values['serialization_format'],
+        serialization_format=_text(values['serialization_format']),
     )
-    return TopicInformation(topic, content['message_count'])
+    return TopicInformation(topic, _whole(content['message_count']))
+
+
+def _text(value: Any) -> str:
+    """Return a text, or raise TypeError."""
+    if not isinstance(value, str):
+        raise TypeError(f'{value!r} is no text')
+    return value
+
+
+def _whole(value: Any) -> int:
+    """Return a whole number, or raise TypeError."""
+    if not isinstance(value, int):
+        raise TypeError(f'{value!r} is no whole number')
+    return value
