@@ -35,7 +35,8 @@ class Link:
     def drive(self, person: str) -> DriveSession:
         """Return a page to drive with."""
         limits = SpeedLimits(0.5, 0.3, 1.0)
-        return DriveSession(self, person, limits, self.said.append, lambda: 2)  # type: ignore[arg-type]
+        world: Any = self
+        return DriveSession(world, person, limits, self.said.append, lambda: 2)
 
     def safety(self, person: str) -> SafetySession:
         """Return a page to stop with."""

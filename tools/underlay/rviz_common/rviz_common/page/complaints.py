@@ -31,17 +31,18 @@ def complain_about_task(loop: asyncio.AbstractEventLoop, about: dict[str, Any]) 
     complain(f'What a browser has sent failed: {said}')
 
 
-class _Brief(logging.Filter):
-    """Shortens what the `websockets` library says; says nothing of who speaks no HTTP."""
+def _shorten(record: logging.LogRecord) -> bool:
+    """
+    Tell whether there is something to say, and put it in a sentence.
 
-    def filter(self, record: logging.LogRecord) -> bool:
-        """Tell whether there is something to say, and put it in a sentence."""
-        error = record.exc_info[1] if record.exc_info else None
-        if isinstance(error, Exception):
-            record.msg = f'A connection has failed: {described_error(error)}'
-            record.args, record.exc_info = (), None
-            return not isinstance(error, InvalidHandshake)
-        return record.levelno >= logging.WARNING
+    The `websockets` library says too much, and also who speaks no HTTP.
+    """
+    error = record.exc_info[1] if record.exc_info else None
+    if isinstance(error, Exception):
+        record.msg = f'A connection has failed: {described_error(error)}'
+        record.args, record.exc_info = (), None
+        return not isinstance(error, InvalidHandshake)
+    return record.levelno >= logging.WARNING
 
 
-LOGGER.addFilter(_Brief())
+LOGGER.addFilter(_shorten)
