@@ -117,14 +117,15 @@ def test_a_browser_is_killed(robot: World, console: Program) -> None:
     assert robot.complaints() == []
 
 
-def test_a_page_comes_back_by_itself(robot: World) -> None:
-    """A page whose server was killed says so; it shows the robot again when there is one."""
+@pytest.mark.parametrize('number', [signal.SIGKILL, signal.SIGINT])
+def test_a_page_comes_back_by_itself(robot: World, number: int) -> None:
+    """A page whose server has ended says so; it shows the robot again when there is one."""
     first = show(robot)
     url = url_of(first)
     with browser_started() as browser:
         tab = browser.open(url)
         tab.wait_for_link(FOREARM)
-        first.clean_up()
+        first.end(number)
         words = tab.small('safety').locator('#link')
         words.filter(has_text='this page cannot stop the robot').wait_for()
         second = show(robot, port=urlsplit(url).port)

@@ -53,8 +53,7 @@ def _show(job: Job) -> int:
     except (ValueError, ParameterException, PortError) as error:
         sys.stderr.write(f'{error}\n')
         return 1
-    with page:
-        _visualize(node, page, *job)
+    _visualize(node, page, *job)
     node.destroy_node()
     return 0
 
@@ -73,6 +72,7 @@ def _visualize(
         node.get_logger().warning(sentence)
     node.get_logger().info(f'RViz is at {page.url}')
     spin(node)
+    page.close()  # first, so that browsers keep what they show and say that it is lost
     visualizer.close()
 
 

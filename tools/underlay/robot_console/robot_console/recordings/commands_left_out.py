@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which recorded topics would move a robot if they were played."""
+"""Which recorded topics would move a robot, or lie about a live one, if they were played."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ __all__ = ['COMMANDS', 'commands_among']
 COMMANDS = (
     'cmd_vel* *_command *_commands *command/* command commands emergency_stop '
     'console_heartbeat goal_pose initialpose clicked_point joint_trajectory */joint_trajectory '
-    'goal *_goal *_cmd'
+    'goal *_goal *_cmd stop_state'
 )
-"""Patterns of names, without the namespace, of topics that robots obey."""
+"""Patterns of names, without the namespace, of topics that robots obey, or answer stops on."""
 
 
 def commands_among(topics: Iterable[str], patterns: str = COMMANDS) -> list[str]:
