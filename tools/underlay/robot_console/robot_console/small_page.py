@@ -18,6 +18,11 @@ __all__ = ['SmallPage', 'Talks', 'page_text']
 COMMON = ('common.css', 'link.js', 'live.css', 'live.js')
 # The page dims and blocks its widgets when its own connection is lost; these have another one.
 STYLE = 'display: block; width: 100%; border: 0; color-scheme: dark; pointer-events: auto'
+# As wide as widgets of HTML: without the margins, and beyond the 95 %, of those of Markdown.
+WIDE = (
+    'width: calc((100% + 2 * var(--mantine-spacing-sm)) / 0.95); '
+    'margin: 0 calc(-1 * var(--mantine-spacing-sm)) calc(-1 * var(--mantine-spacing-xs))'
+)
 
 
 class Talks(Protocol):
@@ -53,11 +58,7 @@ class SmallPage:
                 'There is such a panel for this robot already. Remove one of both from the file, '
                 "or give it another 'Namespace'."
             ) from None
-        self._frame = context.gui.add_html(
-            f'<iframe src="{escape(quote(self._path))}" title="{escape(name)}" style="{STYLE}">'
-            '</iframe>',
-            order=order,
-        )
+        self._frame = context.gui.add_markdown(_frame_text(self._path, name), order=order)
 
     def close(self) -> None:
         """End what it does, and remove it."""
@@ -73,3 +74,14 @@ def page_text(name: str, settings: dict[str, Any]) -> str:
     for part in COMMON:
         text = text.replace(f'/* {part} */', (folder / part).read_text(encoding='utf-8'))
     return text.replace('/* settings */ {}', json.dumps(settings).replace('<', '\\u003c'))
+
+
+def _frame_text(path: str, title: str) -> str:
+    """
+    Return the Markdown of a small page, which loads once.
+
+    What is added as HTML is made anew, and so loads again, whenever widgets come or go beside
+    it; elements of Markdown stay.
+    """
+    frame = f'<iframe src="{escape(quote(path))}" title="{escape(title)}" style="{STYLE}">'
+    return f'<div style="{WIDE}">{frame}</iframe></div>'

@@ -9,6 +9,7 @@ from typing import Any
 
 from console_world import World, world_of
 import pytest
+from robot_console.panels.badge import Badge
 from robot_console.panels.safety import Safety
 from robot_console.robot_link import LATCHED
 from rviz_common.page import Route
@@ -139,3 +140,46 @@ def test_space_bar_stops_all_robots(world: World, tab: Any) -> None:
     tab.keyboard.press('Space')
     world.wait_until(lambda: world.stops() == [True] and stops == [True], 'not all stop')
     other.close()
+
+
+def test_small_pages_load_once(world: World, tab: Any) -> None:
+    """Whatever comes, changes and goes around them, the small pages stay as they are."""
+    loads: list[str] = []
+    tab.on('request', lambda request: loads.append(request.url.rpartition('/')[2]))
+    tab.set_viewport_size({'width': 800, 'height': 600})
+    tab.goto(f'http://127.0.0.1:{world.page.port}/?fixedDpr=0.5')
+    gui = world.panels[0].context.gui
+    for title, element, words in (('safety', '#link', 'connected'), ('drive', '#what', 'Stands')):
+        shows(world, tab.frame_locator(f'iframe[title={title}]'), element, words)
+    before = [loads.count(name) for name in ('safety', 'drive')]
+    safety = tab.locator('iframe[title=safety]')
+    safety.evaluate('(frame) => { frame.contentWindow.isTheSame = true; }')
+    badge = Badge(world.panels[0].context)
+    status = gui.add_markdown('above', order=-100.0)
+    with gui.add_folder('Folder', order=-99.0) as folder:
+        gui.add_button('Within')
+    badge.update('walk')
+    tab.get_by_text('PLAYING walk').wait_for()
+    badge.update('walk', True)
+    tab.get_by_text('mixed').wait_for()
+    status.content = 'changed'
+    tab.get_by_text('changed').wait_for()
+    status.visible = False
+    folder.remove()
+    badge.update('')
+    tab.get_by_text('PLAYING walk').wait_for(state='detached')
+    gui.add_markdown('the end')
+    tab.get_by_text('the end').wait_for()
+    assert [loads.count(name) for name in ('safety', 'drive')] == before
+    assert safety.evaluate('(frame) => frame.contentWindow.isTheSame')
+
+
+def test_small_pages_are_as_wide_as_the_panel(world: World, tab: Any) -> None:
+    """No room is lost beside a small page, and nothing can be scrolled sideways."""
+    tab.set_viewport_size({'width': 800, 'height': 600})
+    tab.goto(f'http://127.0.0.1:{world.page.port}/?fixedDpr=0.5')
+    world.panels[0].context.gui.add_html('<p id="beside">beside</p>')
+    tab.locator('#beside').wait_for()
+    frame = tab.locator('iframe[title=safety]').bounding_box()
+    beside = tab.locator('#beside').bounding_box()
+    assert (frame['x'], frame['width']) == pytest.approx((beside['x'], beside['width']), abs=1.0)

@@ -42,11 +42,11 @@ def context() -> Iterator[Context]:
 def test_stop_button_is_outside_of_the_tabs(context: Context) -> None:
     """The stop button is above all, and in no tab; other panels are in one."""
     with (
-        mock.patch.object(context.gui, 'add_html', wraps=context.gui.add_html) as html,
+        mock.patch.object(context.gui, 'add_markdown', wraps=context.gui.add_markdown) as pages,
         mock.patch.object(context.gui, 'add_tab_group', wraps=context.gui.add_tab_group) as tabs,
     ):
         panels = PanelTabs(context, FILE)
-        assert [call.kwargs['order'] for call in html.call_args_list] == [ALWAYS_ORDER, None]
+        assert [call.kwargs['order'] for call in pages.call_args_list] == [ALWAYS_ORDER, None]
         assert tabs.call_count == 1
         panels.close()
         PanelTabs(context, FILE[:1]).close()
