@@ -95,7 +95,7 @@ class PlotsPanel(Panel):
     def _add_widgets(self) -> None:
         gui = self.context.gui
         gui.add_html(STYLE)
-        self._chart = PlotChart(gui)
+        self._chart = PlotChart(self.context.server)
         self._legend = gui.add_html('')
         self._buttons = gui.add_button_group('Plot', (PAUSE, CLEAR, CSV))
         self._buttons.on_click(self._press)
@@ -110,7 +110,6 @@ class PlotsPanel(Panel):
         plotted = self._board.plotted
         texts = [str(each.series) for each in plotted]
         self.values['Series'] = '; '.join(texts)
-        self._chart.set_series(plotted)
         self._chart.draw(self._board.window_s, self._board.drawn(time.time()))
         self._chooser.list_series(texts)
         self._listen()

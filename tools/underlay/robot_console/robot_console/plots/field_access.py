@@ -83,5 +83,6 @@ Access = Union[FieldAccess, PlaceAccess, NameAccess, OwnNameAccess]
 def _nothing_named(key: str, known: Sequence[str]) -> PathError:
     if not known:
         return PathError(f"Nothing is named '{key}': the list is empty.")
-    shown = ', '.join(known[:MAX_NAMED]) + (' ...' if len(known) > MAX_NAMED else '')
+    more = f' and {len(known) - MAX_NAMED} more' if len(known) > MAX_NAMED else ''
+    shown = ', '.join(known[:MAX_NAMED]) + more
     return PathError(f"Nothing is named '{key}', but {shown}.{did_you_mean(key, known)}")
