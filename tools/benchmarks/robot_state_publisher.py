@@ -76,7 +76,7 @@ def listener() -> list[str]:
 def publisher(file: Path, rate_hz: int) -> list[str]:
     """Return the command of the node that is measured."""
     return [
-        *(sys.executable, '-m', 'robot_state_publisher.robot_state_publisher', str(file)),
+        *(sys.executable, '-m', 'robot_state_publisher.program', str(file)),
         *('--ros-args', '-p', f'publish_frequency:={2 * rate_hz}.0'),
     ]
 

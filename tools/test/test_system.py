@@ -34,6 +34,7 @@ def test_a_signal_ends_the_robot_in_order(ros2: Start, number: int) -> None:
     """The main job runs, and ends within two seconds with status 0 and nothing left."""
     program = ros2('launch', 'humanoid_bringup', 'bringup.launch.py')
     wait_for_reports(program)
+    program.wait_for('RViz is at')
     assert program.end(number, timeout_s=2.0) == 0
     assert 'Traceback' not in program.output
     assert 'process has died' not in program.output

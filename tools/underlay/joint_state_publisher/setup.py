@@ -23,7 +23,7 @@ setup(
     extras_require={'test': ['pytest']},
     entry_points={
         'console_scripts': [
-            'joint_state_publisher = joint_state_publisher.joint_state_publisher:main',
+            'joint_state_publisher = joint_state_publisher.program:main',
         ],
     },
 )

@@ -23,7 +23,7 @@ setup(
     extras_require={'test': ['pytest']},
     entry_points={
         'console_scripts': [
-            'joint_state_publisher_gui = joint_state_publisher_gui.joint_state_publisher_gui:main',
+            'joint_state_publisher_gui = joint_state_publisher_gui.program:main',
         ],
     },
 )

@@ -23,7 +23,7 @@ setup(
     extras_require={'test': ['pytest']},
     entry_points={
         'console_scripts': [
-            'robot_state_publisher = robot_state_publisher.robot_state_publisher:main',
+            'robot_state_publisher = robot_state_publisher.program:main',
         ],
     },
 )

@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
-import sys
 from typing import Any, ClassVar
 
 from joint_state_publisher.merged_joints import MergedJoints, States
@@ -17,14 +16,13 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
-from robot_state_publisher.description_file import file_argument, parameters_from_file
+from robot_state_publisher.description_file import parameters_from_file
 from robot_state_publisher.state_watch import StateWatch
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
-from tf2_ros.program import run_node
 from urdf import parse_urdf, RobotModel
 
-__all__ = ['JointStatePublisher', 'main']
+__all__ = ['JointStatePublisher']
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 PATIENCE_S = 2.0
@@ -173,17 +171,3 @@ class JointStatePublisher(Node):
 
 def _values(changes: list[Parameter]) -> dict[str, Any]:
     return {change.name: change.value for change in changes}
-
-
-def _make_node(words: list[str]) -> Node:
-    """Make the node from its arguments: none, or the file of a URDF."""
-    return JointStatePublisher(file_argument('joint_state_publisher', words))
-
-
-def main(args: Sequence[str] | None = None) -> None:
-    """Run the node."""
-    sys.exit(run_node(_make_node, args))
-
-
-if __name__ == '__main__':
-    main()

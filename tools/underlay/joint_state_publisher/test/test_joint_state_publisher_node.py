@@ -14,7 +14,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
-MODULE = 'joint_state_publisher.joint_state_publisher'
+MODULE = 'joint_state_publisher.program'
 ARM = """<robot name="arm">
   <link name="base"/> <link name="upper"/> <link name="lower"/>
   <joint name="shoulder" type="continuous"><parent link="base"/><child link="upper"/></joint>

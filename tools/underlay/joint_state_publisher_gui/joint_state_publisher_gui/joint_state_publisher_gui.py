@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 import os
 from pathlib import Path
-import sys
 from typing import Any
 
 from joint_state_publisher.joint_state_publisher import JointStatePublisher
@@ -15,14 +14,11 @@ from joint_state_publisher_gui.core.board import Board
 from joint_state_publisher_gui.page.joint_page import JointPage
 from joint_state_publisher_gui.parameters import EXTRAS, page_settings_of
 from rclpy.clock import Clock, ClockType
-from rclpy.node import Node
-from robot_state_publisher.description_file import file_argument
 from rviz_common.page import Page, PortError
 from rviz_common.work_queue import WorkQueue
-from tf2_ros.program import run_node
 from urdf import RobotModel
 
-__all__ = ['JointStatePublisherGui', 'main']
+__all__ = ['JointStatePublisherGui']
 
 PROGRAM = 'joint_state_publisher_gui'
 FRAME_S = 0.1
@@ -99,17 +95,3 @@ def _serve(values: Mapping[str, Any]) -> Page:
 def _poses_folder() -> Path:
     """Return where poses are kept."""
     return Path(os.environ.get('ROS_HOME') or '~/.ros').expanduser() / PROGRAM
-
-
-def _make_node(words: list[str]) -> Node:
-    """Make the node from its arguments: none, or the file of a URDF."""
-    return JointStatePublisherGui(file_argument(PROGRAM, words))
-
-
-def main(args: Sequence[str] | None = None) -> None:
-    """Run the node."""
-    sys.exit(run_node(_make_node, args))
-
-
-if __name__ == '__main__':
-    main()

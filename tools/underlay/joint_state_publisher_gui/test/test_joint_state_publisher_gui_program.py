@@ -14,7 +14,7 @@ from publisher_probe import Probe, Programs
 import pytest
 from sensor_msgs.msg import JointState
 
-MODULE = 'joint_state_publisher_gui.joint_state_publisher_gui'
+MODULE = 'joint_state_publisher_gui.program'
 URDF = """<robot name="bot"> <link name="base"/> <link name="arm"/>
   <joint name="turn" type="continuous"><parent link="base"/><child link="arm"/></joint>
 </robot>

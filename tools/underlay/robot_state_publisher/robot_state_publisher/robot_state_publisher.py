@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-import sys
 from typing import Any
 
 from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
@@ -13,7 +12,7 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
-from robot_state_publisher.description_file import file_argument, parameters_from_file
+from robot_state_publisher.description_file import parameters_from_file
 from robot_state_publisher.joint_positions import UnusableStateError, usable_positions
 from robot_state_publisher.published_robot import PublishedRobot
 from robot_state_publisher.settings import DESCRIPTIONS, Settings
@@ -21,10 +20,9 @@ from robot_state_publisher.unknown_parameters import unknown_parameters
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
-from tf2_ros.program import run_node
 from urdf import RobotModel
 
-__all__ = ['RobotStatePublisher', 'main']
+__all__ = ['RobotStatePublisher']
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 PATIENCE_S = 2.0
@@ -172,23 +170,3 @@ def _warn_of_unknown(node: Node) -> None:
 
 def _values(changes: list[Parameter]) -> dict[str, Any]:
     return {change.name: change.value for change in changes}
-
-
-def _make_node(words: list[str]) -> Node:
-    """Make the node from its arguments: none, or the file of a URDF, as was once usual."""
-    file = file_argument('robot_state_publisher', words)
-    node = RobotStatePublisher(file)
-    if file is not None:
-        node.get_logger().warning(
-            'A URDF as argument is deprecated: pass its text as the parameter robot_description.'
-        )
-    return node
-
-
-def main(args: Sequence[str] | None = None) -> None:
-    """Run the node."""
-    sys.exit(run_node(_make_node, args))
-
-
-if __name__ == '__main__':
-    main()

@@ -15,7 +15,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
-MODULE = 'robot_state_publisher.robot_state_publisher'
+MODULE = 'robot_state_publisher.program'
 ARM = """<robot name="arm">
   <link name="base"/> <link name="upper"/> <link name="lower"/> <link name="tool"/>
   <joint name="shoulder" type="continuous">
