@@ -80,10 +80,19 @@ def ros_side(domain: int) -> Iterator[RosSide]:
     node = Node('test', context=context)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
-    thread = threading.Thread(target=executor.spin, daemon=True)
+    is_over = threading.Event()
+
+    def work() -> None:
+        while not is_over.is_set():
+            executor.spin_once(timeout_sec=0.1)
+
+    thread = threading.Thread(target=work, daemon=True)
     thread.start()
-    yield RosSide(node)
-    executor.shutdown()
-    thread.join(5.0)
-    node.destroy_node()
-    context.try_shutdown()
+    try:
+        yield RosSide(node)
+    finally:
+        is_over.set()
+        thread.join()  # what it waits for must not be destroyed meanwhile
+        executor.shutdown()
+        node.destroy_node()
+        context.try_shutdown()
