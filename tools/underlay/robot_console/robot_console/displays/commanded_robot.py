@@ -105,7 +105,8 @@ class CommandedRobot(RobotModel):
         joints = self._joints
         if joints is None or not joints.is_told(time.time()):
             self.say('Transform', '')
-            self.say('Command', f'{self._without_command()} The ghost is hidden.')
+            level = Level.ERROR if self._refusal else Level.WARN
+            self.say('Command', f'{self._without_command()} The ghost is hidden.', level)
             return
         self.say('Command', 'The ghost stands as commanded.', Level.OK)
         self.say('Joints', _not_known(joints.unknown))
@@ -114,11 +115,13 @@ class CommandedRobot(RobotModel):
     def _hear(self, topic: str) -> None:
         from sensor_msgs.msg import JointState
 
+        self._refusal = ''
         try:
             qos = qos_of(self.values, COMMANDS)
             self._commands = PolledTopic(self.context.node, JointState, topic, qos)
         except Exception as error:  # rclpy has no one exception for bad names
-            self.say('Command', f"'{topic}' cannot be subscribed: {error}", Level.ERROR)
+            self._refusal = f"'{topic}' cannot be subscribed: {error}"
+            self.say('Command', self._refusal, Level.ERROR)
 
     def _obey(self, joints: CommandedJoints) -> None:
         """Take the commands that have come."""
@@ -134,6 +137,8 @@ class CommandedRobot(RobotModel):
 
     def _without_command(self) -> str:
         """Say that there is no command, and who could give one."""
+        if self._refusal:
+            return f'{self._refusal}.'
         node = self.context.node
         topic = node.resolve_topic_name(self.topic_of(COMMANDS))
         if node.count_publishers(topic):

@@ -59,6 +59,8 @@ class PublisherNode(NotingNode):
         super().destroy_subscription(known.get(id(subscription), subscription))
 
     def resolve_topic_name(self, topic: str) -> str:
+        if ' ' in topic:
+            raise ValueError('no topic has a space in its name')
         return topic if topic.startswith('/') else f'/{topic}'
 
     def count_publishers(self, topic: str) -> int:

@@ -9,6 +9,7 @@ from typing import Any
 from console_stage import Stage
 import pytest
 from robot_console.displays.commanded_robot import CommandedRobot
+from rviz_common.status import Level
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
@@ -105,6 +106,10 @@ def test_namespace(stage: Stage) -> None:
 
 
 def test_bad_topic(stage: Stage) -> None:
-    """A topic that cannot be subscribed is named."""
+    """A topic that cannot be subscribed is named, also when there is a robot to show."""
     ghost = stage.show(CommandedRobot, {'Command Topic': {'Value': 'a b'}})
     assert "'a b' cannot be subscribed: no topic has a space in its name" in said(ghost)
+    stage.node.say('robot_description', String(data=URDF))
+    ghost.update()
+    assert "'a b' cannot be subscribed: no topic has a space in its name" in said(ghost)
+    assert ghost.status.level == Level.ERROR
