@@ -39,9 +39,17 @@ def context(domain: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
 
 
 @pytest.fixture
-def make_node(context: Context) -> Callable[..., Node]:
-    """Return a function that creates a node."""
-    return lambda name, **options: Node(name, context=context, **options)
+def make_node(context: Context) -> Iterator[Callable[..., Node]]:
+    """Return a function that creates a node; all end with the test, for others hear them."""
+    made: list[Node] = []
+
+    def make(name: str, **options: object) -> Node:
+        made.append(Node(name, context=context, **options))
+        return made[-1]
+
+    yield make
+    for node in made:
+        node.destroy_node()
 
 
 @pytest.fixture

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import sys
 from textwrap import indent
 from typing import Any
@@ -12,7 +13,7 @@ from action_msgs.srv import CancelGoal
 from rclpy.action import ActionClient
 from rclpy.executors import ExternalShutdownException
 from ros2action.api import get_action_names_and_types, get_action_servers
-from ros2action.api.termination import sigterm_as_exception
+from ros2action.api.termination import signals_as_requests
 from ros2cli.messages.lookup import type_name
 from ros2cli.messages.outgoing import OutgoingMessage
 from ros2cli.messages.text import to_yaml
@@ -53,6 +54,7 @@ class GoalSender:
         self._type_name = type_name(action_type)
         self._feedback = FeedbackPrinter() if with_feedback else None
         self._client = ActionClient(node.node, action_type, name)
+        self._check_signals: Callable[[], None] = lambda: None
 
     def wait_for_server(self) -> None:
         """Wait as long as it takes."""
@@ -64,7 +66,8 @@ class GoalSender:
         """Send the goal and print its result; SIGINT and SIGTERM cancel it before they end us."""
         goal = message.stamped(self._node.get_clock().now().to_msg())
         print(f'Sending goal:\n{_indented(goal, 5)}')
-        with sigterm_as_exception():
+        with signals_as_requests() as check:
+            self._check_signals = check
             self._send(goal)
 
     def _send(self, goal: Any) -> None:
@@ -105,6 +108,7 @@ class GoalSender:
         """Return the result of a future; RuntimeError if the server does not give it."""
 
         def is_over() -> bool:
+            self._check_signals()
             return bool(future.done() or not self._client.server_is_ready())
 
         patience = Patience(f"{what} from '{self._name}'") if tells else None

@@ -1,25 +1,38 @@
 # SPDX-License-Identifier: Apache-2.0
-"""SIGTERM as an exception, so that there is time for some last words."""
+"""SIGINT and SIGTERM as requests, so that there is time for some last words."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 import signal
-from typing import NoReturn
 
 from rclpy.executors import ExternalShutdownException
 
+EXCEPTIONS = {signal.SIGINT: KeyboardInterrupt, signal.SIGTERM: ExternalShutdownException}
+
 
 @contextmanager
-def sigterm_as_exception() -> Iterator[None]:
-    """Take SIGTERM over from rclpy, which would cut off all communication at once."""
-    before = signal.signal(signal.SIGTERM, _raise)
+def signals_as_requests() -> Iterator[Callable[[], None]]:
+    """
+    Take SIGINT and SIGTERM over, and yield a function that raises for the oldest not yet raised.
+
+    rclpy would cut off all communication at SIGTERM; and an exception in the middle of its work
+    loses the message that it has just taken. So one asks, between two pieces of work.
+    """
+    received: list[int] = []
+
+    def remember(number: int, _: object) -> None:
+        received.append(number)
+
+    def check() -> None:
+        if received:
+            raise EXCEPTIONS[signal.Signals(received.pop(0))]
+
+    before = {number: signal.signal(number, remember) for number in EXCEPTIONS}
     try:
-        yield
+        yield check
     finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-def _raise(*_: object) -> NoReturn:
-    raise ExternalShutdownException
+        for number, handler in before.items():
+            signal.signal(number, handler)
+    check()
