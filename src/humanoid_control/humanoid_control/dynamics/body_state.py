@@ -55,7 +55,7 @@ class BodyState:
     """(n,)"""
 
     def pose(self, link: str) -> Array:
-        """Return where a link is, a pose (4, 4)."""
+        """Return where a link is, and how it is turned, as (4, 4)."""
         mount = self._mount(link)
         pose: Array = self._poses[mount.body] @ mount.pose
         return pose
