@@ -6,70 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 import math
 import signal
-from typing import Any
 
-from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist
 from humanoid_common.testing.processes import module_command, running_program
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
-from humanoid_control.walking.planar import PlanarPose
-from humanoid_interfaces.srv import ApplyWrench, ResetSimulation
-from nav_msgs.msg import Odometry
+from humanoid_simulation.testing.fake_simulator import FakeSimulator
 import pytest
-from rclpy.node import Node
-
-PERIOD_S = 0.02
-STANDS_NS = 12.0
-
-
-class FakeSimulator(Node):
-    """A robot that goes as it is told, ten times faster than real, and falls when pushed hard."""
-
-    def __init__(self, **options: Any) -> None:
-        super().__init__('simulator', **options)
-        self.velocity = Twist()
-        self.pushes: list[ApplyWrench.Request] = []
-        self.refuses = ''
-        self._pose = PlanarPose(1 + 2j, 0.5)
-        self._time_s = 0.0
-        self._lies = False
-        self._publishers = [
-            self.create_publisher(Odometry, topic, 10) for topic in ('ground_truth/odom', 'odom')
-        ]
-        self.create_subscription(Twist, 'cmd_vel', self._obey, 1)
-        self.create_service(ApplyWrench, '~/apply_wrench', self._be_pushed)
-        self.create_service(ResetSimulation, '~/reset_simulation', self._stand_up)
-        self.create_timer(PERIOD_S / 10, self._step)
-
-    def _obey(self, message: Twist) -> None:
-        self.velocity = message
-
-    def _be_pushed(self, request: ApplyWrench.Request, response: Any) -> Any:
-        self.pushes.append(request)
-        force, duration_s = request.wrench.force, request.duration.nanosec * 1e-9
-        self._lies = math.hypot(force.x, force.y) * duration_s > STANDS_NS
-        response.success, response.message = not self.refuses, self.refuses
-        return response
-
-    def _stand_up(self, request: ResetSimulation.Request, response: Any) -> Any:
-        self._lies = False
-        response.success = True
-        return response
-
-    def _step(self) -> None:
-        self._time_s += PERIOD_S
-        go = self.velocity
-        yaw_rad = self._pose.yaw_rad + go.angular.z * PERIOD_S
-        place = self._pose.at(go.linear.x * PERIOD_S, go.linear.y * PERIOD_S)
-        self._pose = PlanarPose(place, yaw_rad)
-        message = Odometry()
-        message.header.stamp = Time(sec=int(self._time_s), nanosec=int(self._time_s % 1 * 1e9))
-        message.pose.pose.position.x, message.pose.pose.position.y = place.real, place.imag
-        message.pose.pose.position.z = 0.1 if self._lies else 0.7
-        message.pose.pose.orientation.w = math.cos(yaw_rad / 2)
-        message.pose.pose.orientation.z = math.sin(yaw_rad / 2)
-        for publisher in self._publishers:
-            publisher.publish(message)
 
 
 @pytest.fixture
