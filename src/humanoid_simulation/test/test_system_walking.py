@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 import math
 
-from humanoid_control.walking.planar import wrapped
+from humanoid_control.dynamics.rotations import wrap_angle
 from humanoid_simulation.examples.push_series import DIRECTIONS
 from humanoid_simulation.testing.simulated_robot import SimulatedRobot
 from humanoid_simulation.testing.simulators import simulated_robot
@@ -35,7 +35,7 @@ def test_it_stands_for_a_minute(robot: SimulatedRobot) -> None:
     robot.topics.drive(None)
     robot.wait(60.0)
     assert abs(robot.pose.position_m - begin.position_m) < 0.02
-    assert abs(wrapped(robot.pose.yaw_rad - begin.yaw_rad)) < 0.02
+    assert abs(wrap_angle(robot.pose.yaw_rad - begin.yaw_rad)) < 0.02
 
 
 def test_it_walks_straight(robot: SimulatedRobot) -> None:
@@ -50,11 +50,11 @@ def test_it_turns_by_its_odometry(robot: SimulatedRobot) -> None:
     """A quarter turn, to which it needs no ground truth."""
     begin, believed = robot.pose, robot.topics.odometry.yaw_rad
     robot.drive(turn=0.4)
-    turned = lambda: wrapped(robot.topics.odometry.yaw_rad - believed)  # noqa: E731
+    turned = lambda: wrap_angle(robot.topics.odometry.yaw_rad - believed)  # noqa: E731
     assert robot.wait_until(lambda: turned() > math.pi / 2 - 0.1, 8.0)
     robot.drive()
     robot.wait(3.0)
-    assert wrapped(robot.pose.yaw_rad - begin.yaw_rad) == pytest.approx(math.pi / 2, abs=0.15)
+    assert wrap_angle(robot.pose.yaw_rad - begin.yaw_rad) == pytest.approx(math.pi / 2, abs=0.15)
 
 
 def test_it_steps_sideways(robot: SimulatedRobot) -> None:
@@ -65,7 +65,7 @@ def test_it_steps_sideways(robot: SimulatedRobot) -> None:
     robot.drive()
     robot.wait(3.0)
     assert begin.local(robot.pose.position_m) == pytest.approx(0.5j, abs=0.1)
-    assert abs(wrapped(robot.pose.yaw_rad - begin.yaw_rad)) < 0.1
+    assert abs(wrap_angle(robot.pose.yaw_rad - begin.yaw_rad)) < 0.1
 
 
 def test_it_stops_within_three_seconds(robot: SimulatedRobot) -> None:

@@ -6,7 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
-from humanoid_control.walking.planar import limited, PlanarPose, wrapped
+from humanoid_control.dynamics.rotations import wrap_angle
+from humanoid_control.walking.planar import limited, PlanarPose
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
 CORNERS = 4
@@ -74,7 +75,7 @@ class SquareDrive:
                 return self._along(side, pose), None
             self._turns = True
             return self._turn(side, pose), Corner(self._number + 1, side, pose)
-        if abs(wrapped(_next_yaw(side) - pose.yaw_rad)) > self._plan.aligned_rad:
+        if abs(wrap_angle(_next_yaw(side) - pose.yaw_rad)) > self._plan.aligned_rad:
             return self._turn(side, pose), None
         self._number, self._turns = self._number + 1, False
         return self.update(pose)
@@ -100,7 +101,7 @@ class SquareDrive:
     def _towards(self, yaw_rad: float, pose: PlanarPose) -> float:
         """Return the turn towards a heading."""
         most = self._plan.turn_rad_s
-        return limited(_TURN_GAIN_1_S * wrapped(yaw_rad - pose.yaw_rad), -most, most)
+        return limited(_TURN_GAIN_1_S * wrap_angle(yaw_rad - pose.yaw_rad), -most, most)
 
 
 def _side(start: PlanarPose, length_m: float, number: int) -> PlanarPose:
@@ -108,9 +109,9 @@ def _side(start: PlanarPose, length_m: float, number: int) -> PlanarPose:
     corners = ((1, 0), (1, 1), (0, 1), (0, 0))
     forward, left = corners[number]
     heading_rad = start.yaw_rad + number * math.pi / 2
-    return PlanarPose(start.at(forward * length_m, left * length_m), wrapped(heading_rad))
+    return PlanarPose(start.at(forward * length_m, left * length_m), wrap_angle(heading_rad))
 
 
 def _next_yaw(side: PlanarPose) -> float:
     """Return the heading of the side that follows."""
-    return wrapped(side.yaw_rad + math.pi / 2)
+    return wrap_angle(side.yaw_rad + math.pi / 2)

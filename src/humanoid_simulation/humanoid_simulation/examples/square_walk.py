@@ -6,7 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
-from humanoid_control.walking.planar import PlanarPose, wrapped
+from humanoid_control.dynamics.rotations import wrap_angle
+from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 from humanoid_simulation.examples.square_drive import Corner, CORNERS, SquareDrive, SquarePlan
 
@@ -82,7 +83,7 @@ def _arrival(corner: Corner) -> str:
 
 def _closing_error(begin: PlanarPose, end: PlanarPose) -> str:
     """Say how far the end is from the beginning."""
-    turned_deg = math.degrees(wrapped(end.yaw_rad - begin.yaw_rad))
+    turned_deg = math.degrees(wrap_angle(end.yaw_rad - begin.yaw_rad))
     return f'{100 * abs(end.position_m - begin.position_m):.0f} cm and {turned_deg:+.0f} degrees'
 
 
