@@ -7,15 +7,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 import os
-from pathlib import Path
 from statistics import mean
-import subprocess
 import sys
 import time
 from typing import Any
 
 from domain_coordinator import domain_id
 from geometry_msgs.msg import Twist
+from measuring import cpu_s, running
 import rclpy
 from std_msgs.msg import Float64
 
@@ -37,29 +36,23 @@ def simulator_share(real_time_factor: float, forward_m_s: float) -> Share:
     """Start the simulator without a camera, let the robot walk, and measure."""
     with domain_id() as domain:
         os.environ['ROS_DOMAIN_ID'] = str(domain)
-        with _simulator(real_time_factor) as process, _driver(forward_m_s) as driver:
+        command = _simulator(real_time_factor)
+        with running(command) as process, _driver(forward_m_s) as driver:
             driver.wait_for_factor()
             driver.drive(SETTLE_S)
-            begin_s, begin_cpu_s = time.monotonic(), _cpu_s(process)
+            begin_s, begin_cpu_s = time.monotonic(), cpu_s(process)
             factors = driver.drive(SECONDS)
             wall_s = time.monotonic() - begin_s
-            return Share((_cpu_s(process) - begin_cpu_s) / wall_s, mean(factors))
+            return Share((cpu_s(process) - begin_cpu_s) / wall_s, mean(factors))
 
 
-@contextmanager
-def _simulator(real_time_factor: float) -> Iterator[subprocess.Popen[bytes]]:
-    """Run the simulator for the time of a `with`."""
+def _simulator(real_time_factor: float) -> list[str]:
+    """Return the command of a simulator that draws no camera images."""
     settings = {'real_time_factor': real_time_factor, 'camera_rate_hz': 0.0}
     command = [sys.executable, '-m', 'humanoid_simulation.simulator', '--ros-args']
     for name, value in settings.items():
         command += ['-p', f'{name}:={value}']
-    with subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    ) as process:
-        try:
-            yield process
-        finally:
-            process.terminate()
+    return command
 
 
 class _Driver:
@@ -103,9 +96,3 @@ def _driver(forward_m_s: float) -> Iterator[_Driver]:
     finally:
         node.destroy_node()
         rclpy.shutdown()
-
-
-def _cpu_s(process: subprocess.Popen[bytes]) -> float:
-    """Return the CPU time that a process has used so far."""
-    fields = Path(f'/proc/{process.pid}/stat').read_text().rpartition(')')[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
