@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from humanoid_control.controllers import follow_mode, hold_mode
@@ -24,12 +24,16 @@ class WalkingRobotControl:
     walker: Walker
     control: RobotControl
 
+    @property
+    def home_rad(self) -> dict[str, float]:
+        """Return the posture in which the robot stands, ready to walk."""
+        return dict(zip(self.control.manager.joints, self.walker.home.positions_rad.tolist()))
+
     @classmethod
     def of(
         cls,
         robot: Robot,
         drives: Mapping[str, Drive],
-        joints: Sequence[str],
         scale: float = 1.0,
         clock: Clock | None = None,
         say: Callable[[str], None] = lambda sentence: None,
@@ -37,9 +41,11 @@ class WalkingRobotControl:
         """
         Return the control of a robot that begins in the mode `walking`.
 
+        :param drives: of all joints, in the order of observations and targets
         :param clock: the computer's, by which commands time out beside the robot's own time
         :param say: gets a sentence when a controller is at fault
         """
+        joints = tuple(drives)
         walker = Walker.of(robot, drives, joints, WalkParameters().scaled(scale))
         walking = WalkingController(walker)
         modes = (walking_mode(walking), follow_mode(joints), hold_mode(joints))

@@ -18,9 +18,7 @@ class JointStatesTopic:
     def __init__(self, node: Node, robot: str, joints: Sequence[str]) -> None:
         """Prepare the message."""
         zeros = [0.0] * len(joints)
-        self._message = JointState(
-            name=list(joints), position=zeros, velocity=zeros, effort=zeros
-        )
+        self._message = JointState(name=list(joints), position=zeros, velocity=zeros, effort=zeros)
         self._position = view(self._message.position)
         self._velocity = view(self._message.velocity)
         self._effort = view(self._message.effort)

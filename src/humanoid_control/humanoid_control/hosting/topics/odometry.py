@@ -44,9 +44,7 @@ class OdometryTopics:
         self._base = _transform(prefix + ODOM, prefix + BASE)
         self._footprint = _transform(prefix + BASE, prefix + FOOTPRINT)
         self._transforms = TFMessage(transforms=[self._base, self._footprint])
-        self._odometry_publisher = node.create_publisher(
-            Odometry, topic(robot, 'odom'), STATE
-        )
+        self._odometry_publisher = node.create_publisher(Odometry, topic(robot, 'odom'), STATE)
         self._tf_publisher = node.create_publisher(TFMessage, topic(robot, 'tf'), STATE)
 
     def publish(self, time_s: float, odometry: WalkOdometry) -> None:
@@ -76,9 +74,7 @@ class OdometryTopics:
         message.pose.covariance[_DIAGONAL] = [plane_m2] * 2 + [*_STEADY, heading_rad2]
         message.twist.covariance[_DIAGONAL] = _TWIST
 
-    def _fill_footprint(
-        self, time_s: float, odometry: WalkOdometry, orientation: Array
-    ) -> None:
+    def _fill_footprint(self, time_s: float, odometry: WalkOdometry, orientation: Array) -> None:
         """Write where the ground is, seen from the base."""
         to_base = from_quaternion(orientation).T
         turn = quaternion_of(to_base @ about_z(odometry.pose.yaw_rad))
