@@ -13,7 +13,8 @@ MODEL = """
   <asset>
     <texture name="tiles" type="2d" builtin="checker" rgb1="1 0 0" rgb2="0 0 1" width="64"
       height="64"/>
-    <texture name="sky" type="skybox" builtin="flat" rgb1="0.2 0.4 0.6" width="8" height="48"/>
+    <texture name="sky" type="skybox" builtin="flat" rgb1="0.2 0.4 0.6" rgb2="0.2 0.4 0.6"
+      width="8" height="48"/>
     <material name="tiles" texture="tiles"/>
     <material name="paint" rgba="0 1 0 1"/>
   </asset>
