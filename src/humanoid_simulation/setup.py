@@ -27,4 +27,10 @@ setup(
     maintainer_email='maintainers@humanoid-workspace.dev',
     description='The humanoid in a physics simulator',
     license='Apache-2.0',
+    entry_points={
+        'console_scripts': [
+            'push_test = humanoid_simulation.examples.push_test:main',
+            'walk_square = humanoid_simulation.examples.walk_square:main',
+        ],
+    },
 )

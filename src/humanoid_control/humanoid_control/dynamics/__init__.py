@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Kinematics and dynamics of the humanoid, in numpy alone."""
+
+from humanoid_control.dynamics.body_model import BodyModel
+from humanoid_control.dynamics.body_state import BodyState
+from humanoid_control.dynamics.errors import DynamicsError
+from humanoid_control.dynamics.frames import Frame, Twist
+from humanoid_control.dynamics.joint_group import JointGroup
+from humanoid_control.dynamics.leg_geometry import LegGeometry
+from humanoid_control.dynamics.leg_ik import leg_posture, LegPosture
+from humanoid_control.dynamics.leg_rates import leg_rates
+
+__all__ = [
+    'BodyModel',
+    'BodyState',
+    'DynamicsError',
+    'Frame',
+    'JointGroup',
+    'LegGeometry',
+    'LegPosture',
+    'Twist',
+    'leg_posture',
+    'leg_rates',
+]

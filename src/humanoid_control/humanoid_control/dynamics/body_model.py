@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A robot on a floating base, as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+import math
+
+from humanoid_common.naming import did_you_mean
+from humanoid_control.dynamics.body_state import BodyState
+from humanoid_control.dynamics.errors import DynamicsError
+from humanoid_control.dynamics.forward import ForwardKinematics
+from humanoid_control.dynamics.joint_group import JointGroup
+from humanoid_control.dynamics.tree import Mount, Tree
+from humanoid_description.robot import Robot
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+GRAVITY_M_S2 = 9.81
+
+
+@dataclass(frozen=True, eq=False)
+class BodyModel:
+    """
+    Rigid bodies of which one floats, and n joints that turn the others.
+
+    Body 0 is the root of the robot with all that is fixed to it; body 1 + j is what joint j moves
+    directly. Build it by `of`; then ask `state` about a posture and its motion.
+    """
+
+    tree: Tree
+    armature_kgm2: Array
+    """(n,)"""
+    gravity_m_s2: float = GRAVITY_M_S2
+
+    @classmethod
+    def of(
+        cls,
+        robot: Robot,
+        joints: Sequence[str],
+        armature_kgm2: ArrayLike = 0.0,
+        gravity_m_s2: float = GRAVITY_M_S2,
+    ) -> BodyModel:
+        """
+        Return the model of a robot whose joints have this order in all arrays.
+
+        :param joints: joints that turn; others are taken as fixed at zero
+        :param armature_kgm2: inertia of the rotors seen at the joints: one, or (n,)
+        :raises DynamicsError: if the robot is no tree of links and turning joints
+        """
+        armature = np.array(np.broadcast_to(np.asarray(armature_kgm2, float), len(joints)))
+        return cls(Tree.of(robot, tuple(joints)), armature, gravity_m_s2)
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Return the names of the joints, in the order of all arrays."""
+        return self.tree.joints
+
+    @property
+    def links(self) -> Mapping[str, Mount]:
+        """Return the links by their names, frames without mass as well."""
+        return self.tree.mounts
+
+    @cached_property
+    def mass_kg(self) -> float:
+        """Return the mass of all bodies."""
+        return float(self.tree.inertias[:, 3, 3].sum())
+
+    @cached_property
+    def forward(self) -> ForwardKinematics:
+        """Return what computes the poses."""
+        return ForwardKinematics.of(self.tree)
+
+    def group(self, joints: Sequence[str]) -> JointGroup:
+        """Return some joints, for which a state has the inertia."""
+        indices = np.array([self.index(joint) for joint in joints], dtype=np.intp)
+        return JointGroup.of(tuple(joints), indices, self.tree.moves, self.armature_kgm2)
+
+    def index(self, joint: str) -> int:
+        """Return the place of a joint in all arrays."""
+        if joint not in self.joints:
+            raise DynamicsError(
+                f"The model has no joint '{joint}'. {did_you_mean(joint, self.joints)}".rstrip()
+            )
+        return self.joints.index(joint)
+
+    def state(
+        self,
+        rotation: Array,
+        angular_velocity_rad_s: Array,
+        positions_rad: Array,
+        velocities_rad_s: Array,
+    ) -> BodyState:
+        """
+        Return the robot in a posture and motion; nothing is computed that is not asked for.
+
+        The origin of the root is at zero and does not move: add its position and velocity.
+
+        :param rotation: of the root in the world, (3, 3)
+        :param angular_velocity_rad_s: of the root in its own axes, (3,), as a gyroscope has it
+        :param positions_rad: (n,)
+        :param velocities_rad_s: (n,)
+        :raises DynamicsError: if an array has another shape or holds what is no finite number
+        """
+        n = len(self.joints)
+        given = (
+            ('rotation', rotation, (3, 3)),
+            ('angular_velocity_rad_s', angular_velocity_rad_s, (3,)),
+            ('positions_rad', positions_rad, (n,)),
+            ('velocities_rad_s', velocities_rad_s, (n,)),
+        )
+        for name, values, shape in given:
+            _check(name, values, shape)
+        return BodyState(
+            self, rotation, rotation @ angular_velocity_rad_s, positions_rad, velocities_rad_s
+        )
+
+
+def _check(name: str, values: Array, shape: tuple[int, ...]) -> None:
+    """Refuse what cannot be computed with."""
+    if values.shape != shape:
+        raise DynamicsError(f'{name} has the shape {values.shape}, but {shape} is needed.')
+    flat = values.ravel()
+    # The sum of squares is finite only if all are: much faster than to look at each.
+    if not math.isfinite(flat @ flat):
+        bad = int(np.argmax(~(np.abs(flat) < 1e100)))
+        raise DynamicsError(f'{name} holds {flat[bad]} at place {bad}: give finite numbers.')

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Poses of all bodies at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from humanoid_control.dynamics.tree import Tree
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class ForwardKinematics:
+    """
+    Multiplies the poses along all limbs in as many rounds as the depth has binary digits.
+
+    After a round each pose reaches up twice as many joints as before: it is multiplied by that of
+    the body where it ended (Hillis and Steele, Data Parallel Algorithms, CACM 1986).
+    """
+
+    turned: Array
+    """(n, 3, 16) poses in the parents, flat: what 1, sin q and cos q are multiplied by"""
+    jumps: tuple[NDArray[np.intp], ...]
+    """(n + 1,) a round: the body above; n + 1, which stays put, where there is none"""
+
+    @classmethod
+    def of(cls, tree: Tree) -> ForwardKinematics:
+        """Prepare the tables for a tree."""
+        return cls(_turned(tree.placements), _jumps(tree.parents))
+
+    def poses(self, rotation: Array, positions_rad: Array) -> Array:
+        """Return where the bodies are, (n + 1, 4, 4), for a rotation (3, 3) of the root."""
+        n = len(self.turned)
+        factors = np.ones((n, 1, 3))
+        np.sin(positions_rad, out=factors[:, 0, 1])
+        np.cos(positions_rad, out=factors[:, 0, 2])
+        poses = np.zeros((n + 2, 4, 4))
+        np.matmul(factors, self.turned, out=poses[1:-1].reshape(n, 1, 16))
+        poses[0, :3, :3] = rotation
+        poses[0, 3, 3] = 1.0
+        poses[-1] = np.eye(4)
+        for jump in self.jumps:
+            poses[:-1] = poses[jump] @ poses[:-1]
+        return poses[:-1]
+
+
+def _turned(placements: Array) -> Array:
+    """Return the poses of frames that turn about their z, as factors of 1, sin and cos."""
+    x, y = placements[:, :, 0], placements[:, :, 1]
+    turned = np.zeros((len(placements), 3, 4, 4))
+    turned[:, 0, :, 2:] = placements[:, :, 2:]
+    turned[:, 1, :, 0], turned[:, 1, :, 1] = y, -x
+    turned[:, 2, :, 0], turned[:, 2, :, 1] = x, y
+    return turned.reshape(-1, 3, 16)
+
+
+def _jumps(parents: NDArray[np.intp]) -> tuple[NDArray[np.intp], ...]:
+    """Return for each round the body at which the pose of a body ends."""
+    nowhere = len(parents)
+    above = np.append(parents, nowhere)
+    above[0] = nowhere
+    rounds = []
+    while np.any(above != nowhere):
+        rounds.append(above[:-1])
+        above = above[above]
+    return tuple(rounds)

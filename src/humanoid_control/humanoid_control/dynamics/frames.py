@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Frames that move, seen from each other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from humanoid_control.dynamics.rotations import skew
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """Where a frame is in another: the position (3,) of its origin and its rotation (3, 3)."""
+
+    position_m: Array
+    rotation: Array
+
+    def seen_from(self, base: Frame) -> Frame:
+        """Return this frame in the axes of another; both are given in a third one."""
+        inverse = base.rotation.T
+        return Frame(inverse @ (self.position_m - base.position_m), inverse @ self.rotation)
+
+
+@dataclass(frozen=True, eq=False)
+class Twist:
+    """How a frame moves in another: the velocity (3,) of its origin, and its turning (3,)."""
+
+    linear_m_s: Array
+    angular_rad_s: Array
+
+    def seen_from(self, base: Frame, base_twist: Twist, position_m: Array) -> Twist:
+        """
+        Return how the frame moves for one who moves with another, in the axes of that one.
+
+        All is given in a third frame; the position is that of the frame that moves.
+        """
+        lever = position_m - base.position_m
+        carried = base_twist.linear_m_s + skew(base_twist.angular_rad_s) @ lever
+        inverse = base.rotation.T
+        return Twist(
+            inverse @ (self.linear_m_s - carried),
+            inverse @ (self.angular_rad_s - base_twist.angular_rad_s),
+        )

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Some joints of a model, prepared for their inertia."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class JointGroup:
+    """Joints of a model in an order of their own, as `BodyModel.group` returns them."""
+
+    joints: tuple[str, ...]
+    indices: NDArray[np.intp]
+    """(k,) their places in the model"""
+    carries: Array
+    """(k, k) 1 where the joint of the row moves all that the joint of the column moves"""
+    armature_kgm2: Array
+    """(k, k) diagonal"""
+
+    @classmethod
+    def of(
+        cls,
+        joints: tuple[str, ...],
+        indices: NDArray[np.intp],
+        moves: Array,
+        armature_kgm2: Array,
+    ) -> JointGroup:
+        """Return the group; `moves` and the armature are those of all joints of the model."""
+        carries = moves[indices + 1][:, indices].T.copy()
+        return cls(joints, indices, carries, np.diag(armature_kgm2[indices]))
+
+    def symmetric(self, below: Array) -> Array:
+        """Return the whole of a symmetric matrix (k, k) of which only `carries` is right."""
+        right = below * self.carries
+        whole: Array = right + right.T
+        whole[np.diag_indices_from(whole)] *= 0.5
+        return whole

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The joints of a leg for a pose of its foot, in closed form.
+
+After Kajita, Hirukawa, Harada and Yokoi, Introduction to Humanoid Robotics (2014), section 2.5.2:
+the distance from ankle to hip gives the knee, the direction to the hip, seen from the foot, the
+ankle, and what is left of the rotation the hip.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+
+from humanoid_control.dynamics.errors import DynamicsError
+from humanoid_control.dynamics.frames import Frame
+from humanoid_control.dynamics.leg_geometry import LegGeometry
+
+# The last part of the leg's length, within which a foot that goes on is left behind smoothly.
+SOFT = 0.002
+
+
+@dataclass(frozen=True)
+class LegPosture:
+    """Where the joints of a leg are."""
+
+    positions_rad: tuple[float, ...]
+    """six, in the order of the leg's joints"""
+    beyond_m: float
+    """how much farther from the hip the ankle should be than it is; 0 within reach, and negative
+    nearer to the hip than the leg folds"""
+    give: float
+    """the part of a motion away from the hip that the leg follows; 1 within reach"""
+
+
+def leg_posture(leg: LegGeometry, sole: Frame) -> LegPosture:
+    """
+    Return the joints for a pose of the sole in the root.
+
+    Beyond reach the leg is stretched towards the place where the ankle should be, and the sole
+    is turned as it should be. The way there is smooth: see `SOFT`.
+
+    :raises DynamicsError: if the pose is not finite
+    """
+    (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = sole.rotation.tolist()
+    px, py, pz = sole.position_m.tolist()
+    ax, ay, az = leg.ankle_m.tolist()
+    hx, hy, hz = leg.hip_m.tolist()
+    # From the ankle to the hip: in the root, then in the sole.
+    x, y, z = hx - px, hy - py, hz - pz
+    x, y, z = (
+        r00 * x + r10 * y + r20 * z - ax,
+        r01 * x + r11 * y + r21 * z - ay,
+        r02 * x + r12 * y + r22 * z - az,
+    )
+    wanted_m = math.sqrt(x * x + y * y + z * z)
+    if not math.isfinite(wanted_m):
+        raise DynamicsError(
+            f'The sole should be at {sole.position_m}, turned by {sole.rotation.tolist()}: '
+            'give finite numbers.'
+        )
+    distance_m, give = _reached(leg, wanted_m)
+    knee = _knee(leg, distance_m)
+    roll, pitch = _ankle(leg, (x, y, z), knee)
+
+    # The rotation of the thigh is that of the sole less the turns of ankle and knee.
+    c, s = math.cos(roll), math.sin(roll)
+    ct, st = math.cos(pitch + knee), math.sin(pitch + knee)
+    up = s * r21 + c * r22
+    y0, y1, y2 = c * r01 - s * r02, c * r11 - s * r12, c * r21 - s * r22
+    hip_yaw = math.atan2(-y0, y1)
+    hip_roll = math.atan2(y2, math.hypot(y0, y1))
+    hip_pitch = math.atan2(-ct * r20 - st * up, ct * up - st * r20)
+    return LegPosture(
+        (hip_yaw, hip_roll, hip_pitch, knee, pitch, roll), wanted_m - distance_m, give
+    )
+
+
+def _reached(leg: LegGeometry, wanted_m: float) -> tuple[float, float]:
+    """Return how far the ankle gets from the hip, and how fast it follows what is wanted."""
+    soft_m = SOFT * leg.length_m
+    free_m = leg.length_m - soft_m
+    shortest_m = abs(leg.thigh_m - leg.shank_m)
+    if wanted_m > free_m:
+        give = math.exp((free_m - wanted_m) / soft_m)
+        return leg.length_m - soft_m * give, give
+    if wanted_m < shortest_m:
+        return shortest_m, 0.0
+    return wanted_m, 1.0
+
+
+def _knee(leg: LegGeometry, distance_m: float) -> float:
+    """Return how much the knee bends for a distance from ankle to hip."""
+    a, b = leg.thigh_m, leg.shank_m
+    # With half angles: exact for a leg that is nearly stretched, where a cosine is not.
+    shorter = max(0.0, (a + b - distance_m) * (a + b + distance_m))
+    longer = max(0.0, (distance_m - a + b) * (distance_m + a - b))
+    return 2.0 * math.atan2(math.sqrt(shorter), math.sqrt(longer))
+
+
+def _ankle(
+    leg: LegGeometry, hip_m: tuple[float, float, float], knee: float
+) -> tuple[float, float]:
+    """Return roll and pitch of the ankle for the direction to the hip, seen from the sole."""
+    x, y, z = hip_m
+    if z < 0.0:  # a foot that is turned over rolls less than a quarter of a turn too
+        roll, height = math.atan2(-y, -z), -math.hypot(y, z)
+    else:
+        roll, height = math.atan2(y, z), math.hypot(y, z)
+    back = leg.thigh_m * math.sin(knee)
+    up = leg.shank_m + leg.thigh_m * math.cos(knee)
+    pitch = -math.atan2(x, height) - math.atan2(back, up)
+    return roll, math.remainder(pitch, 2.0 * math.pi)

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The rates of the joints of a leg for a motion of its foot, in closed form."""
+
+from __future__ import annotations
+
+import math
+
+from humanoid_control.dynamics.frames import Frame, Twist
+from humanoid_control.dynamics.leg_geometry import LegGeometry
+from humanoid_control.dynamics.leg_ik import LegPosture
+
+# Sines, cosines and distances below it are taken as zero: there the leg cannot follow.
+SMALLEST = 1e-9
+Vector = tuple[float, float, float]
+
+
+def leg_rates(
+    leg: LegGeometry, posture: LegPosture, sole: Frame, twist: Twist
+) -> tuple[float, ...]:
+    """
+    Return the rates in rad/s of the joints for a motion of the sole, both seen from the root.
+
+    It is the derivative of `leg_posture`, of which the posture is the answer for the same sole:
+    beyond reach the leg follows what of the motion it can follow.
+    """
+    hip_yaw, hip_roll, hip_pitch, knee, ankle_pitch, _ = posture.positions_rad
+    wx, wy, wz = twist.angular_rad_s.tolist()
+    turning = _about_z((wx, wy, wz), -hip_yaw)
+    hip = _about_z(_hip_past_sole(leg, sole, twist), -hip_yaw)
+    hip_in_shank = _about_y(_about_x(hip, -hip_roll), -hip_pitch - knee)
+    knee_rate, pitch_rate, roll_rate = _lower_rates(leg, posture, hip_in_shank)
+
+    # What is left of the turning, in the axes after the yaw, is that of the hip.
+    c, s = math.cos(hip_roll), math.sin(hip_roll)
+    axis = _about_x(_about_y((1.0, 0.0, 0.0), hip_pitch + knee + ankle_pitch), hip_roll)
+    x, y, z = (a - b * roll_rate for a, b in zip(turning, axis))
+    bend_rate = y / max(c, SMALLEST)
+    hip_pitch_rate = bend_rate - knee_rate - pitch_rate
+    return z - s * bend_rate, x, hip_pitch_rate, knee_rate, pitch_rate, roll_rate
+
+
+def _hip_past_sole(leg: LegGeometry, sole: Frame, twist: Twist) -> Vector:
+    """Return the velocity of the hip for one who moves with the sole, in the axes of the root."""
+    vx, vy, vz = twist.linear_m_s.tolist()
+    wx, wy, wz = twist.angular_rad_s.tolist()
+    x, y, z = (leg.hip_m - sole.position_m).tolist()
+    return (wz * y - wy * z - vx, wx * z - wz * x - vy, wy * x - wx * y - vz)
+
+
+def _lower_rates(leg: LegGeometry, posture: LegPosture, velocity: Vector) -> Vector:
+    """Return the rates of knee, ankle pitch and roll for a velocity of the hip, in the shank."""
+    _, _, _, knee, pitch, _ = posture.positions_rad
+    a, b = leg.thigh_m, leg.shank_m
+    sine, cosine = math.sin(knee), math.cos(knee)
+    x, z = -a * sine, b + a * cosine
+    vx, vy, vz = velocity
+    distance = math.hypot(x, z)
+    wanted = distance + posture.beyond_m
+    if min(distance, wanted) < SMALLEST:
+        return 0.0, 0.0, 0.0
+    # Beyond reach: turn as the direction to the hip does, stretch as far as the leg gives way.
+    near = distance / wanted
+    away = (x * vx + z * vz) / distance
+    around = (z * vx - x * vz) / distance * near
+    stretch = away * posture.give
+    knee_rate = 0.0 if sine < SMALLEST else -distance * stretch / (a * b * sine)
+    pitch_rate = -around / distance - knee_rate * a * (a + b * cosine) / (distance * distance)
+    lever = math.cos(pitch) * z + math.sin(pitch) * x
+    roll_rate = 0.0 if abs(lever) < SMALLEST else near * vy / lever
+    return knee_rate, pitch_rate, roll_rate
+
+
+def _about_x(vector: Vector, angle: float) -> Vector:
+    """Return a vector turned about x."""
+    x, y, z = vector
+    c, s = math.cos(angle), math.sin(angle)
+    return x, c * y - s * z, s * y + c * z
+
+
+def _about_y(vector: Vector, angle: float) -> Vector:
+    """Return a vector turned about y."""
+    x, y, z = vector
+    c, s = math.cos(angle), math.sin(angle)
+    return c * x + s * z, y, c * z - s * x
+
+
+def _about_z(vector: Vector, angle: float) -> Vector:
+    """Return a vector turned about z."""
+    x, y, z = vector
+    c, s = math.cos(angle), math.sin(angle)
+    return c * x - s * y, s * x + c * y, z

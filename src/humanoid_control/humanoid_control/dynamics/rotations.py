@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Rotations as matrices (3, 3), which turn the axes of a frame into those of its parent.
+
+Quaternions are w, x, y, z; roll, pitch and yaw turn about the fixed x, y and z, in this order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def from_quaternion(quaternion: Sequence[float] | Array) -> Array:
+    """Return the rotation of a quaternion of any length but zero."""
+    w, x, y, z = map(float, quaternion)
+    square = w * w + x * x + y * y + z * z
+    if not 0.0 < square < math.inf:
+        raise ValueError(
+            f'The quaternion w, x, y, z = {w}, {x}, {y}, {z} is no rotation: its length must be '
+            'finite and not zero. Give one of length 1.'
+        )
+    s = 2.0 / square
+    return np.array(
+        [
+            [1.0 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)],
+            [s * (x * y + w * z), 1.0 - s * (x * x + z * z), s * (y * z - w * x)],
+            [s * (x * z - w * y), s * (y * z + w * x), 1.0 - s * (x * x + y * y)],
+        ]
+    )
+
+
+def from_rpy(roll: float, pitch: float, yaw: float) -> Array:
+    """Return the rotation of roll, pitch and yaw in rad."""
+    cr, sr = math.cos(roll), math.sin(roll)
+    cp, sp = math.cos(pitch), math.sin(pitch)
+    cy, sy = math.cos(yaw), math.sin(yaw)
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
+
+
+def about_z(angle: float) -> Array:
+    """Return the rotation about z by an angle in rad."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def to_rpy(rotation: Array) -> tuple[float, float, float]:
+    """Return roll, pitch and yaw in rad; the pitch is within a quarter of a turn."""
+    (r00, _, _), (r10, _, _), (r20, r21, r22) = rotation.tolist()
+    return math.atan2(r21, r22), math.atan2(-r20, math.hypot(r21, r22)), math.atan2(r10, r00)
+
+
+def yaw_of(rotation: Array) -> float:
+    """Return the yaw in rad: where x points, seen from above."""
+    return math.atan2(rotation[1, 0], rotation[0, 0])
+
+
+def exp(rotation_vector: Array) -> Array:
+    """Return the rotation about a vector by its length in rad (Rodrigues)."""
+    angle = math.sqrt(rotation_vector @ rotation_vector)
+    turn = skew(rotation_vector)
+    # sin(a) / a and (1 - cos(a)) / a^2, which numpy's sinc gives at zero as well.
+    sine = float(np.sinc(angle / np.pi))
+    half = float(np.sinc(angle / 2.0 / np.pi))
+    rotation: Array = np.eye(3) + sine * turn + 0.5 * half * half * (turn @ turn)
+    return rotation
+
+
+def log(rotation: Array) -> Array:
+    """Return the vector (3,) about which a rotation turns by its length, at most half a turn."""
+    (a, b, c), (d, e, f), (g, h, i) = rotation.tolist()
+    # The quaternion from its largest component, so that no root of a small number is taken.
+    candidates = (
+        (1.0 + a + e + i, h - f, c - g, d - b),
+        (h - f, 1.0 + a - e - i, b + d, c + g),
+        (c - g, b + d, 1.0 - a + e - i, f + h),
+        (d - b, c + g, f + h, 1.0 - a - e + i),
+    )
+    w, x, y, z = max(enumerate(candidates), key=lambda item: item[1][item[0]])[1]
+    length = math.sqrt(x * x + y * y + z * z)
+    if length == 0.0:
+        return np.zeros(3)
+    scale = 2.0 * math.atan2(math.copysign(length, w), abs(w)) / length
+    return np.array([x * scale, y * scale, z * scale])
+
+
+def skew(vector: Array) -> Array:
+    """Return the matrix (3, 3) that multiplies by the cross product with a vector."""
+    x, y, z = vector.tolist()
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+
+
+def wrap_angle(angle: float) -> float:
+    """Return the same direction as an angle in rad from -pi (included) to pi."""
+    return (angle + math.pi) % (2.0 * math.pi) - math.pi

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The bodies and joints of a robot as tables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from humanoid_common.naming import did_you_mean
+from humanoid_control.dynamics.errors import DynamicsError
+from humanoid_description.kinematics import chain
+from humanoid_description.robot import Body, Joint, named, repeated, Robot
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+TURNING = ('revolute', 'continuous')
+
+
+@dataclass(frozen=True, eq=False)
+class Mount:
+    """Where a link is: the number of the body that it is part of, and its pose (4, 4) in it."""
+
+    body: int
+    pose: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Tree:
+    """
+    n joints and n + 1 bodies: body 0 is the root, body 1 + j what joint j moves directly.
+
+    The frame of a body has its origin on the axis of its joint, and z along it.
+    """
+
+    joints: tuple[str, ...]
+    mounts: Mapping[str, Mount]
+    """all links by their names"""
+    parents: NDArray[np.intp]
+    """(n + 1,) the body that each hangs from; the root hangs from itself"""
+    placements: Array
+    """(n, 4, 4) the pose of bodies 1 to n in their parents while the joints are at zero"""
+    inertias: Array
+    """(n + 1, 4, 4) pseudo-inertia of each body in its frame"""
+
+    @classmethod
+    def of(cls, robot: Robot, joints: tuple[str, ...]) -> Tree:
+        """Return the tables of a robot; joints that are not named are fixed at zero."""
+        _check(robot, joints)
+        mounts = _mounts(robot, joints)
+        above = [mounts[robot.joint[joint].parent] for joint in joints]
+        placements = [
+            mount.pose @ robot.joint[joint].pose @ _z_along(robot.joint[joint].axis)
+            for mount, joint in zip(above, joints)
+        ]
+        return cls(
+            joints,
+            mounts,
+            np.array([0, *(mount.body for mount in above)], dtype=np.intp),
+            np.array(placements).reshape(-1, 4, 4),
+            _inertias(robot, mounts, len(joints) + 1),
+        )
+
+    @cached_property
+    def moves(self) -> Array:
+        """Return (n + 1, n): 1 where the joint of the column moves the body of the row."""
+        n = len(self.joints)
+        moves = np.zeros((n + 1, n))
+        for body in range(1, n + 1):
+            above = body
+            while above:
+                moves[body, above - 1] = 1.0
+                above = int(self.parents[above])
+        return moves
+
+    @cached_property
+    def carries(self) -> Array:
+        """Return (n + 1, n + 1): 1 where the body of the column hangs from, or is, the row's."""
+        return np.vstack([np.ones(len(self.moves)), self.moves.T])
+
+
+def _check(robot: Robot, joints: tuple[str, ...]) -> None:
+    """Refuse what is no tree of turning joints."""
+    if len(robot.roots) != 1:
+        raise DynamicsError(
+            f"Robot '{robot.name}' has {len(robot.roots)} links that hang from no joint "
+            f'({", ".join(robot.roots)}), but needs exactly one root.'
+        )
+    if double := repeated(joints):
+        raise DynamicsError(f"Joint '{double[0]}' is named twice. Name each joint once.")
+    for name in joints:
+        if name not in robot.joint:
+            hint = did_you_mean(name, robot.joint)
+            raise DynamicsError(f"Robot '{robot.name}' has no joint '{name}'. {hint}".rstrip())
+        _check_joint(robot.joint[name])
+
+
+def _check_joint(joint: Joint) -> None:
+    """Refuse a joint that does not turn, or not by itself."""
+    if joint.kind not in TURNING:
+        raise DynamicsError(
+            f'{named(joint)} is {joint.kind}, but only joints that turn can be computed with. '
+            'Leave it out, and it is taken as fixed at zero.'
+        )
+    if joint.mimics is not None:
+        raise DynamicsError(
+            f"{named(joint)} mimics '{joint.mimics}' and has no motion of its own. "
+            'Leave it out, and it is taken as fixed at zero.'
+        )
+
+
+def _mounts(robot: Robot, joints: tuple[str, ...]) -> dict[str, Mount]:
+    """Return of which body every link is part, and where in it."""
+    body = {name: index + 1 for index, name in enumerate(joints)}
+    return {link.name: _mount(chain(robot, link.name), body) for link in robot.links}
+
+
+def _mount(joints: list[Joint], body: Mapping[str, int]) -> Mount:
+    """Return the place of the link to which joints lead from the root."""
+    mount = Mount(0, np.eye(4))
+    for joint in joints:
+        if joint.name in body:
+            mount = Mount(body[joint.name], _z_along(joint.axis).T)
+        else:
+            mount = Mount(mount.body, mount.pose @ joint.pose)
+    return mount
+
+
+def _z_along(axis: Array) -> Array:
+    """Return the pose (4, 4) of a frame whose z points along an axis."""
+    z = axis / np.linalg.norm(axis)
+    # Of the axes x, y, z the one that is farthest from z: no rounding for a z along one of them.
+    other = np.eye(3)[int(np.argmin(np.abs(z)))]
+    y = np.cross(z, other)
+    y /= np.linalg.norm(y)
+    pose = np.eye(4)
+    pose[:3, :3] = np.column_stack([np.cross(y, z), y, z])
+    return pose
+
+
+def _inertias(robot: Robot, mounts: Mapping[str, Mount], count: int) -> Array:
+    """Return the pseudo-inertias of bodies, each that of all its links."""
+    inertias = np.zeros((count, 4, 4))
+    for link in robot.links:
+        if link.body:
+            mount = mounts[link.name]
+            pose = mount.pose @ link.body.pose
+            inertias[mount.body] += pose @ _pseudo_inertia(link.body) @ pose.T
+    return inertias
+
+
+def _pseudo_inertia(body: Body) -> Array:
+    """
+    Return the integral of r r^T dm over a body, r = (x, y, z, 1), at its centre of mass.
+
+    It holds the same as mass, centre and inertia, and a pose T makes it T J T^T (Wensing, Kim and
+    Slotine, Linear Matrix Inequalities for Physically Consistent Inertial Parameter
+    Identification, IEEE RA-L 2018).
+    """
+    inertia = np.asarray(body.inertia_kgm2, float)
+    pseudo = np.zeros((4, 4))
+    pseudo[:3, :3] = 0.5 * np.trace(inertia) * np.eye(3) - inertia
+    pseudo[3, 3] = body.mass_kg
+    return pseudo

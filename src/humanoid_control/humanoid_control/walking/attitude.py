@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The hips of the legs on the ground hold the pelvis upright."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from humanoid_control.dynamics.rotations import wrap_angle
+from humanoid_control.walking.parameters import WalkParameters
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Attitude:
+    """How the pelvis is turned, and how fast it turns about its own axes."""
+
+    roll_rad: float
+    pitch_rad: float
+    yaw_rad: float
+    rates_rad_s: tuple[float, float, float]
+
+
+def hip_efforts(parameters: WalkParameters, attitude: Attitude, heading_rad: float) -> Array:
+    """Return efforts (3,) of hip yaw, roll and pitch of a leg that carries all of the weight."""
+    stiffness, damping = (
+        parameters.attitude_stiffness_nm_rad,
+        parameters.attitude_damping_nms_rad,
+    )
+    roll, pitch, yaw = attitude.rates_rad_s
+    off_course_rad = wrap_angle(attitude.yaw_rad - heading_rad)
+    return np.array(
+        [
+            parameters.heading_share * (stiffness * off_course_rad + damping * yaw),
+            stiffness * attitude.roll_rad + damping * roll,
+            stiffness * attitude.pitch_rad + damping * pitch,
+        ]
+    )

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The divergent component of motion for a planned way of the zero-moment point, in closed form.
+
+J. Englsberger, C. Ott, A. Albu-Schaeffer, "Three-dimensional bipedal walking control based on
+divergent component of motion", IEEE Transactions on Robotics 31(2), 2015: it is unstable
+forwards and therefore computed backwards, from the place where the robot comes to rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+from humanoid_control.walking.errors import WalkingError
+from humanoid_control.walking.planar import Point
+
+
+@dataclass(frozen=True)
+class ZmpSegment:
+    """A time in which the zero-moment point goes evenly along a line."""
+
+    duration_s: float
+    start_m: Point
+    end_m: Point
+
+
+@dataclass(frozen=True)
+class BalanceReference:
+    """Where the divergent component and the zero-moment point should be at a moment."""
+
+    dcm_m: Point
+    zmp_m: Point
+
+
+class DcmPlan:
+    """A way of the zero-moment point, and of the divergent component that rests at its end."""
+
+    def __init__(self, segments: Sequence[ZmpSegment], rate_1_s: float) -> None:
+        """Compute the divergent component at the end of every segment, from the last one on."""
+        if not segments:
+            raise WalkingError('A plan of the zero-moment point needs at least one segment.')
+        self._rate_1_s = rate_1_s
+        self._segments = tuple(segments)
+        self._dcm_at_end = [self._segments[-1].end_m]
+        for segment in self._segments[:0:-1]:
+            self._dcm_at_end.append(self._dcm(segment, 0.0, self._dcm_at_end[-1]))
+        self._dcm_at_end.reverse()
+
+    @property
+    def segments(self) -> tuple[ZmpSegment, ...]:
+        """Return the segments."""
+        return self._segments
+
+    @property
+    def duration_s(self) -> float:
+        """Return the time until the robot is at rest."""
+        return sum(segment.duration_s for segment in self._segments)
+
+    def at(self, time_s: float) -> BalanceReference:
+        """Return the reference at a time since the start; before and after it stands still."""
+        time_s = max(0.0, time_s)
+        for segment, dcm_at_end in zip(self._segments, self._dcm_at_end):
+            if time_s < segment.duration_s:
+                way = segment.end_m - segment.start_m
+                zmp = segment.start_m + way * (time_s / segment.duration_s)
+                return BalanceReference(self._dcm(segment, time_s, dcm_at_end), zmp)
+            time_s -= segment.duration_s
+        return BalanceReference(self._segments[-1].end_m, self._segments[-1].end_m)
+
+    def _dcm(self, segment: ZmpSegment, time_s: float, dcm_at_end: Point) -> Point:
+        """Return the divergent component at a time within a segment."""
+        speed = (segment.end_m - segment.start_m) / segment.duration_s
+        ahead = speed / self._rate_1_s
+        decay = math.exp(-self._rate_1_s * (segment.duration_s - time_s))
+        zmp = segment.start_m + speed * time_s
+        return zmp + ahead + (dcm_at_end - segment.end_m - ahead) * decay

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The part of a foot's sole that may carry load."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from humanoid_control.walking.errors import WalkingError
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.sides import outwards
+from humanoid_description.geometry import outline
+from humanoid_description.kinematics import chain, pose_along
+from humanoid_description.robot import Array, Robot
+import numpy as np
+
+
+@dataclass(frozen=True)
+class FootShape:
+    """A rectangle on the sole, and the point under which the load is planned, of a left foot."""
+
+    front_m: float
+    back_m: float
+    outer_m: float
+    inner_m: float
+    load_m: Point
+
+    @classmethod
+    def of(cls, robot: Robot, parameters: WalkParameters) -> FootShape:
+        """Measure the left foot of a robot; the right one is its mirror image."""
+        sole = robot.prefix + 'l_sole'
+        way = chain(robot, sole)
+        while way and way[-1].kind == 'fixed':
+            foot_in_sole = np.asarray(np.linalg.inv(pose_along(way[-1:], {})), np.float64)
+            foot = robot.link[way.pop().parent]
+            if foot.collisions:
+                corners = outline(foot.collisions, foot_in_sole)
+                return cls._within(corners.min(axis=0), corners.max(axis=0), parameters)
+        raise WalkingError(
+            f"'{sole}' has no foot with a collision shape: nobody can tell where it may stand."
+        )
+
+    @classmethod
+    def _within(cls, lowest: Array, highest: Array, parameters: WalkParameters) -> FootShape:
+        """Keep the margins from the edges."""
+        return cls(
+            float(highest[0]) - parameters.margin_length_m,
+            float(lowest[0]) + parameters.margin_length_m,
+            float(highest[1]) - parameters.margin_width_m,
+            float(lowest[1]) + parameters.margin_width_m,
+            complex(parameters.zmp_forward_m, -parameters.zmp_inward_m),
+        )
+
+    def load_point(self, side: int, sole: PlanarPose) -> Point:
+        """Return the point of the ground under which the load of a foot is planned."""
+        return sole.at(self.load_m.real, outwards(side) * self.load_m.imag)
+
+    def corners(self, side: int, sole: PlanarPose) -> list[Point]:
+        """Return the corners of the rectangle on the ground."""
+        lefts = (outwards(side) * self.outer_m, outwards(side) * self.inner_m)
+        return [sole.at(x, y) for x in (self.front_m, self.back_m) for y in lefts]

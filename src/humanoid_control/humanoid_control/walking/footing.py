@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the robot stands on: where its feet are, or were last."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from humanoid_control.walking.foot_shape import FootShape
+from humanoid_control.walking.planar import dot, limited, PlanarPose, Point
+from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
+from humanoid_control.walking.support_polygon import SupportPolygon
+
+
+@dataclass(frozen=True)
+class Foothold:
+    """Where a sole stands, and how high above the ground it still is told to be."""
+
+    pose: PlanarPose
+    lift_m: float = 0.0
+
+
+class Footing:
+    """The footholds of both feet, and what follows from them."""
+
+    def __init__(self, shape: FootShape, footholds: Sequence[Foothold]) -> None:
+        """Begin with the feet, left and right, somewhere."""
+        self._shape = shape
+        self._footholds = list(footholds)
+        self._polygons: dict[tuple[int, ...], SupportPolygon] = {}
+
+    def __getitem__(self, side: int) -> Foothold:
+        """Return where a foot is."""
+        return self._footholds[side]
+
+    def put(self, side: int, foothold: Foothold) -> None:
+        """Note where a foot has landed."""
+        self._footholds[side] = foothold
+        self._polygons.clear()
+
+    def pose(self, side: int) -> PlanarPose:
+        """Return where a foot is in the plane."""
+        return self._footholds[side].pose
+
+    def settle(self, share: float) -> None:
+        """Bring the feet by a share of the way nearer to the ground."""
+        for side, foothold in enumerate(self._footholds):
+            if foothold.lift_m:
+                lift_m = (1.0 - share) * foothold.lift_m
+                self._footholds[side] = Foothold(foothold.pose, lift_m)
+
+    @property
+    def middle(self) -> PlanarPose:
+        """Return the pose in the middle between the feet."""
+        return self.pose(LEFT).halfway(self.pose(RIGHT))
+
+    def load_point(self, side: int, pose: PlanarPose | None = None) -> Point:
+        """Return where the load of a foot is planned, here or where the foot will be."""
+        return self._shape.load_point(side, pose or self.pose(side))
+
+    @property
+    def rest_point(self) -> Point:
+        """Return where the robot's weight rests when it stands on both feet."""
+        return (self.load_point(LEFT) + self.load_point(RIGHT)) / 2
+
+    def polygon(self, sides: Sequence[int] = SIDES) -> SupportPolygon:
+        """Return the area in which the feet of these sides can carry the robot."""
+        key = tuple(sides)
+        if key not in self._polygons:
+            self._polygons[key] = SupportPolygon(
+                [corner for side in key for corner in self._shape.corners(side, self.pose(side))]
+            )
+        return self._polygons[key]
+
+
+@dataclass(frozen=True)
+class Loads:
+    """How the feet share the weight, and where the load acts under each."""
+
+    shares: tuple[float, float]
+    points_m: tuple[Point, Point]
+
+
+def loads_for(footing: Footing, sides: Sequence[int], zmp: Point) -> Loads:
+    """
+    Return loads of the feet that make up a zero-moment point.
+
+    On both feet the shares follow from where the point projects on the line between the load
+    points; what is left of it moves the loads of both alike.
+    """
+    if len(sides) == 1:
+        return Loads((1.0, 0.0) if sides[0] == LEFT else (0.0, 1.0), (zmp, zmp))
+    left = footing.load_point(LEFT)
+    line = footing.load_point(RIGHT) - left
+    share = limited(dot(zmp - left, line) / dot(line, line), 0.0, 1.0)
+    aside = zmp - (left + share * line)
+    return Loads((1.0 - share, share), (left + aside, left + line + aside))

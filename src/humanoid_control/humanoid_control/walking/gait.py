@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The gait: from a velocity and the state of the robot to where its weight and feet go."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from humanoid_control.walking.dcm_plan import BalanceReference
+from humanoid_control.walking.footing import Loads, loads_for
+from humanoid_control.walking.footsteps import Footstep
+from humanoid_control.walking.gear import GaitInput, Gear
+from humanoid_control.walking.phases import Phase, Standing
+from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.velocity_command import VelocityCommand
+
+
+@dataclass(frozen=True)
+class GaitOutput:
+    """What the gait wants at a tick."""
+
+    reference: BalanceReference
+    zmp_m: Point
+    """The zero-moment point with feedback, within the support polygon."""
+    loads: Loads
+    heading_rad: float
+    swing: tuple[int, PlanarPose, float] | None
+    """Side, pose and height of the sole in the air."""
+    sides: tuple[int, ...]
+    """The sides whose feet carry the robot."""
+
+
+class Gait:
+    """Goes from phase to phase, and keeps the divergent component at its reference."""
+
+    def __init__(self, gear: Gear) -> None:
+        """Begin standing."""
+        self._gear = gear
+        self._phase: Phase = Standing(gear)
+
+    @property
+    def phase(self) -> str:
+        """Return the name of the phase."""
+        return self._phase.name
+
+    @property
+    def footsteps(self) -> Sequence[Footstep]:
+        """Return the steps that are planned."""
+        return self._phase.footsteps
+
+    def command(self, velocity: VelocityCommand) -> None:
+        """Go at another velocity, as soon as the limits allow."""
+        self._gear.target = self._gear.parameters.velocity_limits.applied(velocity)
+
+    def update(self, now: GaitInput) -> GaitOutput:
+        """Let time pass."""
+        self._phase = phase = self._phase.advance(now)
+        reference, footing = phase.reference(now), self._gear.footing
+        # The DCM tracking law of Englsberger et al.: push the zero-moment point beyond the error.
+        error = now.dcm_m - reference.dcm_m
+        zmp = footing.polygon(phase.sides).clamped(
+            reference.zmp_m + self._gear.parameters.dcm_gain * error
+        )
+        return GaitOutput(
+            reference,
+            zmp,
+            loads_for(footing, phase.sides, zmp),
+            phase.heading_rad,
+            phase.swing(),
+            phase.sides,
+        )

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What all phases of the gait share: its rules, the feet and the velocity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from humanoid_control.walking.dcm_plan import DcmPlan, ZmpSegment
+from humanoid_control.walking.footing import Footing
+from humanoid_control.walking.footsteps import Footstep, FootstepPlanner
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.pendulum import Pendulum
+from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.step_adjustment import StepAdjuster
+from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+
+
+@dataclass(frozen=True)
+class SoleReading:
+    """Where a sole is measured to be, and the weight on it."""
+
+    pose: PlanarPose
+    height_m: float
+    load: float
+    """As a share of the robot's weight."""
+
+
+@dataclass(frozen=True)
+class GaitInput:
+    """What the gait knows of the robot at a tick."""
+
+    passed_s: float
+    """The time since the tick before."""
+    dcm_m: Point
+    zmp_m: Point
+    """The zero-moment point in use, commanded at the tick before."""
+    soles: tuple[SoleReading, SoleReading]
+
+
+@dataclass
+class Gear:
+    """The rules of the gait, the feet, and the velocity: as it is wanted and as it is now."""
+
+    parameters: WalkParameters
+    pendulum: Pendulum
+    footing: Footing
+    target: VelocityCommand = STANDING
+    command: VelocityCommand = STANDING
+    planner: FootstepPlanner = field(init=False)
+    adjuster: StepAdjuster = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Make what plans with the parameters."""
+        self.planner = FootstepPlanner(self.parameters)
+        self.adjuster = StepAdjuster(self.parameters, self.pendulum.rate_1_s)
+
+    def approach_target(self, time_s: float) -> None:
+        """Bring the velocity nearer to what is wanted, by what is allowed in a time."""
+        self.command = self.command.towards(self.target, self.parameters.velocity_change(time_s))
+
+    @property
+    def is_stopping(self) -> bool:
+        """Tell whether the robot stands still as soon as its feet are side by side."""
+        return self.command.is_zero and self.target.is_zero
+
+    def plan(self, segments: list[ZmpSegment]) -> DcmPlan:
+        """Return the way of the divergent component for one of the zero-moment point."""
+        return DcmPlan(segments, self.pendulum.rate_1_s)
+
+    def footsteps(self, landing: PlanarPose, support: int) -> list[Footstep]:
+        """Return the steps planned, from the one that is under way to where the robot rests."""
+        steps: list[Footstep] = []
+        before = Footstep(support, self.footing.pose(support))
+        for step in self.planner.footsteps(landing, support, self.command):
+            steps.append(step)
+            rests = self.is_stopping and self.planner.is_parallel(
+                before.pose, before.side, step.pose
+            )
+            if rests or len(steps) == self.parameters.preview_steps:
+                return steps
+            before = step
+        return steps
+
+    def step_segments(
+        self, support: int, steps: list[Footstep], start_m: Point, shift_s: float
+    ) -> list[ZmpSegment]:
+        """Return the way of the zero-moment point from the begin of a step to rest."""
+        p, load = self.parameters, self.footing.load_point(support)
+        segments = [
+            ZmpSegment(shift_s, start_m, load),
+            ZmpSegment(p.swing_s, load, load),
+        ]
+        for step in steps[:-1]:
+            next_load = self.footing.load_point(step.side, step.pose)
+            segments.append(ZmpSegment(p.shift_s, load, next_load))
+            segments.append(ZmpSegment(p.swing_s, next_load, next_load))
+            load = next_load
+        last_load = self.footing.load_point(steps[-1].side, steps[-1].pose)
+        segments.append(ZmpSegment(p.stop_s, load, (load + last_load) / 2))
+        return segments

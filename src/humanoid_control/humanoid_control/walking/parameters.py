@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The numbers of the gait."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+from humanoid_control.walking.errors import WalkingError
+from humanoid_control.walking.velocity_command import VelocityCommand, VelocityLimits
+
+
+def _growing(power: float, value: float) -> Any:
+    """Return a field that grows with a power of the robot's size."""
+    return field(default=value, metadata={'power': power})
+
+
+def _length(value: float) -> Any:
+    return _growing(1.0, value)
+
+
+def _time(value: float) -> Any:
+    return _growing(0.5, value)
+
+
+def _speed(value: float) -> Any:
+    return _growing(0.5, value)
+
+
+def _rate(value: float) -> Any:
+    return _growing(-0.5, value)
+
+
+@dataclass(frozen=True)
+class WalkParameters:
+    """
+    The gait of the robot at scale 1; `scaled` gives that of another size.
+
+    A robot of scale s is dynamically similar: times grow with sqrt(s), lengths with s, speeds
+    with sqrt(s) (Froude's law; humanoid_description/config/scaling.yaml says more).
+    """
+
+    # Rhythm.
+    swing_s: float = _time(0.42)
+    """How long one foot alone carries the robot in a step."""
+    shift_s: float = _time(0.10)
+    """How long the weight takes from foot to foot, both on the ground."""
+    first_shift_s: float = _time(0.5)
+    """The same for the first step from standing."""
+    reactive_shift_s: float = _time(0.04)
+    """The same for a step that catches a push."""
+    stop_s: float = _time(0.5)
+    """How long the weight takes to the middle between the feet at the end."""
+
+    # Footsteps.
+    step_width_m: float = _length(0.18)
+    """The distance of the feet sideways."""
+    least_width_m: float = _length(0.14)
+    most_width_m: float = _length(0.42)
+    most_length_m: float = _length(0.32)
+    """How far a foot may land before or behind the other one when it has to catch the robot."""
+    preview_steps: int = 4
+    """How many steps the plan looks ahead beyond the present one."""
+    parallel_length_m: float = _length(0.025)
+    """How far from side by side feet may be that the robot stops on."""
+    parallel_width_m: float = _length(0.03)
+    parallel_turn_rad: float = 0.06
+
+    # Velocity.
+    forward_limit_m_s: float = _speed(0.35)
+    backward_limit_m_s: float = _speed(0.25)
+    left_limit_m_s: float = _speed(0.15)
+    turn_limit_rad_s: float = _rate(0.8)
+    sum_of_shares: float = 1.5
+    """What the shares of the limits may come to together."""
+    forward_acceleration_m_s2: float = 0.3
+    left_acceleration_m_s2: float = 0.2
+    turn_acceleration_rad_s2: float = _growing(-1.0, 0.8)
+
+    # Posture.
+    crouch_m: float = _length(0.035)
+    """How far the hips hang below stretched legs."""
+    zmp_forward_m: float = _length(0.015)
+    """Where under a foot its load is planned: before the sole's frame ..."""
+    zmp_inward_m: float = _length(0.005)
+    """... and on the inner side."""
+    margin_length_m: float = _length(0.02)
+    """What the load keeps from toe and heel ..."""
+    margin_width_m: float = _length(0.012)
+    """... and from the sides."""
+    elbow_rad: float = -0.5
+    shoulder_roll_rad: float = 0.12
+    """How far the left arm is held from the body; the right one mirrors it."""
+
+    # Balance.
+    dcm_gain: float = 1.6
+    """How many times the error of the divergent component the zero-moment point moves."""
+    observer_rate_1_s: float = _rate(60.0)
+    """How fast the estimate of the centre of mass takes over what is measured."""
+    reference_leak_1_s: float = _rate(8.0)
+    """How fast its reference returns to the estimate."""
+    reference_distance_m: float = _length(0.04)
+    """How far the reference may be from the estimate."""
+    attitude_stiffness_nm_rad: float = _growing(4.0, 400.0)
+    attitude_damping_nms_rad: float = _growing(4.5, 25.0)
+    heading_share: float = 0.5
+    """How much of them there is against errors of the heading."""
+    push_forward_m: float = _length(0.065)
+    """A standing robot steps if its divergent component is farther than this from the middle."""
+    push_left_m: float = _length(0.085)
+    stop_error_m: float = _length(0.04)
+    """It does not stop before the error of its divergent component is below this."""
+
+    # Step adjustment.
+    adjust_until_s: float = _time(0.06)
+    """Before a landing its place does not change any more."""
+    adjust_dead_band_m: float = _length(0.005)
+    hurry_error_m: float = _length(0.06)
+    """From which error on a step may be hurried to catch the robot."""
+    hurry_rates: tuple[float, ...] = (1.0, 1.3, 1.6, 2.0)
+    unreachable_length_m: float = _length(0.02)
+    """A landing that has to be cut by more than this calls for hurry."""
+    unreachable_width_m: float = _length(0.03)
+
+    # Swing foot.
+    swing_height_m: float = _length(0.045)
+    early_arrival: float = 0.94
+    """At which share of the swing the foot is above its landing."""
+    reach_down_m_s: float = _speed(0.2)
+    """How fast it goes on down when the ground is late."""
+    touchdown_phase: float = 0.6
+    """From which share of the swing on a load means that the foot stands."""
+    touchdown_load: float = 0.12
+    """How much of the weight that load is."""
+    touchdown_height_m: float = _length(0.02)
+    late_touchdown_s: float = _time(0.12)
+    """How late a landing may be until the step ends without it."""
+    settle_s: float = _time(0.06)
+    """The time constant in which a foot that landed too high or low is brought to the ground."""
+
+    # Joints.
+    velocity_filter_1_s: float = _rate(139.0)
+    """How fast the velocity of the joints' targets follows their differences."""
+    acceleration_filter_1_s: float = _rate(102.0)
+    velocity_limit_rad_s: float = _rate(12.0)
+    acceleration_limit_rad_s2: float = _growing(-1.0, 150.0)
+    arm_swing: float = 0.5
+    """How many radians a shoulder turns for a foot that is a leg's length ahead."""
+
+    def scaled(self, scale: float) -> WalkParameters:
+        """Return the gait of a robot of another size."""
+        if not (0.0 < scale < float('inf')):
+            raise WalkingError(f'The scale {scale:g} is not a size. Give one as 0.65.')
+        grown = {
+            entry.name: getattr(self, entry.name) * scale ** entry.metadata['power']
+            for entry in fields(self)
+            if 'power' in entry.metadata
+        }
+        return replace(self, **grown)
+
+    @property
+    def step_s(self) -> float:
+        """Return the time from step to step."""
+        return self.shift_s + self.swing_s
+
+    @property
+    def velocity_limits(self) -> VelocityLimits:
+        """Return the speeds that the gait can do."""
+        return VelocityLimits(
+            self.forward_limit_m_s,
+            self.backward_limit_m_s,
+            self.left_limit_m_s,
+            self.turn_limit_rad_s,
+            self.sum_of_shares,
+        )
+
+    def velocity_change(self, time_s: float) -> VelocityCommand:
+        """Return by how much the velocity may change in so much time."""
+        return VelocityCommand(
+            self.forward_acceleration_m_s2 * time_s,
+            self.left_acceleration_m_s2 * time_s,
+            self.turn_acceleration_rad_s2 * time_s,
+        )

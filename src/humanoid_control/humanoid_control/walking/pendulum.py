@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The linear inverted pendulum: the centre of mass at constant height above the zero-moment point.
+
+S. Kajita et al., "The 3D linear inverted pendulum mode", IROS 2001, and the divergent component
+of motion of T. Takenaka et al., IROS 2009 (the capture point): with c'' = w^2 (c - p) the point
+xi = c + c'/w runs away from p as exp(w t), while c follows xi by itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+
+from humanoid_control.walking.planar import Point
+
+GRAVITY_M_S2 = 9.81
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Where the centre of mass is above the ground plane, and how it moves there."""
+
+    position_m: Point = 0j
+    velocity_m_s: Point = 0j
+
+
+@dataclass(frozen=True)
+class Pendulum:
+    """A pendulum of some height."""
+
+    height_m: float
+
+    @property
+    def rate_1_s(self) -> float:
+        """Return w, the rate at which the pendulum falls."""
+        return math.sqrt(GRAVITY_M_S2 / self.height_m)
+
+    def dcm(self, motion: Motion) -> Point:
+        """Return the divergent component of motion."""
+        return motion.position_m + motion.velocity_m_s / self.rate_1_s
+
+    def after(self, motion: Motion, zmp: Point, time_s: float) -> Motion:
+        """Return the motion after a time in which the zero-moment point stands still (exact)."""
+        rate = self.rate_1_s
+        cosh, sinh = math.cosh(rate * time_s), math.sinh(rate * time_s)
+        lean = motion.position_m - zmp
+        return Motion(
+            zmp + lean * cosh + motion.velocity_m_s * (sinh / rate),
+            lean * (rate * sinh) + motion.velocity_m_s * cosh,
+        )
+
+    def acceleration_m_s2(self, position: Point, zmp: Point) -> Point:
+        """Return how the centre of mass is accelerated over a zero-moment point."""
+        return (position - zmp) * (GRAVITY_M_S2 / self.height_m)

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The phases of the gait: the robot stands, steps, or comes to rest."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from humanoid_control.walking.dcm_plan import BalanceReference, ZmpSegment
+from humanoid_control.walking.footsteps import Footstep
+from humanoid_control.walking.gear import GaitInput, Gear
+from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
+from humanoid_control.walking.step import Step
+
+_SETTLED_S = 0.3
+"""A robot that just begins to stand does not step against pushes yet."""
+_REST_S = 0.1
+"""How long it waits at the end of coming to rest."""
+_RESUMABLE = 0.5
+"""Until which share of coming to rest it may walk on."""
+
+
+class Phase(Protocol):
+    """A part of the gait."""
+
+    @property
+    def name(self) -> str:
+        """Return what users call it."""
+
+    @property
+    def sides(self) -> tuple[int, ...]:
+        """Return the sides whose feet carry the robot."""
+
+    @property
+    def heading_rad(self) -> float:
+        """Return where the pelvis is to face."""
+
+    @property
+    def footsteps(self) -> Sequence[Footstep]:
+        """Return the steps that are planned."""
+
+    def advance(self, now: GaitInput) -> Phase:
+        """Let time pass; return the phase that is now: this one or one that follows."""
+
+    def reference(self, now: GaitInput) -> BalanceReference:
+        """Return where the divergent component and the zero-moment point should be now."""
+
+    def swing(self) -> tuple[int, PlanarPose, float] | None:
+        """Return side, pose and height of the sole in the air; to be asked once a tick."""
+
+
+class _OnBothFeet:
+    """What standing and coming to rest have in common."""
+
+    sides: tuple[int, ...] = SIDES
+    footsteps: Sequence[Footstep] = ()
+
+    def __init__(self, gear: Gear) -> None:
+        """Begin now."""
+        self._gear = gear
+        self._elapsed_s = 0.0
+
+    @property
+    def heading_rad(self) -> float:
+        """Return the mean heading of the feet."""
+        return self._gear.footing.middle.yaw_rad
+
+    def swing(self) -> None:
+        """Return that no foot swings."""
+
+
+class Standing(_OnBothFeet):
+    """The robot stands; it steps for a velocity, or when it is pushed hard."""
+
+    name = 'stand'
+
+    def advance(self, now: GaitInput) -> Phase:
+        """Go on standing, or step."""
+        self._elapsed_s += now.passed_s
+        self._gear.approach_target(now.passed_s)
+        if not self._gear.target.is_zero:
+            shift_s = self._gear.parameters.first_shift_s
+            return Stepping(
+                Step(self._gear, self._first_support(), shift_s, now.zmp_m), self._gear
+            )
+        off = self._off_balance(now.dcm_m)
+        if self._elapsed_s > _SETTLED_S and self._is_pushed(off):
+            support = RIGHT if off.imag > 0.0 else LEFT
+            shift_s = self._gear.parameters.reactive_shift_s
+            return Stepping(Step(self._gear, support, shift_s, now.zmp_m), self._gear)
+        return self
+
+    def reference(self, now: GaitInput) -> BalanceReference:
+        """Return the point between the feet."""
+        rest_point = self._gear.footing.rest_point
+        return BalanceReference(rest_point, rest_point)
+
+    def _first_support(self) -> int:
+        """Return the foot that stays: not that on the side where the robot goes."""
+        target = self._gear.target
+        return RIGHT if (target.left_m_s or target.turn_rad_s) > 0.0 else LEFT
+
+    def _off_balance(self, dcm: Point) -> Point:
+        """Return how far the divergent component is from rest, ahead and to the left."""
+        return PlanarPose(self._gear.footing.rest_point, self.heading_rad).local(dcm)
+
+    def _is_pushed(self, off: Point) -> bool:
+        """Tell whether the robot has to step to stay upright."""
+        p = self._gear.parameters
+        return abs(off.real) > p.push_forward_m or abs(off.imag) > p.push_left_m
+
+
+class Stepping:
+    """One foot swings, after the weight has gone to the other one."""
+
+    name = 'walk'
+
+    def __init__(self, step: Step, gear: Gear) -> None:
+        """Begin with a step."""
+        self._gear = gear
+        self._step = step
+
+    @property
+    def sides(self) -> tuple[int, ...]:
+        """Return the sides whose feet carry the robot."""
+        return self._step.sides
+
+    @property
+    def heading_rad(self) -> float:
+        """Return where the pelvis is to face."""
+        return self._step.heading_rad
+
+    @property
+    def footsteps(self) -> Sequence[Footstep]:
+        """Return the steps that are planned."""
+        return self._step.footsteps
+
+    def advance(self, now: GaitInput) -> Phase:
+        """Go on with the step; when the foot has landed, with the next one, or stop."""
+        step = self._step
+        step.advance(now.passed_s)
+        if not step.has_landed(now):
+            return self
+        feet = self._gear.footing
+        feet.put(step.side, step.foothold(now))
+        self._gear.approach_target(self._gear.parameters.step_s)
+        if self._gear.is_stopping and self._may_rest():
+            return Stopping(self._gear, step.side, now.zmp_m)
+        shift_s = self._gear.parameters.shift_s
+        return Stepping(Step(self._gear, step.side, shift_s, now.zmp_m), self._gear)
+
+    def reference(self, now: GaitInput) -> BalanceReference:
+        """Return the way of the plan."""
+        return self._step.reference(now)
+
+    def swing(self) -> tuple[int, PlanarPose, float] | None:
+        """Return where the foot in the air is to be."""
+        return self._step.swing()
+
+    def _may_rest(self) -> bool:
+        """Tell whether the feet stand well and the robot is calm."""
+        step, feet = self._step, self._gear.footing
+        stands_well = self._gear.planner.is_parallel(
+            feet.pose(step.support), step.support, feet.pose(step.side)
+        )
+        return stands_well and step.error_m < self._gear.parameters.stop_error_m
+
+
+class Stopping(_OnBothFeet):
+    """Both feet are down; the weight goes to the middle between them."""
+
+    name = 'stop'
+
+    def __init__(self, gear: Gear, last_landed: int, zmp: Point) -> None:
+        """Begin from the zero-moment point in use."""
+        super().__init__(gear)
+        self._last_landed = last_landed
+        way = ZmpSegment(gear.parameters.stop_s, zmp, gear.footing.rest_point)
+        self._plan = gear.plan([way])
+
+    def advance(self, now: GaitInput) -> Phase:
+        """Go on, stand, or walk on if a velocity comes soon enough."""
+        self._elapsed_s += now.passed_s
+        p = self._gear.parameters
+        if self._elapsed_s > p.stop_s + _REST_S:
+            return Standing(self._gear)
+        if not self._gear.target.is_zero and self._elapsed_s < _RESUMABLE * p.stop_s:
+            self._gear.approach_target(p.step_s)
+            zmp = self._plan.at(self._elapsed_s).zmp_m
+            return Stepping(Step(self._gear, self._last_landed, p.shift_s, zmp), self._gear)
+        return self
+
+    def reference(self, now: GaitInput) -> BalanceReference:
+        """Return the way to the middle."""
+        return self._plan.at(self._elapsed_s)

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the walk makes of an observation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from humanoid_control.backends import Observation
+from humanoid_control.dynamics import BodyState
+from humanoid_control.dynamics.rotations import to_rpy
+from humanoid_control.walking.attitude import Attitude
+from humanoid_control.walking.heading import HeadingFrame
+from humanoid_control.walking.pendulum import GRAVITY_M_S2
+from humanoid_control.walking.walking_robot import WalkingRobot
+
+
+@dataclass(frozen=True, eq=False)
+class Sensed:
+    """The robot at a moment, its base turned as in the frame of the odometry."""
+
+    time_s: float
+    state: BodyState
+    attitude: Attitude
+    loads: tuple[float, float]
+    """The weight on the soles, as shares of the robot's weight."""
+
+
+class Senses:
+    """Reads observations of a robot."""
+
+    def __init__(self, robot: WalkingRobot) -> None:
+        """Begin; the first observation says where ahead is."""
+        self._robot = robot
+        self._heading = HeadingFrame(robot.imu_in_base)
+        self._weight_n = robot.body.mass_kg * GRAVITY_M_S2
+
+    def read(self, observation: Observation) -> Sensed:
+        """
+        Return what an observation means.
+
+        :raises DynamicsError: if it has the wrong lengths or holds what is no finite number
+        """
+        rotation = self._heading.base_rotation(observation.orientation)
+        rates = self._heading.base_rates(observation.angular_velocity_rad_s)
+        state = self._robot.body.state(
+            rotation, rates, observation.positions_rad, observation.velocities_rad_s
+        )
+        left_n, right_n = observation.foot_forces_n[:, 2].tolist()
+        x, y, z = rates.tolist()
+        return Sensed(
+            observation.time_s,
+            state,
+            Attitude(*to_rpy(rotation), (x, y, z)),
+            (left_n / self._weight_n, right_n / self._weight_n),
+        )

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Where and when a step has to land to catch the robot.
+
+What the feet on the ground cannot take out of the error of the divergent component grows until
+the end of the step, and the landing has to move as far (the capture point). If that is out of
+reach, the step is hurried: the error grows for a shorter time. After M. Khadiv et al., "Walking
+control based on step timing adaptation", IEEE Transactions on Robotics 36(3), 2020.
+"""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import dataclass
+import math
+
+from humanoid_control.walking.dcm_plan import BalanceReference
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.planar import limited, PlanarPose, Point
+from humanoid_control.walking.sides import outwards
+from humanoid_control.walking.support_polygon import SupportPolygon
+
+_UNTOUCHED_M = 1e-6
+
+
+@dataclass(frozen=True)
+class Adjustment:
+    """A landing, and how much faster than planned the step goes."""
+
+    landing: PlanarPose
+    rate: float
+
+
+@dataclass(frozen=True)
+class StepAdjuster:
+    """Moves and hurries landings."""
+
+    parameters: WalkParameters
+    rate_1_s: float
+
+    def adjusted(
+        self,
+        nominal: PlanarPose,
+        support: PlanarPose,
+        side: int,
+        residual: Residual,
+        remaining_s: float,
+        rate: float,
+    ) -> Adjustment:
+        """
+        Return the landing that catches the robot.
+
+        :param nominal: where the foot lands by plan
+        :param side: the side of the support
+        :param remaining_s: the time to the end of the step, as planned
+        :param rate: how much the step is hurried already; it is never slowed down
+        """
+        for rate in (r for r in self.parameters.hurry_rates if r >= rate):
+            growth = math.exp(self.rate_1_s * remaining_s / rate)
+            wanted = nominal.moved(residual.at_landing(growth, self.parameters))
+            place = support.local(wanted.position_m)
+            reached = self._reachable(place, side)
+            if self._is_near(place, reached) or not self._calls_for_hurry(residual):
+                break
+        landing = PlanarPose(support.at(reached.real, reached.imag), nominal.yaw_rad)
+        return Adjustment(landing, rate)
+
+    def _reachable(self, place: Point, side: int) -> Point:
+        """Return the place closest to one where a foot can go, seen from the support."""
+        p, inwards = self.parameters, -outwards(side)
+        width_m = limited(inwards * place.imag, p.least_width_m, p.most_width_m)
+        length_m = limited(place.real, -p.most_length_m, p.most_length_m)
+        return complex(length_m, inwards * width_m)
+
+    def _is_near(self, wanted: Point, reached: Point) -> bool:
+        """Tell whether little had to be cut."""
+        cut, p = wanted - reached, self.parameters
+        return abs(cut.real) < p.unreachable_length_m and abs(cut.imag) < p.unreachable_width_m
+
+    def _calls_for_hurry(self, residual: Residual) -> bool:
+        """Tell whether the robot is so far off that a step may be hurried."""
+        return abs(residual.error_m) >= self.parameters.hurry_error_m
+
+
+@dataclass(frozen=True)
+class Residual:
+    """The error of the divergent component, and what the zero-moment point does against it."""
+
+    error_m: Point
+    wanted_m: Point
+    """The shift of the zero-moment point that feedback asks for; all seen from the support."""
+    shift_m: Point
+    """The shift that the feet on the ground allow."""
+    yaw_rad: float
+    """How the support is turned."""
+
+    @classmethod
+    def of(
+        cls,
+        reference: BalanceReference,
+        dcm: Point,
+        gain: float,
+        polygon: SupportPolygon,
+        support: PlanarPose,
+    ) -> Residual:
+        """Compare the divergent component with its reference."""
+        turn = cmath.rect(1.0, -support.yaw_rad)
+        error = dcm - reference.dcm_m
+        shift = polygon.clamped(reference.zmp_m + gain * error) - reference.zmp_m
+        return cls(error * turn, gain * error * turn, shift * turn, support.yaw_rad)
+
+    def at_landing(self, growth: float, parameters: WalkParameters) -> Point:
+        """Return the error that is left when it has grown by a factor, without a dead band."""
+        left = self.error_m * growth - self.shift_m * (growth - 1.0)
+        dead_band_m = parameters.adjust_dead_band_m
+        return cmath.rect(1.0, self.yaw_rad) * complex(
+            _beyond(left.real, self.wanted_m.real, self.shift_m.real, dead_band_m),
+            _beyond(left.imag, self.wanted_m.imag, self.shift_m.imag, dead_band_m),
+        )
+
+
+def _beyond(left: float, wanted: float, shift: float, dead_band: float) -> float:
+    """Return what an axis leaves to the landing: nothing while the feet do all that is wanted."""
+    if abs(wanted) <= abs(shift) + _UNTOUCHED_M:
+        return 0.0
+    return math.copysign(max(0.0, abs(left) - dead_band), left)

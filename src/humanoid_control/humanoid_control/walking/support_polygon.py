@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The area in which the ground can carry the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from humanoid_control.walking.errors import WalkingError
+from humanoid_control.walking.planar import cross, dot, limited, Point
+from humanoid_description.geometry import convex_hull
+import numpy as np
+
+
+class SupportPolygon:
+    """The convex hull of points on the ground."""
+
+    def __init__(self, points: Sequence[Point]) -> None:
+        """Find the hull, anticlockwise."""
+        hull = convex_hull(np.array([(point.real, point.imag) for point in points]))
+        self._corners = [complex(x, y) for x, y in hull]
+        if len(self._corners) < 3:
+            raise WalkingError(f'{len(points)} points on a line are no area to stand on.')
+        self._edges = [
+            (start, end - start)
+            for start, end in zip(self._corners, self._corners[1:] + self._corners[:1])
+        ]
+
+    @property
+    def corners(self) -> list[Point]:
+        """Return the corners, anticlockwise."""
+        return list(self._corners)
+
+    def contains(self, point: Point) -> bool:
+        """Tell whether a point lies inside or on the edge."""
+        return all(cross(edge, point - start) >= 0.0 for start, edge in self._edges)
+
+    def clamped(self, point: Point) -> Point:
+        """Return the point of the polygon that is closest to a point."""
+        if self.contains(point):
+            return point
+        return min((_on_edge(*edge, point) for edge in self._edges), key=lambda q: abs(q - point))
+
+
+def _on_edge(start: Point, edge: Point, point: Point) -> Point:
+    """Return the point of an edge that is closest to a point."""
+    share = dot(point - start, edge) / dot(edge, edge)
+    return start + limited(share, 0.0, 1.0) * edge

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A walk: from where the robot stands, tick by tick, to the targets of its joints."""
+
+from __future__ import annotations
+
+import math
+
+from humanoid_control.backends import JointTargets
+from humanoid_control.dynamics.frames import Frame
+from humanoid_control.dynamics.rotations import about_z
+from humanoid_control.walking.attitude import hip_efforts
+from humanoid_control.walking.base_estimate import base_on, sole_reading
+from humanoid_control.walking.com_observer import ComObserver
+from humanoid_control.walking.com_reference import ComReference
+from humanoid_control.walking.feed_forward import (
+    add_swing_efforts,
+    carrying_efforts,
+    ground_force,
+)
+from humanoid_control.walking.foot_shape import FootShape
+from humanoid_control.walking.footing import Foothold, Footing
+from humanoid_control.walking.gait import Gait, GaitOutput
+from humanoid_control.walking.gear import GaitInput, Gear
+from humanoid_control.walking.home_posture import HomePosture
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.pendulum import Motion, Pendulum
+from humanoid_control.walking.planar import Point
+from humanoid_control.walking.senses import Sensed
+from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
+from humanoid_control.walking.target_rates import TargetRates
+from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_control.walking.whole_body import WholeBody
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Walk:
+    """A walk that has begun: the estimate of the robot, the gait and the references."""
+
+    def __init__(
+        self,
+        robot: WalkingRobot,
+        shape: FootShape,
+        home: HomePosture,
+        parameters: WalkParameters,
+        sensed: Sensed,
+        start_m: Point,
+    ) -> None:
+        """Begin with both feet on the ground where they are, the base above a point."""
+        self._robot = robot
+        self._parameters = parameters
+        self._pendulum = Pendulum(home.com_height_m)
+        self._footing = _footing_below(start_m, robot, shape, sensed)
+        self.gait = Gait(Gear(parameters, self._pendulum, self._footing))
+        self._observer = ComObserver(self._pendulum, parameters.observer_rate_1_s)
+        self._reference = ComReference(
+            self._pendulum, parameters.reference_leak_1_s, parameters.reference_distance_m
+        )
+        self._whole_body = WholeBody(robot, home, parameters)
+        self._rates = TargetRates(parameters, len(robot.body.joints))
+        self._shares = (0.5, 0.5)
+        self._zmp_m = self._footing.rest_point
+        self._last_s = sensed.time_s
+        self.sensed = sensed
+        self.base = base_on(self._footing, self._shares, robot, sensed.state)
+        self.com = self.base.com_motion(sensed.state)
+        self.output: GaitOutput | None = None
+
+    @property
+    def dcm_m(self) -> Point:
+        """Return the divergent component of motion, as estimated."""
+        return self._pendulum.dcm(self.com)
+
+    @property
+    def footing(self) -> Footing:
+        """Return where the feet stand."""
+        return self._footing
+
+    def update(self, sensed: Sensed) -> JointTargets:
+        """Return what the joints are to do next."""
+        passed_s = sensed.time_s - self._last_s
+        self._last_s, self.sensed = sensed.time_s, sensed
+        self._estimate(passed_s)
+        output = self.output = self.gait.update(self._gait_input(passed_s))
+        self._shares, self._zmp_m = output.loads.shares, output.zmp_m
+        wanted = self._reference.update(self.com, output.zmp_m, passed_s)
+        self._footing.settle(1.0 - math.exp(-passed_s / self._parameters.settle_s))
+        positions = self._whole_body.targets(
+            self._wanted_base(wanted, output.heading_rad),
+            Frame(self.base.position_m, sensed.state.base_rotation),
+            self._footing,
+            output.swing,
+        )
+        self._rates.update(positions, passed_s)
+        return JointTargets(positions, self._rates.velocities_rad_s, self._efforts(output))
+
+    def _estimate(self, passed_s: float) -> None:
+        """Find base and centre of mass from the feet that carried weight until now."""
+        state = self.sensed.state
+        self.base = base_on(self._footing, self._shares, self._robot, state)
+        measured = self.base.com_motion(state)
+        self.com = self._observer.update(measured, self._zmp_m, passed_s)
+
+    def _gait_input(self, passed_s: float) -> GaitInput:
+        """Return what the gait is to know."""
+        left, right = (
+            sole_reading(
+                self._robot.legs[side].sole,
+                self.base.position_m,
+                self.sensed.state,
+                self.sensed.loads[side],
+            )
+            for side in SIDES
+        )
+        return GaitInput(passed_s, self.dcm_m, self._zmp_m, (left, right))
+
+    def _wanted_base(self, com: Motion, heading_rad: float) -> Frame:
+        """Return the base that is upright, faces a heading and has the centre of mass right."""
+        rotation = about_z(heading_rad)
+        point, state = self.com.position_m, self.sensed.state
+        from_base = np.array([point.real, point.imag, 0.0]) - self.base.position_m
+        from_base[2] = state.com_m[2]
+        to_com = rotation @ (state.base_rotation.T @ from_base)
+        goal = np.array([com.position_m.real, com.position_m.imag, self._pendulum.height_m])
+        return Frame(goal - to_com, rotation)
+
+    def _efforts(self, output: GaitOutput) -> Array:
+        """Return the efforts (n,) that carry the robot and keep it upright."""
+        acceleration = self._pendulum.acceleration_m_s2(self.com.position_m, output.zmp_m)
+        state = self.sensed.state
+        efforts = carrying_efforts(
+            self._robot,
+            state,
+            self.base.position_m,
+            output.loads,
+            ground_force(self._robot.body.mass_kg, acceleration),
+        )
+        if len(output.sides) == 1:
+            swinging = RIGHT if output.sides[0] == LEFT else LEFT
+            accelerations = self._rates.accelerations_rad_s2
+            add_swing_efforts(self._robot, state, swinging, accelerations, efforts)
+        upright = hip_efforts(self._parameters, self.sensed.attitude, output.heading_rad)
+        for side in SIDES:
+            efforts[self._robot.legs[side].indices[:3]] += output.loads.shares[side] * upright
+        return efforts
+
+
+def _footing_below(
+    start_m: Point, robot: WalkingRobot, shape: FootShape, sensed: Sensed
+) -> Footing:
+    """Return the feet where they are while the base is above a point."""
+    base = np.array([start_m.real, start_m.imag, 0.0])
+    readings = [sole_reading(leg.sole, base, sensed.state, 0.5) for leg in robot.legs]
+    return Footing(shape, [Foothold(reading.pose) for reading in readings])

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Walking: from observations to what the joints are to do."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from humanoid_control.backends import JointTargets, Observation
+from humanoid_control.walking.foot_shape import FootShape
+from humanoid_control.walking.heading import quaternion_of
+from humanoid_control.walking.home_posture import HomePosture
+from humanoid_control.walking.odometry import Odometry, Uncertainty
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.senses import Senses
+from humanoid_control.walking.sides import LEFT, RIGHT
+from humanoid_control.walking.status import WalkStatus
+from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+from humanoid_control.walking.walk import Walk
+from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_description.drives import Drive
+from humanoid_description.robot import Robot
+
+
+@dataclass(eq=False)
+class Walker:
+    """
+    Makes a robot stand and walk.
+
+    Give it an observation at every tick, at any rate and also after ticks that were missed. It
+    begins with the first one, from wherever the feet stand then.
+    """
+
+    robot: WalkingRobot
+    shape: FootShape
+    home: HomePosture
+    parameters: WalkParameters
+    _senses: Senses = field(init=False)
+    _velocity: VelocityCommand = field(init=False, default=STANDING)
+    _walk: Walk | None = field(init=False, default=None)
+    _targets: JointTargets | None = field(init=False, default=None)
+    _start_m: Point = field(init=False, default=0j)
+    _uncertainty: Uncertainty = field(init=False, default_factory=Uncertainty)
+
+    def __post_init__(self) -> None:
+        """Begin."""
+        self._senses = Senses(self.robot)
+
+    @classmethod
+    def of(
+        cls,
+        robot: Robot,
+        drives: Mapping[str, Drive],
+        joints: Sequence[str],
+        parameters: WalkParameters,
+    ) -> Walker:
+        """
+        Return the walker of a robot.
+
+        :param joints: all driven joints, in the order of observations and targets
+        :param parameters: the gait; `WalkParameters().scaled(scale)` for a robot of another size
+        """
+        walking = WalkingRobot.of(robot, drives, joints)
+        return cls(
+            walking,
+            FootShape.of(robot, parameters),
+            HomePosture.of(walking, parameters),
+            parameters,
+        )
+
+    def reset(self) -> None:
+        """Forget everything: the robot has been put somewhere, and odometry begins anew."""
+        self._senses = Senses(self.robot)
+        self._uncertainty = Uncertainty()
+        self._start_m = 0j
+        self._walk = self._targets = None
+        self._velocity = STANDING
+
+    def restart(self) -> None:
+        """Begin anew from where the feet are at the next tick; odometry goes on."""
+        if self._walk:
+            x, y, _ = self._walk.base.position_m.tolist()
+            self._start_m = complex(x, y)
+        self._walk = self._targets = None
+        self._velocity = STANDING
+
+    def command(self, velocity: VelocityCommand) -> None:
+        """Go at a velocity, within the limits of the gait; zero stops."""
+        self._velocity = velocity
+        if self._walk:
+            self._walk.gait.command(velocity)
+
+    def update(self, observation: Observation) -> JointTargets:
+        """
+        Return what the joints are to do until the next tick.
+
+        :raises DynamicsError: if the observation has the wrong lengths or is not finite
+        """
+        last_s = self._walk.sensed.time_s if self._walk else None
+        if self._targets and last_s is not None and observation.time_s <= last_s:
+            return self._targets
+        sensed = self._senses.read(observation)
+        if self._walk is None:
+            self._walk = Walk(
+                self.robot, self.shape, self.home, self.parameters, sensed, self._start_m
+            )
+            self._walk.gait.command(self._velocity)
+        self._targets = self._walk.update(sensed)
+        self._uncertainty.update(self._pose(self._walk))
+        return self._targets
+
+    @property
+    def status(self) -> WalkStatus | None:
+        """Return where the walk is; None before the first tick."""
+        walk = self._walk
+        if walk is None or walk.output is None:
+            return None
+        return WalkStatus(
+            phase=walk.gait.phase,
+            support=walk.output.sides,
+            feet=(walk.footing.pose(LEFT), walk.footing.pose(RIGHT)),
+            footsteps=walk.gait.footsteps,
+            odometry=self._odometry(walk),
+            dcm_m=walk.dcm_m,
+            dcm_reference_m=walk.output.reference.dcm_m,
+            zmp_m=walk.output.zmp_m,
+            zmp_reference_m=walk.output.reference.zmp_m,
+        )
+
+    def _pose(self, walk: Walk) -> PlanarPose:
+        """Return where the base is in the plane."""
+        x, y, _ = walk.base.position_m.tolist()
+        return PlanarPose(complex(x, y), walk.sensed.attitude.yaw_rad)
+
+    def _odometry(self, walk: Walk) -> Odometry:
+        """Return where the base is and how it moves."""
+        state = walk.sensed.state
+        to_base = state.base_rotation.T
+        return Odometry(
+            pose=self._pose(walk),
+            height_m=float(walk.base.position_m[2]),
+            orientation=quaternion_of(state.base_rotation),
+            linear_velocity_m_s=to_base @ walk.base.velocity_m_s,
+            angular_velocity_rad_s=to_base @ state.base_angular_velocity_rad_s,
+            position_variance_m2=self._uncertainty.position_variance_m2,
+            heading_variance_rad2=self._uncertainty.heading_variance_rad2,
+        )
