@@ -10,6 +10,7 @@ from typing import Any
 
 from humanoid_common.parameters import build, ParameterError
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
+from humanoid_simulation.backend import Snapshot
 from humanoid_simulation.camera.parameters import CameraParameters
 from humanoid_simulation.camera.topics import CameraTopics
 from humanoid_simulation.errors import SimulationError
@@ -19,7 +20,6 @@ import pytest
 from sensor_msgs.msg import CameraInfo, Image
 
 SMALL = {'camera_width_px': 64, 'camera_height_px': 49, 'camera_renderer': 'rays'}
-TICK_NS = 10_000_000
 
 
 class Set:
@@ -30,10 +30,9 @@ class Set:
         self._ros = ros
         self._model, self._data = world()
         self.node = ros.observer()
-        self.topics = CameraTopics(
-            self.node, cameras, self._model, build(CameraParameters, {**SMALL, **parameters})
-        )
-        self.time_ns = 0
+        given = build(CameraParameters, {**SMALL, **parameters})
+        self.topics = CameraTopics(self.node, cameras, self._model, self._take, given)
+        self._ticks = 0
 
     def collect(self, kind: Any, topic: str) -> list[Any]:
         """Collect the messages of a topic."""
@@ -52,8 +51,17 @@ class Set:
 
     def tick(self) -> None:
         """Tick once."""
-        self.time_ns += TICK_NS
-        self.topics.tick(time.monotonic(), self.time_ns, self._data)
+        self._ticks += 1
+        self.topics.tick(time.monotonic(), self.time_s)
+
+    @property
+    def time_s(self) -> float:
+        """Return the simulated time."""
+        return self._ticks * 0.01
+
+    def _take(self) -> Snapshot:
+        """Copy the state."""
+        return Snapshot(self.time_s, self._data.qpos, self._data.qvel)
 
 
 MakeSet = Callable[..., Set]
@@ -89,7 +97,7 @@ def test_color(make_set: MakeSet) -> None:
     assert image.header.frame_id == 'camera_optical_frame' and not image.is_bigendian
     pixels = np.frombuffer(image.data, np.uint8).reshape(49, 64, 3)
     assert pixels[5, 5] == pytest.approx([128, 130, 128], abs=3)
-    assert 0 < stamp_ns(image) < stamp_ns(images[1]) <= one.time_ns
+    assert 0 < stamp_ns(image) < stamp_ns(images[1]) <= one.time_s * 1e9 + 1
 
 
 def test_depth(make_set: MakeSet) -> None:

@@ -15,9 +15,10 @@ from sensor_msgs.msg import CameraInfo, Image
 _NANOSECONDS = 1_000_000_000
 
 
-def stamp_of(time_ns: int) -> Time:
+def stamp_of(time_s: float) -> Time:
     """Return a time as ROS writes it."""
-    return Time(sec=time_ns // _NANOSECONDS, nanosec=time_ns % _NANOSECONDS)
+    seconds, nanoseconds = divmod(round(time_s * _NANOSECONDS), _NANOSECONDS)
+    return Time(sec=seconds, nanosec=nanoseconds)
 
 
 def color_image(pinhole: Pinhole, frame: str) -> Image:

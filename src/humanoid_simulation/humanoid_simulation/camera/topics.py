@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
+from humanoid_simulation.backend import Snapshot
 from humanoid_simulation.camera.conversions import stamp_of
 from humanoid_simulation.camera.methods import methods_of
 from humanoid_simulation.camera.parameters import CameraParameters
@@ -28,13 +29,17 @@ class CameraTopics:
         node: Node,
         cameras: Mapping[str, str],
         model: mujoco.MjModel,
+        take: Callable[[], Snapshot],
         parameters: CameraParameters,
     ) -> None:
         """
         Announce the topics; raise SimulationError if the model has not the cameras.
 
-        `cameras` gives the name of the camera in the model by the namespace of its robot,
-        relative to the node: '' for a robot alone. At rate 0 there are no topics.
+        At rate 0 there are no topics.
+
+        :param cameras: the name of the camera in the model, by the namespace of its robot
+            relative to the node: '' for a robot alone
+        :param take: copies the state; called when a picture is taken, within `tick`
         """
         cameras = cameras if parameters.camera_rate_hz > 0.0 else {}
         width_px, height_px = parameters.camera_width_px, parameters.camera_height_px
@@ -45,6 +50,7 @@ class CameraTopics:
             CameraPublisher(node, _prefix(robot), pinhole_of(model, view), parameters.camera_frame)
             for robot, view in zip(cameras, views)
         ]
+        self._take_snapshot = take
         self._shutter = Shutter(parameters.camera_rate_hz)
 
     @property
@@ -52,39 +58,38 @@ class CameraTopics:
         """Return the number of the process that draws, if it runs."""
         return self._renderer.process_id
 
-    def tick(self, now_s: float, time_ns: int, data: mujoco.MjData) -> None:
+    def tick(self, now_s: float, time_s: float) -> None:
         """
         Publish what was drawn; have the state drawn if it is time. Call it once a control period.
 
-        `now_s` is that of a clock that nobody sets; `time_ns`, the simulated time of the state,
-        stamps its pictures. The data is read only, and only here.
+        `now_s` is that of a clock that nobody sets, `time_s` the simulated time.
         """
         pictures = self._renderer.poll(now_s)
         if pictures is not None:
             self._publish(pictures)
-        if self._shutter.is_due(time_ns):
-            self._take(now_s, time_ns, data)
+        if self._shutter.is_due(time_s):
+            self._take(now_s, time_s)
 
     def close(self) -> None:
         """End the process that draws."""
         self._renderer.close()
 
-    def _take(self, now_s: float, time_ns: int, data: mujoco.MjData) -> None:
+    def _take(self, now_s: float, time_s: float) -> None:
         """Have the state drawn for those who look, as soon as the last one is done."""
         wanted = [publisher.wanted() for publisher in self._publishers]
         if any(wanted):
             self._renderer.need()
             if not self._renderer.can_draw:
                 return
-            self._renderer.request(data, time_ns, wanted, now_s)
-        self._shutter.release(time_ns)
-        stamp = stamp_of(time_ns)
+            self._renderer.request(self._take_snapshot(), wanted, now_s)
+        self._shutter.release(time_s)
+        stamp = stamp_of(time_s)
         for publisher in self._publishers:
             publisher.publish_info(stamp)
 
     def _publish(self, pictures: Pictures) -> None:
         """Publish what was drawn."""
-        stamp = stamp_of(pictures.time_ns)
+        stamp = stamp_of(pictures.time_s)
         for publisher, wanted, color, depth in zip(
             self._publishers, pictures.wanted, pictures.colors, pictures.depths
         ):
