@@ -1,6 +1,28 @@
 # SPDX-License-Identifier: Apache-2.0
 """What decides where joints go, tick by tick, beside the backend."""
 
-from humanoid_control.controllers.interface import Controller
+from humanoid_control.controllers.commands import CommandError, JointNames, PartialTargets
+from humanoid_control.controllers.follower import Follower
+from humanoid_control.controllers.hold import Hold
+from humanoid_control.controllers.interface import Controller, Guest
+from humanoid_control.controllers.manager import ControllerManager
+from humanoid_control.controllers.modes import follow_mode, hold_mode, Mode
+from humanoid_control.controllers.trajectory import checked_trajectory, TrajectoryPoint
+from humanoid_control.controllers.trajectory_runner import TrajectoryRunner
 
-__all__ = ['Controller']
+__all__ = [
+    'CommandError',
+    'Controller',
+    'ControllerManager',
+    'Follower',
+    'Guest',
+    'Hold',
+    'JointNames',
+    'Mode',
+    'PartialTargets',
+    'TrajectoryPoint',
+    'TrajectoryRunner',
+    'checked_trajectory',
+    'follow_mode',
+    'hold_mode',
+]

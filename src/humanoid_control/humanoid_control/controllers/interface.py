@@ -6,6 +6,10 @@ from __future__ import annotations
 from typing import Protocol
 
 from humanoid_control.backends import JointTargets, Observation
+import numpy as np
+from numpy.typing import NDArray
+
+Mask = NDArray[np.bool_]
 
 
 class Controller(Protocol):
@@ -24,3 +28,17 @@ class Controller(Protocol):
 
     def update(self, observation: Observation) -> JointTargets:
         """Return the targets of its joints for the coming period; called once a period."""
+
+
+class Guest(Controller, Protocol):
+    """Moves joints that are lent to it, for as long as it has commands for them."""
+
+    @property
+    def waits(self) -> bool:
+        """Tell whether it is to be started, even if it has its joints already."""
+
+    def wanted(self, now_s: float) -> Mask:
+        """Return for which joints it has commands, (n,)."""
+
+    def cancel(self) -> None:
+        """Forget all commands."""

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Robots without physics: what their joints are told comes true, within the limits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from humanoid_control.backends.interface import Array, JointTargets, Observation
+from humanoid_control.backends.servo import ServoBank
+from humanoid_description.drives import Drive
+import numpy as np
+
+GRAVITY_M_S2 = 9.81
+KEYFRAME = 'home'
+
+
+class MockBackend:
+    """
+    Robots whose joints are servos of first order and whose bodies hang upright in the air.
+
+    The feet share the weight, the inertial sensor is level and at rest, and whatever is to carry
+    a load (the effort of a target) finds just that load.
+    """
+
+    def __init__(
+        self,
+        drives: Mapping[str, Drive],
+        robots: Sequence[str] = ('',),
+        period_s: float = 0.01,
+        mass_kg: float = 0.0,
+        home_rad: Mapping[str, float] = {},
+    ) -> None:
+        """Put the robots there; joints without a home position begin at zero, or next to it."""
+        self._robots, self._joints = tuple(robots), tuple(drives)
+        self._period_s = period_s
+        self._weight_n = mass_kg * GRAVITY_M_S2
+        home = np.array([home_rad.get(joint, 0.0) for joint in self._joints])
+        self._banks = {robot: ServoBank(drives, home) for robot in robots}
+        self._steps = 0
+
+    @property
+    def robots(self) -> tuple[str, ...]:
+        """Return the names of the robots."""
+        return self._robots
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Return the names of the driven joints."""
+        return self._joints
+
+    @property
+    def period_s(self) -> float:
+        """Return the time of a step."""
+        return self._period_s
+
+    def observe(self) -> dict[str, Observation]:
+        """Return what the sensors of every robot say now."""
+        return {robot: self._observed(bank) for robot, bank in self._banks.items()}
+
+    def step(self, targets: Mapping[str, JointTargets]) -> None:
+        """Let time pass; a robot without targets keeps those that it had."""
+        for robot, target in targets.items():
+            self._banks[robot].aim(target)
+        for bank in self._banks.values():
+            bank.move(self._period_s)
+        self._steps += 1
+
+    def reset(self, keyframe: str = KEYFRAME) -> None:
+        """Put all robots where they began, at rest; time goes on."""
+        if keyframe != KEYFRAME:
+            raise ValueError(
+                f"The mock has no posture '{keyframe}': it knows '{KEYFRAME}' alone. "
+                'Reset to that one, or use the simulator.'
+            )
+        for bank in self._banks.values():
+            bank.reset()
+
+    def close(self) -> None:
+        """Give back nothing, since nothing is held."""
+
+    def _observed(self, bank: ServoBank) -> Observation:
+        return Observation(
+            time_s=self._steps * self._period_s,
+            positions_rad=bank.positions_rad.copy(),
+            velocities_rad_s=bank.velocities_rad_s.copy(),
+            efforts_nm=bank.efforts_nm.copy(),
+            orientation=np.array([1.0, 0.0, 0.0, 0.0]),
+            angular_velocity_rad_s=np.zeros(3),
+            linear_acceleration_m_s2=np.array([0.0, 0.0, GRAVITY_M_S2]),
+            foot_forces_n=self._share_of_weight(),
+            foot_torques_nm=np.zeros((2, 3)),
+        )
+
+    def _share_of_weight(self) -> Array:
+        """Return the force of the ground on either foot, (2, 3)."""
+        forces_n = np.zeros((2, 3))
+        forces_n[:, 2] = self._weight_n / 2.0
+        return forces_n

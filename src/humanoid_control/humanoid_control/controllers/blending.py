@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Change the owner of a joint without a jump."""
+
+from __future__ import annotations
+
+from humanoid_control.backends import Array, JointTargets
+from humanoid_control.controllers.interface import Mask
+import numpy as np
+
+BLEND_S = 0.5
+
+
+class Blend:
+    """
+    An offset that fades from what joints were told last to what their new owner tells them.
+
+    It begins with the difference of position and velocity and ends with none, along the
+    polynomial of least jerk between the two (Flash and Hogan, 1985).
+    """
+
+    def __init__(self, joints: int, duration_s: float = BLEND_S) -> None:
+        """Blend nothing yet."""
+        self._duration_s = duration_s
+        self._since_s = np.full(joints, -np.inf)
+        self._until_s = -np.inf
+        self._offset_rad, self._speed_rad_s, self._effort_nm = np.zeros((3, joints))
+
+    def begin(self, joints: Mask, now_s: float, last: JointTargets, new: JointTargets) -> None:
+        """Fade for some joints, (n,) true, from what was told last."""
+        self._since_s[joints] = now_s
+        self._until_s = now_s + self._duration_s
+        self._offset_rad[joints] = (last.positions_rad - new.positions_rad)[joints]
+        self._speed_rad_s[joints] = (last.velocities_rad_s - new.velocities_rad_s)[joints]
+        self._effort_nm[joints] = (last.efforts_nm - new.efforts_nm)[joints]
+
+    def blended(self, now_s: float, new: JointTargets) -> JointTargets:
+        """Return the targets of a moment, with what is left of the offset."""
+        if now_s >= self._until_s:
+            return new
+        passed = np.minimum((now_s - self._since_s) / self._duration_s, 1.0)
+        offset_rad, speed_rad_s, share = self._left(passed)
+        return JointTargets(
+            new.positions_rad + offset_rad,
+            new.velocities_rad_s + speed_rad_s,
+            new.efforts_nm + share * self._effort_nm,
+        )
+
+    def _left(self, passed: Array) -> tuple[Array, Array, Array]:
+        """Return the offset, its derivative, and the share that is left, of a share of time."""
+        left = 1.0 - passed
+        share = left**3 * (1.0 + 3.0 * passed + 6.0 * passed**2)
+        share_rate = -30.0 * (passed * left) ** 2 / self._duration_s
+        slope = passed * left**3 * (1.0 + 3.0 * passed)
+        slope_rate = left**2 * (1.0 + 2.0 * passed - 15.0 * passed**2)
+        offset_rad = share * self._offset_rad + slope * self._duration_s * self._speed_rad_s
+        speed_rad_s = share_rate * self._offset_rad + slope_rate * self._speed_rad_s
+        return offset_rad, speed_rad_s, share

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Follow the joint targets that come from outside, for as long as they come."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from humanoid_control.backends import JointTargets, Observation
+from humanoid_control.controllers.commands import PartialTargets
+from humanoid_control.controllers.interface import Mask
+from humanoid_control.controllers.silence import Clock, Silence
+import numpy as np
+
+TIMEOUT_S = 0.5
+
+
+class Follower:
+    """
+    Wants the joints that the last commands named, until none has come for the timeout.
+
+    A command for some joints leaves what earlier commands said of others as it is, but only
+    until those have been silent for the timeout.
+    """
+
+    def __init__(
+        self,
+        joints: Sequence[str],
+        timeout_s: float = TIMEOUT_S,
+        clock: Clock | None = None,
+        name: str = 'joint_commands',
+    ) -> None:
+        """Want nothing yet."""
+        self.name = name
+        self.joints = tuple(joints)
+        self._timeout_s, self._clock = timeout_s, clock
+        self._silences: dict[tuple[int, ...], tuple[Mask, Silence]] = {}
+        rest = np.zeros(len(self.joints))
+        self._targets = JointTargets(rest, rest.copy(), rest.copy())
+
+    @property
+    def waits(self) -> bool:
+        """Tell that nothing waits for a start: what is to be done came with the commands."""
+        return False
+
+    def start(self, observation: Observation, held: JointTargets) -> None:
+        """Begin: what is to be done came with the commands."""
+
+    def accept(self, command: PartialTargets) -> None:
+        """Take a command that has been checked."""
+        targets, places = self._targets, command.places
+        targets.positions_rad[places] = command.targets.positions_rad
+        targets.velocities_rad_s[places] = command.targets.velocities_rad_s
+        targets.efforts_nm[places] = command.targets.efforts_nm
+        self._silence_of(places.tolist()).heard()
+
+    def wanted(self, now_s: float) -> Mask:
+        """Return for which joints commands come, (n,)."""
+        self._silences = {
+            key: entry for key, entry in self._silences.items() if not entry[1].lasts(now_s)
+        }
+        masks = [mask for mask, _ in self._silences.values()]
+        wanted: Mask = np.logical_or.reduce(masks) if masks else self._mask([])
+        return wanted
+
+    def update(self, observation: Observation) -> JointTargets:
+        """Return the newest targets; those of joints that it does not want mean nothing."""
+        return self._targets
+
+    def cancel(self) -> None:
+        """Forget all commands."""
+        self._silences = {}
+
+    def _silence_of(self, places: list[int]) -> Silence:
+        """Return the silence of a set of joints that is commanded together."""
+        key = tuple(places)
+        if key not in self._silences:
+            self._silences[key] = (self._mask(places), Silence(self._timeout_s, self._clock))
+        return self._silences[key][1]
+
+    def _mask(self, places: list[int]) -> Mask:
+        mask = np.zeros(len(self.joints), dtype=np.bool_)
+        mask[places] = True
+        return mask

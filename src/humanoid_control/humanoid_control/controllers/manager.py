@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: Apache-2.0
+"""See to it that each joint has one owner, and that no change of owner makes it jump."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+import math
+
+from humanoid_common.naming import did_you_mean
+from humanoid_control.backends import JointTargets, Observation
+from humanoid_control.controllers.blending import Blend
+from humanoid_control.controllers.commands import CommandError, Indices
+from humanoid_control.controllers.interface import Guest, Mask
+from humanoid_control.controllers.modes import Mode
+from humanoid_control.limits import JointLimits
+import numpy as np
+from numpy.typing import NDArray
+
+Owners = NDArray[np.intp]
+_MODE = -1
+"""The owner of a joint that is not lent; guests are counted from 0."""
+
+
+class ControllerManager:
+    """
+    Runs the mode's controller and the guests of one robot, and limits what they ask for.
+
+    A joint belongs to the first guest that wants it if the mode lends it, else to the mode.
+    Every change of owner blends from what the joint was told last.
+    """
+
+    def __init__(
+        self,
+        joints: Sequence[str],
+        modes: Sequence[Mode],
+        guests: Sequence[Guest],
+        limits: JointLimits,
+        say: Callable[[str], None] = lambda sentence: None,
+    ) -> None:
+        """Begin in the first mode; guests come in their order of priority; `say` gets warnings."""
+        self.joints = tuple(joints)
+        self._modes = {mode.name: mode for mode in modes}
+        self._guests = tuple(guests)
+        self._limits = limits
+        self._say = say
+        self._blend = Blend(len(self.joints))
+        self._enter(modes[0])
+        self.reset()
+
+    @property
+    def mode(self) -> str:
+        """Return the name of the mode."""
+        return self._mode.name
+
+    @property
+    def modes(self) -> tuple[str, ...]:
+        """Return the names of all modes."""
+        return tuple(self._modes)
+
+    def switch(self, mode: str) -> None:
+        """Go over to another mode, smoothly."""
+        if mode not in self._modes:
+            known = ', '.join(self._modes)
+            raise CommandError(
+                f"There is no mode '{mode}'. {did_you_mean(mode, self._modes)} It has: {known}."
+            )
+        if mode != self.mode:
+            self._enter(self._modes[mode])
+
+    def reset(self) -> None:
+        """Begin anew with the next observation, from where the joints are then."""
+        for guest in self._guests:
+            guest.cancel()
+        self._last: JointTargets | None = None
+        self._last_s = 0.0
+        self._owners: Owners = np.full(len(self.joints), _MODE)
+        self._entered = True
+
+    def owner(self, joint: str) -> str:
+        """Return the name of the controller that moves a joint."""
+        return self._name_of(self._owners[self.joints.index(joint)])
+
+    def check(self, guest: Guest, places: Indices) -> None:
+        """Refuse that a guest moves joints which belong to the mode or to a guest before it."""
+        for place in places[~self._lent[places]]:
+            raise CommandError(self._not_lent(self.joints[place]))
+        rank = self._guests.index(guest)
+        owners = self._owners[places]
+        for place in places[(owners >= 0) & (owners < rank)]:
+            owner = self._name_of(self._owners[place])
+            raise CommandError(
+                f"'{self.joints[place]}' belongs to '{owner}' as long as that goes on. "
+                'Leave the joint out, or wait.'
+            )
+
+    def update(self, observation: Observation) -> JointTargets:
+        """Return the targets of all joints for the coming period."""
+        now_s = observation.time_s
+        last = self._last or _at_rest(observation)
+        elapsed_s = now_s - self._last_s if self._last else 0.0
+        held = _continued(last, elapsed_s)
+        changed = self._change_owners(observation, held)
+        wished = self._wished(observation, held)
+        if changed is not None:
+            self._blend.begin(changed, now_s, held, wished)
+        wished = self._blend.blended(now_s, wished)
+        self._last = self._limits.limited(wished, last.positions_rad, elapsed_s)
+        self._last_s = now_s
+        return self._last
+
+    def _enter(self, mode: Mode) -> None:
+        """Begin a mode; guests have to say anew what they want."""
+        if mode.controller.joints != self.joints:
+            raise ValueError(
+                f"The controller of mode '{mode.name}' must claim all joints of the robot, in "
+                f'the order {self.joints}, but claims {mode.controller.joints}.'
+            )
+        self._mode, self._entered = mode, True
+        self._lent = np.isin(self.joints, mode.lends)
+        for guest in self._guests:
+            guest.cancel()
+
+    def _change_owners(self, observation: Observation, held: JointTargets) -> Mask | None:
+        """Start those who get joints; return which joints these are, None for none."""
+        owners = self._owners_at(observation.time_s)
+        news = self._news(owners)
+        if not (self._entered or news.any()):
+            return None
+        self._start(owners, news, observation, held)
+        self._owners, self._entered = owners, False
+        return news
+
+    def _owners_at(self, now_s: float) -> Owners:
+        """Return who owns each joint, (n,): the rank of a guest, or _MODE."""
+        owners = np.full(len(self.joints), _MODE)
+        for rank in reversed(range(len(self._guests))):
+            owners[self._guests[rank].wanted(now_s) & self._lent] = rank
+        return owners
+
+    def _news(self, owners: Owners) -> Mask:
+        """Return the joints whose owner begins with them, (n,)."""
+        news: Mask = owners != self._owners
+        if self._entered:
+            news |= owners == _MODE
+        for rank, guest in enumerate(self._guests):
+            if guest.waits:
+                news |= owners == rank
+        return news
+
+    def _start(
+        self, owners: Owners, news: Mask, observation: Observation, held: JointTargets
+    ) -> None:
+        """Tell those who get joints."""
+        returned = news & (owners == _MODE)
+        if self._entered:
+            self._mode.controller.start(observation, held)
+        elif returned.any():
+            self._mode.take_back(returned, held)
+        for rank, guest in enumerate(self._guests):
+            if (news & (owners == rank)).any():
+                guest.start(observation, held)
+
+    def _wished(self, observation: Observation, held: JointTargets) -> JointTargets:
+        """Return what the owners ask for, together."""
+        wished = self._mode.controller.update(observation)
+        for rank in np.unique(self._owners):
+            if rank != _MODE:
+                asked = self._guests[rank].update(observation)
+                wished = _merged(wished, asked, self._owners == rank)
+        return wished if _is_finite(wished) else self._repaired(wished, held)
+
+    def _repaired(self, wished: JointTargets, held: JointTargets) -> JointTargets:
+        """Keep joints where they are whose owner asks for what is no number, and say so."""
+        sound = np.isfinite(wished.positions_rad + wished.velocities_rad_s + wished.efforts_nm)
+        place = int(np.argmin(sound))
+        self._say(
+            f"'{self._name_of(self._owners[place])}' asks for a target of "
+            f"'{self.joints[place]}' that is not finite: the joint is held."
+        )
+        rest = JointTargets(held.positions_rad, *np.zeros((2, len(self.joints))))
+        return _merged(rest, wished, sound)
+
+    def _name_of(self, rank: int) -> str:
+        return self.mode if rank == _MODE else self._guests[rank].name
+
+    def _not_lent(self, joint: str) -> str:
+        """Build the sentence on a joint that the mode keeps for itself."""
+        ways = [mode.name for mode in self._modes.values() if joint in mode.lends]
+        lends = 'some other joints alone' if self._mode.lends else 'no joint'
+        out = f"Leave it out, or set the mode to '{ways[0]}'." if ways else 'Leave it out.'
+        return f"'{joint}' belongs to the mode '{self.mode}', which lends {lends}. {out}"
+
+
+def _at_rest(observation: Observation) -> JointTargets:
+    """Return the targets that keep the joints where they are."""
+    return JointTargets(observation.positions_rad, *np.zeros((2, len(observation.positions_rad))))
+
+
+def _continued(targets: JointTargets, elapsed_s: float) -> JointTargets:
+    """Return the targets, gone on at their velocities."""
+    positions_rad = targets.positions_rad + elapsed_s * targets.velocities_rad_s
+    return replace(targets, positions_rad=positions_rad)
+
+
+def _merged(targets: JointTargets, others: JointTargets, chosen: Mask) -> JointTargets:
+    """Return targets, with those of other ones where they are chosen."""
+    return JointTargets(
+        np.where(chosen, others.positions_rad, targets.positions_rad),
+        np.where(chosen, others.velocities_rad_s, targets.velocities_rad_s),
+        np.where(chosen, others.efforts_nm, targets.efforts_nm),
+    )
+
+
+def _is_finite(targets: JointTargets) -> bool:
+    """Tell whether all targets are numbers; a sum is the cheapest way to know."""
+    total = targets.positions_rad.sum() + targets.velocities_rad_s.sum()
+    return math.isfinite(total + targets.efforts_nm.sum())

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a robot does as a whole, and which joints others may borrow meanwhile."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from humanoid_control.backends import JointTargets
+from humanoid_control.controllers.hold import Hold
+from humanoid_control.controllers.interface import Controller, Mask
+
+
+def _nothing(joints: Mask, held: JointTargets) -> None:
+    """Take joints back without more ado."""
+
+
+@dataclass(frozen=True)
+class Mode:
+    """
+    A controller of all joints, and the joints that it lends.
+
+    `take_back` is told which joints come back, (n,) true, and what they were told last.
+    """
+
+    name: str
+    controller: Controller
+    lends: tuple[str, ...]
+    take_back: Callable[[Mask, JointTargets], None] = _nothing
+
+
+def hold_mode(joints: Sequence[str]) -> Mode:
+    """Return the mode in which every joint stays where it is, and none is lent."""
+    return Mode('hold', Hold(joints), ())
+
+
+def follow_mode(joints: Sequence[str]) -> Mode:
+    """Return the mode in which every joint stays where it is until somebody moves it."""
+    hold = Hold(joints)
+    return Mode('follow', hold, tuple(joints), hold.take_back)

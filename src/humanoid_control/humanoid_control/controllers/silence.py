@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Know when somebody who sends commands has stopped to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import math
+
+Clock = Callable[[], float]
+
+
+class Silence:
+    """
+    For how long nothing has been heard.
+
+    Both the robot's time and the computer's must have passed: the robot's time may run many times
+    faster than the person who drives it, or stand still while the simulator is paused.
+    """
+
+    def __init__(self, timeout_s: float, clock: Clock | None = None) -> None:
+        """Set the patience, and the computer's clock, without which the robot's time counts."""
+        self._timeout_s = timeout_s
+        self._clock: Clock = clock or (lambda: math.inf)
+        self._unheard = True
+        self._fresh = False
+        self._heard_s = self._heard_clock_s = -math.inf
+
+    def heard(self) -> None:
+        """Note that something came."""
+        self._unheard, self._fresh = False, True
+        self._heard_clock_s = self._clock()
+
+    def end(self) -> None:
+        """Be silent from now on, until something is heard."""
+        self._unheard = True
+
+    def lasts(self, now_s: float) -> bool:
+        """Tell, at a moment of the robot's time, whether it has been silent for the timeout."""
+        if self._fresh:
+            self._fresh, self._heard_s = False, now_s
+        if not self._unheard and now_s - self._heard_s >= self._timeout_s:
+            clock_s = self._clock()
+            self._unheard = clock_s == math.inf or clock_s - self._heard_clock_s >= self._timeout_s
+        return self._unheard

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A smooth way of several joints through points."""
+
+from __future__ import annotations
+
+from humanoid_control.backends import Array
+import numpy as np
+
+
+class Spline:
+    """
+    Polynomials between points: cubic, or quintic if the accelerations at the points are given.
+
+    The arrays of the points are (points, joints); there are at least two points.
+    """
+
+    def __init__(
+        self, times_s: Array, positions: Array, velocities: Array, accelerations: Array | None
+    ) -> None:
+        """Compute the polynomials; the times grow strictly."""
+        self._times_s = times_s
+        self._steps_s = np.diff(times_s)
+        steps_s = self._steps_s[:, None]
+        p0, p1 = positions[:-1], positions[1:]
+        v0, v1 = velocities[:-1] * steps_s, velocities[1:] * steps_s
+        if accelerations is None:
+            self._coefficients = cubic(p0, p1, v0, v1)
+        else:
+            a0, a1 = accelerations[:-1] * steps_s**2, accelerations[1:] * steps_s**2
+            self._coefficients = quintic(p0, p1, v0, v1, a0, a1)
+
+    @property
+    def end_s(self) -> float:
+        """Return the time of the last point."""
+        return float(self._times_s[-1])
+
+    def at(self, time_s: float) -> tuple[Array, Array]:
+        """Return positions and velocities, (joints,); before and after the points, as there."""
+        time_s = min(max(time_s, float(self._times_s[0])), self.end_s)
+        last = len(self._steps_s) - 1
+        piece = min(int(np.searchsorted(self._times_s, time_s, side='right')) - 1, last)
+        step_s = self._steps_s[piece]
+        powers = ((time_s - self._times_s[piece]) / step_s) ** np.arange(6)
+        slopes = np.arange(1, 6) * powers[:-1] / step_s
+        coefficients = self._coefficients[:, piece]
+        return powers @ coefficients, slopes @ coefficients[1:]
+
+
+def cubic(p0: Array, p1: Array, v0: Array, v1: Array) -> Array:
+    """Return the six coefficients, the constant first, from position and velocity at 0 and 1."""
+    way, none = p1 - p0, np.zeros_like(p0)
+    return np.stack([p0, v0, 3 * way - 2 * v0 - v1, v0 + v1 - 2 * way, none, none])
+
+
+def quintic(p0: Array, p1: Array, v0: Array, v1: Array, a0: Array, a1: Array) -> Array:
+    """Return the coefficients from position, velocity and acceleration at 0 and 1."""
+    way = p1 - p0
+    return np.stack(
+        [
+            p0,
+            v0,
+            a0 / 2,
+            10 * way - 6 * v0 - 4 * v1 - (3 * a0 - a1) / 2,
+            -15 * way + 8 * v0 + 7 * v1 + (3 * a0 - 2 * a1) / 2,
+            6 * way - 3 * (v0 + v1) - (a0 - a1) / 2,
+        ]
+    )
+
+
+def inner_velocities(times_s: Array, positions: Array) -> Array:
+    """
+    Return velocities at points that give none: zero at both ends, and where a joint turns back.
+
+    Elsewhere it is the harmonic mean of the speeds before and after, which keeps the way of a
+    cubic between its points (Fritsch and Butland, 1984).
+    """
+    speeds = np.diff(positions, axis=0) / np.diff(times_s)[:, None]
+    before, after = speeds[:-1], speeds[1:]
+    onwards = before * after > 0.0
+    sum_of = np.where(onwards, before + after, 1.0)
+    velocities = np.zeros_like(positions)
+    velocities[1:-1] = np.where(onwards, 2.0 * before * after / sum_of, 0.0)
+    return velocities

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Hold still whatever can be held, as long as the robot must."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from humanoid_control.controllers.hold import Hold
+from humanoid_control.controllers.interface import Mask
+import numpy as np
+
+
+class Still(Hold):
+    """Wants every joint that is lent while it is switched on, to hold it where it is."""
+
+    def __init__(self, joints: Sequence[str]) -> None:
+        """Begin switched off."""
+        super().__init__(joints, name='stop')
+        self.on = False
+        self._all = np.ones(len(self.joints), dtype=np.bool_)
+        self._none = np.zeros_like(self._all)
+
+    @property
+    def waits(self) -> bool:
+        """Tell that nothing waits."""
+        return False
+
+    def wanted(self, now_s: float) -> Mask:
+        """Return all joints, or none."""
+        return self._all if self.on else self._none
+
+    def cancel(self) -> None:
+        """Stay as it is: nobody but who stopped it releases the robot."""

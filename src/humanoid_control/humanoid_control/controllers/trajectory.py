@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Trajectories: what is asked for, and whether the joints can do it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from humanoid_control.backends import Array
+from humanoid_control.controllers.commands import (
+    checked_values,
+    CommandError,
+    Indices,
+    JointNames,
+    optional_values,
+)
+from humanoid_control.limits import JointLimits
+import numpy as np
+
+
+@dataclass(frozen=True)
+class TrajectoryPoint:
+    """Where joints are to be at a time after the start; velocities and more may be left out."""
+
+    time_s: float
+    positions_rad: Sequence[float]
+    velocities_rad_s: Sequence[float] = ()
+    accelerations_rad_s2: Sequence[float] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """A sound trajectory of m joints through k points; None is what no point gives."""
+
+    places: Indices
+    times_s: Array
+    """(k,)"""
+    positions_rad: Array
+    """(k, m)"""
+    velocities_rad_s: Array | None
+    accelerations_rad_s2: Array | None
+
+
+def checked_trajectory(
+    joints: JointNames,
+    limits: JointLimits,
+    names: Sequence[str],
+    points: Sequence[TrajectoryPoint],
+) -> Trajectory:
+    """Return the trajectory, or refuse it as a whole with the first reason."""
+    places = joints.places(names)
+    if not points:
+        raise CommandError('It has no points. Give at least one.')
+    times_s = _checked_times(points)
+    positions_rad = np.array(
+        [checked_values('position', point.positions_rad, names) for point in points]
+    )
+    _check_range(positions_rad, places, limits, names)
+    _check_speed(times_s, positions_rad, places, limits, names)
+    return Trajectory(
+        places,
+        times_s,
+        positions_rad,
+        _given('velocity', [point.velocities_rad_s for point in points], names),
+        _given('acceleration', [point.accelerations_rad_s2 for point in points], names),
+    )
+
+
+def _checked_times(points: Sequence[TrajectoryPoint]) -> Array:
+    """Return the times, which begin at zero or later and grow."""
+    times_s = np.array([point.time_s for point in points])
+    if times_s[0] < 0.0:
+        raise CommandError(f'Its first point is at {times_s[0]:g} s. Begin at 0 s or later.')
+    if len(times_s) == 1 and times_s[0] == 0.0:
+        raise CommandError('Its only point is at 0 s, which is a jump. Give it some time.')
+    for number, step_s in enumerate(np.diff(times_s), start=2):
+        if step_s <= 0.0:
+            raise CommandError(
+                f'Point {number} is at {times_s[number - 1]:g} s, not after the one before it, '
+                f'at {times_s[number - 2]:g} s. Let the times grow.'
+            )
+    return times_s
+
+
+def _check_range(
+    positions_rad: Array, places: Indices, limits: JointLimits, names: Sequence[str]
+) -> None:
+    """Refuse positions that joints do not reach."""
+    lower, upper = limits.lower_rad[places], limits.upper_rad[places]
+    for number, position_rad in enumerate(positions_rad, start=1):
+        outside = (position_rad < lower) | (position_rad > upper)
+        if outside.any():
+            joint = int(np.argmax(outside))
+            raise CommandError(
+                f"Point {number} has '{names[joint]}' at {position_rad[joint]:g} rad, which it "
+                f'does not reach: its range is {lower[joint]:g} to {upper[joint]:g} rad.'
+            )
+
+
+def _check_speed(
+    times_s: Array,
+    positions_rad: Array,
+    places: Indices,
+    limits: JointLimits,
+    names: Sequence[str],
+) -> None:
+    """Refuse points that joints cannot get to in time, even at full speed."""
+    fastest_rad_s = limits.velocity_rad_s[places]
+    speeds_rad_s = np.abs(np.diff(positions_rad, axis=0)) / np.diff(times_s)[:, None]
+    for number, speed_rad_s in enumerate(speeds_rad_s, start=2):
+        too_fast = speed_rad_s > fastest_rad_s
+        if too_fast.any():
+            joint = int(np.argmax(too_fast))
+            raise CommandError(
+                f"'{names[joint]}' would have to turn at {speed_rad_s[joint]:.3g} rad/s to be at "
+                f'point {number} in time, but can do {fastest_rad_s[joint]:.3g} rad/s. '
+                'Give it more time.'
+            )
+
+
+def _given(field: str, rows: Sequence[Sequence[float]], names: Sequence[str]) -> Array | None:
+    """Return what points give, zero at those that do not; None if none does."""
+    if not any(len(row) for row in rows):
+        return None
+    return np.array([optional_values(field, row, names) for row in rows])

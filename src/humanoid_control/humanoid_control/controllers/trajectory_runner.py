@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run a trajectory that came from outside, to its end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from humanoid_control.backends import Array, JointTargets, Observation
+from humanoid_control.controllers.interface import Mask
+from humanoid_control.controllers.spline import inner_velocities, Spline
+from humanoid_control.controllers.trajectory import Trajectory
+import numpy as np
+
+
+class TrajectoryRunner:
+    """
+    Wants the joints of its trajectory until the last point; a new one takes the place of the old.
+
+    The way begins where the joints are told to be when it starts. Points without velocities are
+    passed as smoothly as their positions allow; those without accelerations have none.
+    """
+
+    def __init__(self, joints: Sequence[str], name: str = 'joint_trajectory') -> None:
+        """Want nothing yet."""
+        self.name = name
+        self.joints = tuple(joints)
+        self._waiting: Trajectory | None = None
+        self._spline: Spline | None = None
+        self._start_s = 0.0
+        self._wanted = np.zeros(len(self.joints), dtype=np.bool_)
+        self._places = np.zeros(0, dtype=np.intp)
+        rest = np.zeros(len(self.joints))
+        self._targets = JointTargets(rest, rest.copy(), rest.copy())
+
+    @property
+    def waits(self) -> bool:
+        """Tell whether a new trajectory is to be started."""
+        return self._waiting is not None
+
+    def accept(self, trajectory: Trajectory) -> None:
+        """Take a trajectory that has been checked; it starts with the next period."""
+        self._waiting, self._spline = trajectory, None
+        self._wanted = np.zeros(len(self.joints), dtype=np.bool_)
+        self._wanted[trajectory.places] = True
+
+    def wanted(self, now_s: float) -> Mask:
+        """Return for which joints a trajectory runs or is to start, (n,)."""
+        if self._spline is not None and now_s - self._start_s > self._spline.end_s:
+            self.cancel()
+        return self._wanted
+
+    def start(self, observation: Observation, held: JointTargets) -> None:
+        """Begin from what the joints were told last."""
+        if self._waiting is not None:
+            trajectory, self._waiting = self._waiting, None
+            self._start_s = observation.time_s
+            self._places = trajectory.places
+            self._spline = _spline(trajectory, held)
+
+    def update(self, observation: Observation) -> JointTargets:
+        """Return the targets of now; those of joints that it does not want mean nothing."""
+        if self._spline is not None:
+            positions_rad, velocities_rad_s = self._spline.at(observation.time_s - self._start_s)
+            self._targets.positions_rad[self._places] = positions_rad
+            self._targets.velocities_rad_s[self._places] = velocities_rad_s
+        return self._targets
+
+    def cancel(self) -> None:
+        """Forget the trajectory."""
+        self._waiting, self._spline = None, None
+        self._wanted = np.zeros(len(self.joints), dtype=np.bool_)
+
+
+def _spline(trajectory: Trajectory, held: JointTargets) -> Spline:
+    """Return the way from where joints are told to be through the points."""
+    times_s, positions_rad = trajectory.times_s, trajectory.positions_rad
+    velocities_rad_s, accelerations = trajectory.velocities_rad_s, trajectory.accelerations_rad_s2
+    begins = times_s[0] > 0.0
+    if begins:
+        times_s = np.concatenate(([0.0], times_s))
+        positions_rad = _led_by(held.positions_rad[trajectory.places], positions_rad)
+    if velocities_rad_s is None:
+        velocities_rad_s = inner_velocities(times_s, positions_rad)
+    elif begins:
+        velocities_rad_s = _led_by(held.velocities_rad_s[trajectory.places], velocities_rad_s)
+    if accelerations is not None and begins:
+        accelerations = _led_by(np.zeros_like(accelerations[0]), accelerations)
+    return Spline(times_s, positions_rad, velocities_rad_s, accelerations)
+
+
+def _led_by(first: Array, rows: Array) -> Array:
+    """Return the rows with another one before them."""
+    return np.vstack([first, rows])

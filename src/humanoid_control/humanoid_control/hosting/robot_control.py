@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All that decides what one robot does: its mode, those who move its joints, and the stop."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from humanoid_control.backends import JointTargets, Observation
+from humanoid_control.controllers import (
+    checked_trajectory,
+    CommandError,
+    ControllerManager,
+    Follower,
+    JointNames,
+    Mode,
+    TrajectoryPoint,
+    TrajectoryRunner,
+)
+from humanoid_control.controllers.silence import Clock
+from humanoid_control.controllers.still import Still
+from humanoid_control.hosting.velocity_input import VelocityInput
+from humanoid_control.limits import JointLimits
+from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+
+Drive = Callable[[VelocityCommand], None]
+
+
+class RobotControl:
+    """
+    The controllers of a robot, as commands from outside and a stop reach them.
+
+    Commands are stored, and obeyed in the next period. While the robot must hold still, it walks
+    at velocity zero, every joint that its mode lends is held, and commands are not heard.
+    """
+
+    def __init__(
+        self,
+        joints: Sequence[str],
+        limits: JointLimits,
+        modes: Sequence[Mode],
+        drive: Drive | None = None,
+        clock: Clock | None = None,
+        say: Callable[[str], None] = lambda sentence: None,
+    ) -> None:
+        """Begin in the first mode; `drive` is what walks, if anything does."""
+        self._names, self._limits, self._drive = JointNames(joints), limits, drive
+        self._still = Still(joints)
+        self._runner = TrajectoryRunner(joints)
+        self._follower = Follower(joints, clock=clock)
+        self._velocity = VelocityInput(clock=clock)
+        guests = (self._still, self._runner, self._follower)
+        self.manager = ControllerManager(joints, modes, guests, limits, say)
+
+    @property
+    def must_hold(self) -> bool:
+        """Tell whether the robot must hold still."""
+        return self._still.on
+
+    def follow(
+        self,
+        names: Sequence[str],
+        positions_rad: Sequence[float],
+        velocities_rad_s: Sequence[float] = (),
+        efforts_nm: Sequence[float] = (),
+    ) -> None:
+        """Move some joints as commanded, or raise CommandError."""
+        command = self._names.targets(names, positions_rad, velocities_rad_s, efforts_nm)
+        if not self.must_hold:
+            self.manager.check(self._follower, command.places)
+            self._follower.accept(command)
+
+    def run(self, names: Sequence[str], points: Sequence[TrajectoryPoint]) -> None:
+        """Move some joints along a trajectory, or raise CommandError."""
+        trajectory = checked_trajectory(self._names, self._limits, names, points)
+        if not self.must_hold:
+            self.manager.check(self._runner, trajectory.places)
+            self._runner.accept(trajectory)
+
+    def walk(self, velocity: VelocityCommand) -> None:
+        """Walk at a velocity until the timeout, or raise CommandError."""
+        if self._drive is None:
+            raise CommandError('This robot does not walk: nothing in it takes a velocity.')
+        if not self.must_hold:
+            self._velocity.accept(velocity)
+
+    def hold_still(self, must: bool) -> None:
+        """Begin to hold still, or be released; what was commanded before is forgotten."""
+        if must and not self.must_hold:
+            self._forget()
+        self._still.on = must
+
+    def update(self, observation: Observation) -> JointTargets:
+        """Return the targets of all joints for the coming period."""
+        if self._drive is not None:
+            now_s = observation.time_s
+            self._drive(STANDING if self.must_hold else self._velocity.at(now_s))
+        return self.manager.update(observation)
+
+    def reset(self) -> None:
+        """Begin anew with the next observation."""
+        self._forget()
+        self.manager.reset()
+
+    def _forget(self) -> None:
+        """Forget what was commanded."""
+        self._velocity.clear()
+        self._runner.cancel()
+        self._follower.cancel()

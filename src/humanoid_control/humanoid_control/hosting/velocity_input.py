@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The velocity that somebody wants the robot to walk at, for as long as they say so."""
+
+from __future__ import annotations
+
+from humanoid_control.controllers.silence import Clock, Silence
+from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+
+TIMEOUT_S = 0.5
+
+
+class VelocityInput:
+    """The newest velocity; none after the timeout."""
+
+    def __init__(self, timeout_s: float = TIMEOUT_S, clock: Clock | None = None) -> None:
+        """Begin without a wish."""
+        self._silence = Silence(timeout_s, clock)
+        self._newest = STANDING
+
+    def accept(self, velocity: VelocityCommand) -> None:
+        """Take a velocity."""
+        self._newest = velocity
+        self._silence.heard()
+
+    def clear(self) -> None:
+        """Forget what was wished."""
+        self._silence.end()
+
+    def at(self, now_s: float) -> VelocityCommand:
+        """Return the velocity at a moment of the robot's time."""
+        return STANDING if self._silence.lasts(now_s) else self._newest

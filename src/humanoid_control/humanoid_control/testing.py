@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A robot of three joints, for tests of backends and controllers."""
+
+from __future__ import annotations
+
+from humanoid_control.backends import JointTargets, Observation
+from humanoid_control.limits import JointLimits
+from humanoid_description.drives import Drive
+import numpy as np
+
+JOINTS = ('left_elbow', 'right_elbow', 'left_knee')
+DRIVES = {
+    name: Drive(
+        lower_rad=-2.0,
+        upper_rad=1.0,
+        effort_nm=20.0,
+        velocity_rad_s=10.0,
+        damping_nms_rad=0.2,
+        friction_nm=0.1,
+        kp_nm_rad=60.0,
+        kd_nms_rad=1.8,
+        armature_kgm2=0.01,
+    )
+    for name in JOINTS
+}
+LIMITS = JointLimits.of(DRIVES, JOINTS)
+PERIOD_S = 0.01
+
+
+def observed(time_s: float, *positions_rad: float) -> Observation:
+    """Return an observation of the robot, at rest."""
+    return Observation(
+        time_s=time_s,
+        positions_rad=np.array(positions_rad or (0.0, 0.0, 0.0)),
+        velocities_rad_s=np.zeros(3),
+        efforts_nm=np.zeros(3),
+        orientation=np.array([1.0, 0.0, 0.0, 0.0]),
+        angular_velocity_rad_s=np.zeros(3),
+        linear_acceleration_m_s2=np.array([0.0, 0.0, 9.81]),
+        foot_forces_n=np.zeros((2, 3)),
+        foot_torques_nm=np.zeros((2, 3)),
+    )
+
+
+def targets(*positions_rad: float, velocity_rad_s: float = 0.0) -> JointTargets:
+    """Return targets of the robot."""
+    count = len(positions_rad)
+    return JointTargets(np.array(positions_rad), np.full(count, velocity_rad_s), np.zeros(count))

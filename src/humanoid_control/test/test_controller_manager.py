@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check that each joint has one owner, and changes it smoothly."""
+
+from __future__ import annotations
+
+from humanoid_control.backends import JointTargets, Observation
+from humanoid_control.controllers import (
+    CommandError,
+    ControllerManager,
+    follow_mode,
+    Follower,
+    Hold,
+    hold_mode,
+    JointNames,
+    Mode,
+)
+from humanoid_control.testing import JOINTS, LIMITS, observed, PERIOD_S, targets
+import numpy as np
+import pytest
+
+NAMES = JointNames(JOINTS)
+
+
+class Swinging:
+    """A stand-in for walking: every joint at the sine of the time."""
+
+    name, joints = 'walking', JOINTS
+
+    def __init__(self) -> None:
+        """Begin without a fault."""
+        self.fault = 0.0
+        self.starts = 0
+
+    def start(self, observation: Observation, held: JointTargets) -> None:
+        """Count the starts."""
+        self.starts += 1
+
+    def update(self, observation: Observation) -> JointTargets:
+        """Return the targets of the moment."""
+        now_s = observation.time_s
+        told = targets(*[0.3 * np.sin(now_s)] * 3, velocity_rad_s=0.3 * np.cos(now_s))
+        told.positions_rad[0] += self.fault
+        return told
+
+
+class Robot:
+    """A manager, a clock, and all that it has told the joints."""
+
+    def __init__(self) -> None:
+        """Begin to walk."""
+        self.walking, self.follower = Swinging(), Follower(JOINTS)
+        modes = (
+            Mode('walking', self.walking, ('left_elbow', 'right_elbow')),
+            hold_mode(JOINTS),
+            follow_mode(JOINTS),
+        )
+        self.said: list[str] = []
+        self.manager = ControllerManager(JOINTS, modes, (self.follower,), LIMITS, self.said.append)
+        self.now_s = 0.0
+        self.told: list[JointTargets] = []
+
+    def run(self, periods: int) -> JointTargets:
+        """Let time pass; return the last targets."""
+        for _ in range(periods):
+            self.told.append(self.manager.update(observed(self.now_s)))
+            self.now_s += PERIOD_S
+        return self.told[-1]
+
+    def command(self, joint: str, position_rad: float) -> None:
+        """Command a joint from outside."""
+        command = NAMES.targets([joint], [position_rad])
+        self.manager.check(self.follower, command.places)
+        self.follower.accept(command)
+
+    def largest_step_rad(self) -> float:
+        """Return the largest change of any target in one period."""
+        positions_rad = np.array([told.positions_rad for told in self.told])
+        return float(np.abs(np.diff(positions_rad, axis=0)).max())
+
+    def largest_jolt_rad_s(self) -> float:
+        """Return the largest change of any velocity in one period."""
+        velocities = np.array([told.velocities_rad_s for told in self.told])
+        return float(np.abs(np.diff(velocities, axis=0)).max())
+
+
+def test_begins_where_the_robot_is() -> None:
+    """The first targets are where the joints are, at rest, whatever the mode asks for."""
+    robot = Robot()
+    first = robot.manager.update(observed(0.0, 0.3, -0.3, 0.1))
+    assert first.positions_rad == pytest.approx([0.3, -0.3, 0.1])
+    assert first.velocities_rad_s == pytest.approx([0.0] * 3)
+
+
+def test_mode_moves_all_joints() -> None:
+    """After the blend the targets are those of the mode."""
+    robot = Robot()
+    told = robot.run(100)
+    assert told.positions_rad == pytest.approx([0.3 * np.sin(0.99)] * 3)
+    assert robot.manager.owner('left_elbow') == 'walking'
+
+
+def test_lent_joint_and_back() -> None:
+    """A commanded joint goes to its follower and, when that is silent, back; nothing jumps."""
+    robot = Robot()
+    robot.run(100)
+    robot.told.clear()
+    for _ in range(80):
+        robot.command('left_elbow', -0.5)
+        robot.run(1)
+    assert robot.manager.owner('left_elbow') == 'joint_commands'
+    assert robot.manager.owner('right_elbow') == robot.manager.owner('left_knee') == 'walking'
+    assert robot.told[-1].positions_rad[0] == pytest.approx(-0.5)
+    assert robot.told[-1].positions_rad[1] == pytest.approx(0.3 * np.sin(1.79))
+    robot.run(120)
+    assert robot.manager.owner('left_elbow') == 'walking'
+    assert robot.told[-1].positions_rad[0] == pytest.approx(0.3 * np.sin(2.99))
+    assert robot.largest_step_rad() < 0.05 and robot.largest_jolt_rad_s() < 0.7
+    assert robot.walking.starts == 1, 'walking goes on'
+
+
+def test_joint_that_is_not_lent() -> None:
+    """A command for a joint that walking keeps is refused, with the owner and the way out."""
+    robot = Robot()
+    robot.run(1)
+    with pytest.raises(CommandError) as refusal:
+        robot.command('left_knee', 0.1)
+    assert str(refusal.value) == (
+        "'left_knee' belongs to the mode 'walking', which lends some other joints alone. "
+        "Leave it out, or set the mode to 'follow'."
+    )
+
+
+@pytest.mark.parametrize('mode', ['hold', 'follow'])
+def test_switch_to_rest(mode: str) -> None:
+    """A mode that holds stops every joint smoothly, close to where it was."""
+    robot = Robot()
+    robot.run(100)
+    robot.told.clear()
+    robot.run(1)
+    before = robot.told[-1].positions_rad
+    robot.manager.switch(mode)
+    told = robot.run(60)
+    assert robot.manager.mode == mode
+    assert told.positions_rad == pytest.approx(before, abs=0.03)
+    assert not told.velocities_rad_s.any()
+    assert robot.largest_step_rad() < 0.01 and robot.largest_jolt_rad_s() < 0.05
+
+
+def test_followed_joint_stays_where_it_was_left() -> None:
+    """In the mode 'follow' a joint whose commander falls silent is held where it is."""
+    robot = Robot()
+    robot.manager.switch('follow')
+    robot.run(1)
+    for _ in range(60):
+        robot.command('left_knee', 0.4)
+        robot.run(1)
+    assert robot.run(200).positions_rad == pytest.approx([0.0, 0.0, 0.4])
+    assert robot.manager.owner('left_knee') == 'follow'
+
+
+def test_hold_lends_nothing() -> None:
+    """In the mode 'hold' every command is refused."""
+    robot = Robot()
+    robot.manager.switch('hold')
+    robot.run(1)
+    with pytest.raises(CommandError, match="mode 'hold', which lends no joint"):
+        robot.command('left_elbow', 0.1)
+
+
+def test_a_switch_takes_what_is_no_longer_lent() -> None:
+    """Back in the mode 'walking', a knee that was commanded walks again."""
+    robot = Robot()
+    robot.manager.switch('follow')
+    robot.run(1)
+    robot.command('left_knee', 0.4)
+    robot.run(10)
+    robot.manager.switch('walking')
+    robot.run(100)
+    assert robot.manager.owner('left_knee') == 'walking'
+    assert robot.largest_step_rad() < 0.05
+
+
+def test_unknown_mode() -> None:
+    """A mode that there is not is refused with the one that was meant."""
+    with pytest.raises(CommandError, match="no mode 'walk'. Did you mean 'walking'?"):
+        Robot().manager.switch('walk')
+
+
+def test_reset() -> None:
+    """After a reset it begins anew from where the joints are."""
+    robot = Robot()
+    robot.run(150)
+    robot.manager.reset()
+    told = robot.manager.update(observed(2.0, 0.1, 0.1, 0.1))
+    assert told.positions_rad == pytest.approx([0.1] * 3)
+    assert robot.walking.starts == 2
+
+
+def test_late_period() -> None:
+    """After a gap in time the targets go on without a jump beyond the speed of the joints."""
+    robot = Robot()
+    robot.run(100)
+    before = robot.told[-1].positions_rad
+    robot.now_s += 0.2
+    assert np.abs(robot.run(1).positions_rad - before).max() < 0.1
+
+
+@pytest.mark.parametrize('fault', [np.nan, np.inf])
+def test_controller_at_fault(fault: float) -> None:
+    """A joint whose controller asks for what is no number is held, and it is said why."""
+    robot = Robot()
+    told = robot.run(100)
+    robot.walking.fault = fault
+    after = robot.run(1)
+    assert np.isfinite(after.positions_rad).all()
+    assert after.positions_rad[0] == pytest.approx(told.positions_rad[0], abs=0.01)
+    assert robot.said == [
+        "'walking' asks for a target of 'left_elbow' that is not finite: the joint is held."
+    ]
+
+
+def test_mode_with_too_few_joints() -> None:
+    """A mode must move every joint of the robot."""
+    with pytest.raises(ValueError, match='must claim all joints'):
+        ControllerManager(JOINTS, [Mode('hold', Hold(JOINTS[:2]), ())], (), LIMITS)
