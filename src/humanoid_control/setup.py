@@ -29,6 +29,7 @@ setup(
     entry_points={
         'console_scripts': [
             'joint_controller = humanoid_control.joint_controller:main',
+            'mock_robot = humanoid_control.mock_robot:main',
             'sensor_processor = humanoid_control.sensor_processor:main',
         ],
     },

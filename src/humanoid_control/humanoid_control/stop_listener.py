@@ -23,19 +23,21 @@ class StopListener:
     publishers that keep nothing for those who join late, or send nothing twice.
     """
 
-    def __init__(self, node: Node, heartbeat_timeout_s: float) -> None:
-        """Begin to listen."""
+    def __init__(self, node: Node, heartbeat_timeout_s: float, robot: str = '') -> None:
+        """Begin to listen; `robot` is a namespace in that of the node."""
+        place = f'{robot}/' if robot else ''
         self.guard = StopGuard(heartbeat_timeout_s)
         self._log = node.get_logger()
+        self._release = f'{place}emergency_stop'
         self._said = ''
-        self._state = node.create_publisher(String, 'stop_state', LATCHED)
+        self._state = node.create_publisher(String, f'{place}stop_state', LATCHED)
         self._state.publish(String())
         quiet = SubscriptionEventCallbacks(use_default_callbacks=False)
         for qos in (LATCHED, NEWEST):
             node.create_subscription(
-                Bool, 'emergency_stop', self._order, qos, event_callbacks=quiet
+                Bool, f'{place}emergency_stop', self._order, qos, event_callbacks=quiet
             )
-        node.create_subscription(Bool, 'console_heartbeat', self._heartbeat, NEWEST)
+        node.create_subscription(Bool, f'{place}console_heartbeat', self._heartbeat, NEWEST)
 
     def must_hold(self) -> bool:
         """Tell whether the robot must hold still; the first time, say why."""
@@ -56,7 +58,7 @@ class StopListener:
         if reason:
             self._log.warning(
                 f'Holding still: {reason}. It moves on when false is published on '
-                "'emergency_stop'."
+                f"'{self._release}'."
             )
         else:
             self._log.info('Released: moving on')

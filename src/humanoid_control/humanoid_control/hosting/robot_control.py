@@ -18,10 +18,11 @@ from humanoid_control.controllers import (
 )
 from humanoid_control.controllers.silence import Clock
 from humanoid_control.controllers.still import Still
-from humanoid_control.hosting.velocity_input import STANDING, Velocity, VelocityInput
+from humanoid_control.hosting.velocity_input import VelocityInput
 from humanoid_control.limits import JointLimits
+from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
-Drive = Callable[[Velocity], None]
+Drive = Callable[[VelocityCommand], None]
 
 
 class RobotControl:
@@ -75,7 +76,7 @@ class RobotControl:
             self.manager.check(self._runner, trajectory.places)
             self._runner.accept(trajectory)
 
-    def walk(self, velocity: Velocity) -> None:
+    def walk(self, velocity: VelocityCommand) -> None:
         """Walk at a velocity until the timeout, or raise CommandError."""
         if self._drive is None:
             raise CommandError('This robot does not walk: nothing in it takes a velocity.')

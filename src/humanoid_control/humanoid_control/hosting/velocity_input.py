@@ -3,25 +3,10 @@
 
 from __future__ import annotations
 
-from dataclasses import astuple, dataclass
-import math
-
-from humanoid_control.controllers.commands import CommandError
 from humanoid_control.controllers.silence import Clock, Silence
+from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
 TIMEOUT_S = 0.5
-
-
-@dataclass(frozen=True)
-class Velocity:
-    """How fast to walk forwards and to the left, and to turn to the left."""
-
-    forward_m_s: float = 0.0
-    left_m_s: float = 0.0
-    turn_rad_s: float = 0.0
-
-
-STANDING = Velocity()
 
 
 class VelocityInput:
@@ -32,10 +17,8 @@ class VelocityInput:
         self._silence = Silence(timeout_s, clock)
         self._newest = STANDING
 
-    def accept(self, velocity: Velocity) -> None:
-        """Take a velocity, or refuse one that is no number."""
-        if not all(map(math.isfinite, astuple(velocity))):
-            raise CommandError(f'The velocity is {astuple(velocity)}. Give finite numbers.')
+    def accept(self, velocity: VelocityCommand) -> None:
+        """Take a velocity."""
         self._newest = velocity
         self._silence.heard()
 
@@ -43,6 +26,6 @@ class VelocityInput:
         """Forget what was wished."""
         self._silence.end()
 
-    def at(self, now_s: float) -> Velocity:
+    def at(self, now_s: float) -> VelocityCommand:
         """Return the velocity at a moment of the robot's time."""
         return STANDING if self._silence.lasts(now_s) else self._newest

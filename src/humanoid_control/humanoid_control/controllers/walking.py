@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The walk as a controller of all joints, which lends those of the arms and the head."""
+
+from __future__ import annotations
+
+from humanoid_control.backends import JointTargets, Observation
+from humanoid_control.controllers.modes import Mode
+from humanoid_control.walking.velocity_command import VelocityCommand
+from humanoid_control.walking.walker import Walker
+
+LENT = ('head_', 'shoulder', 'elbow', 'wrist', 'gripper')
+"""A joint whose name contains one of these is not needed to walk."""
+
+
+class WalkingController:
+    """Walks, or stands when its velocity is zero."""
+
+    name = 'walking'
+
+    def __init__(self, walker: Walker) -> None:
+        """Take the walker."""
+        self.walker = walker
+        self.joints = tuple(walker.robot.body.joints)
+
+    def start(self, observation: Observation, held: JointTargets) -> None:
+        """Begin from where the feet are."""
+        self.walker.restart()
+
+    def update(self, observation: Observation) -> JointTargets:
+        """Return the targets for the coming period."""
+        return self.walker.update(observation)
+
+    def drive(self, velocity: VelocityCommand) -> None:
+        """Walk at a velocity."""
+        self.walker.command(velocity)
+
+
+def walking_mode(controller: WalkingController) -> Mode:
+    """Return the mode in which the robot walks; legs and waist are not lent."""
+    lent = tuple(joint for joint in controller.joints if any(part in joint for part in LENT))
+    return Mode(controller.name, controller, lent)

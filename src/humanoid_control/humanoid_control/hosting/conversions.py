@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Turn messages into commands."""
+
+from __future__ import annotations
+
+from geometry_msgs.msg import Twist
+from humanoid_control.controllers import TrajectoryPoint
+from humanoid_control.walking.velocity_command import VelocityCommand
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+
+def velocity_of(message: Twist) -> VelocityCommand:
+    """Return the velocity in the plane, or raise WalkingError; the rest of it means nothing."""
+    return VelocityCommand(message.linear.x, message.linear.y, message.angular.z)
+
+
+def points_of(message: JointTrajectory) -> list[TrajectoryPoint]:
+    """Return the points of a trajectory."""
+    return [_point_of(point) for point in message.points]
+
+
+def _point_of(point: JointTrajectoryPoint) -> TrajectoryPoint:
+    time = point.time_from_start
+    return TrajectoryPoint(
+        time.sec + time.nanosec * 1e-9, point.positions, point.velocities, point.accelerations
+    )

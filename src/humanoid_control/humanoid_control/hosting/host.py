@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run robots inside a node."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+import time
+
+from humanoid_control.backends import Observation
+from humanoid_control.hosting.control_loop import ControlLoop
+from humanoid_control.hosting.pacing import Pace
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+
+SLICE_S = 0.005
+"""After so long with ticks alone, the node hears what has come meanwhile."""
+_AT_ONCE_S = 1e-6
+_EARLY = 0.25
+"""A tick may begin earlier by this share of the interval: no timer is exactly in step."""
+Look = Callable[[], None]
+Tell = Callable[[Mapping[str, Observation]], None]
+
+
+class Host:
+    """
+    Ticks a control loop at a pace, in the thread of its node.
+
+    Callbacks of the node run between ticks, never during one. Before each tick the host looks for
+    what has come; after it, it tells what was observed.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        loop: ControlLoop,
+        pace: Pace,
+        interval_s: float,
+        look: Look,
+        tell: Tell,
+    ) -> None:
+        """
+        Begin to tick as soon as the node is spun.
+
+        :param interval_s: between two ticks at the pace; 0 is as fast as possible
+        """
+        self._loop, self._pace, self._look, self._tell = loop, pace, look, tell
+        self._early_s = _EARLY * interval_s
+        self._paused = False
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(interval_s or _AT_ONCE_S, self._run, clock=steady)
+
+    @property
+    def paused(self) -> bool:
+        """Tell whether no time passes but by `tick`."""
+        return self._paused
+
+    def pause(self, paused: bool) -> None:
+        """Stop the time, or let it go on."""
+        self._paused = paused
+        if paused:
+            self._timer.cancel()
+        else:
+            self._pace.restart(time.monotonic())
+            self._timer.reset()
+
+    def change(self, interval_s: float) -> None:
+        """Tick at another interval; the pace has been told already."""
+        self._early_s = _EARLY * interval_s
+        self._timer.timer_period_ns = int((interval_s or _AT_ONCE_S) * 1e9)
+        if not self._paused:
+            self._timer.reset()
+
+    def tick(self) -> None:
+        """Let one period pass."""
+        self._look()
+        self._tell(self._loop.tick())
+
+    def reset(self, keyframe: str = 'home') -> None:
+        """Put all robots where they began, in a posture that has a name; time goes on."""
+        self._loop.reset(keyframe)
+
+    def _run(self) -> None:
+        """Do the ticks that are due, for a slice of time at most."""
+        now_s = time.monotonic()
+        end_s = now_s + SLICE_S
+        while now_s < end_s and self._pace.wait_s(now_s) <= self._early_s:
+            self.tick()
+            now_s = time.monotonic()
+            self._pace.ticked(now_s)

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The robots of a node: what they hear and what they say."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from humanoid_control.backends import Observation
+from humanoid_control.hosting.parameters import HostParameters
+from humanoid_control.hosting.robot_inputs import RobotInputs
+from humanoid_control.hosting.robot_outputs import RobotOutputs
+from humanoid_control.hosting.walking_robot import WalkingRobotControl
+from rclpy.node import Node
+
+
+class HostedRobots:
+    """Wires the control of each robot to the topics in its namespace."""
+
+    def __init__(
+        self, node: Node, robots: Mapping[str, WalkingRobotControl], parameters: HostParameters
+    ) -> None:
+        """Make the topics."""
+        self._robots = dict(robots)
+        timeout_s = parameters.heartbeat_timeout_s
+        self._inputs = [
+            RobotInputs(node, name, robot.control, timeout_s) for name, robot in robots.items()
+        ]
+        self._outputs = {
+            name: RobotOutputs(node, name, robot, parameters) for name, robot in robots.items()
+        }
+        self.change(parameters)
+
+    def change(self, parameters: HostParameters) -> None:
+        """Go over to another mode, other rates and another patience."""
+        for robot in self._robots.values():
+            robot.control.manager.switch(parameters.mode)
+        for inputs in self._inputs:
+            inputs.stop.guard.heartbeat_timeout_s = parameters.heartbeat_timeout_s
+        for outputs in self._outputs.values():
+            outputs.change(parameters)
+
+    def look(self) -> None:
+        """Hear of a stop, before each tick."""
+        for inputs in self._inputs:
+            inputs.look()
+
+    def tell(self, observations: Mapping[str, Observation]) -> None:
+        """Publish what is due, after each tick."""
+        for name, outputs in self._outputs.items():
+            outputs.publish(observations[name])

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The parameters of every node that runs robots."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import re
+
+from humanoid_common.parameters import parameter, ParameterError
+
+WALKING = 'walking'
+MODES = (WALKING, 'follow', 'hold')
+_NAMESPACE = re.compile(r'[A-Za-z][A-Za-z0-9_]*')
+
+
+@dataclass(frozen=True)
+class HostParameters:
+    """Which robots there are, what they do, and how often they say what."""
+
+    robots: tuple[str, ...] = parameter(
+        ('',),
+        'The namespaces of the robots; an empty text is one robot in the namespace of the node.',
+        read_only=True,
+    )
+    scale: float = parameter(
+        1.0, 'The size of the robots, as in the model.', at_least=0.5, at_most=1.3, read_only=True
+    )
+    prefix: str = parameter(
+        '', 'What the names of all links and joints begin with, as in the model.', read_only=True
+    )
+    control_rate_hz: float = parameter(
+        100.0,
+        'How often the controllers decide in a second of the robot.',
+        at_least=50.0,
+        at_most=500.0,
+        read_only=True,
+    )
+    mode: str = parameter(
+        WALKING,
+        'What the robots do: walking lends arms and head to others, follow all joints, hold none.',
+        choices=MODES,
+    )
+    joint_states_rate_hz: float = parameter(
+        50.0, 'How often joint_states is published; 0 is never.', at_least=0.0, at_most=500.0
+    )
+    imu_rate_hz: float = parameter(
+        100.0, 'How often imu/data is published; 0 is never.', at_least=0.0, at_most=500.0
+    )
+    odometry_rate_hz: float = parameter(
+        50.0, 'How often odom and tf are published; 0 is never.', at_least=0.0, at_most=500.0
+    )
+    debug_rate_hz: float = parameter(
+        10.0,
+        'How often footsteps, walking/dcm and walking/zmp are published; 0 is never.',
+        at_least=0.0,
+        at_most=500.0,
+    )
+    heartbeat_timeout_s: float = parameter(
+        0.5,
+        'How long the console that is in control may be silent before the robots hold still.',
+        at_least=0.2,
+        at_most=10.0,
+    )
+
+    def __post_init__(self) -> None:
+        """Check the names of the robots."""
+        for name in self.robots:
+            if not (name == '' and len(self.robots) == 1) and not _NAMESPACE.fullmatch(name):
+                raise ParameterError(
+                    f"Parameter 'robots' contains '{name}', which is no namespace. Give names of "
+                    'letters, digits and underscores, which begin with a letter; a robot alone '
+                    'may have an empty one.',
+                    'robots',
+                )
+            if self.robots.count(name) > 1:
+                raise ParameterError(
+                    f"Parameter 'robots' names '{name}' more than once. Name every robot once.",
+                    'robots',
+                )

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The topics by which one robot is commanded."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from geometry_msgs.msg import Twist
+from humanoid_common.qos import COMMAND
+from humanoid_control.controllers import CommandError
+from humanoid_control.hosting.conversions import points_of, velocity_of
+from humanoid_control.hosting.refusals import Refusals
+from humanoid_control.hosting.robot_control import RobotControl
+from humanoid_control.hosting.topics.filling import topic
+from humanoid_control.stop_listener import StopListener
+from humanoid_control.walking.errors import WalkingError
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from trajectory_msgs.msg import JointTrajectory
+
+
+class RobotInputs:
+    """
+    Hears `cmd_vel`, `joint_commands`, `joint_trajectory` and the topics of a stop.
+
+    What it hears is stored until the next tick, or refused with the reason in the log.
+    """
+
+    def __init__(
+        self, node: Node, robot: str, control: RobotControl, heartbeat_timeout_s: float
+    ) -> None:
+        """Begin to listen."""
+        self._control = control
+        self._place = topic(robot, '')
+        self._refusals = Refusals(node.get_logger().warning)
+        self.stop = StopListener(node, heartbeat_timeout_s, robot)
+        for kind, name, take in (
+            (Twist, 'cmd_vel', self._walk),
+            (JointState, 'joint_commands', self._follow),
+            (JointTrajectory, 'joint_trajectory', self._run),
+        ):
+            node.create_subscription(kind, topic(robot, name), take, COMMAND)
+
+    def look(self) -> None:
+        """Hold still if the robot must; to be called before each tick."""
+        self._control.hold_still(self.stop.must_hold())
+
+    def _walk(self, message: Twist) -> None:
+        self._attempt('cmd_vel', lambda: self._control.walk(velocity_of(message)))
+
+    def _follow(self, message: JointState) -> None:
+        self._attempt(
+            'joint_commands',
+            lambda: self._control.follow(
+                message.name, message.position, message.velocity, message.effort
+            ),
+        )
+
+    def _run(self, message: JointTrajectory) -> None:
+        self._attempt(
+            'joint_trajectory',
+            lambda: self._control.run(message.joint_names, points_of(message)),
+        )
+
+    def _attempt(self, name: str, command: Callable[[], None]) -> None:
+        """Pass a command on; say why it is refused."""
+        try:
+            command()
+        except (CommandError, WalkingError) as error:
+            self._refusals.add(f"Refused a message on '{self._place}{name}'. {error}")

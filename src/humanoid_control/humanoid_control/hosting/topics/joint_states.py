@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say where the joints are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from humanoid_common.qos import STATE
+from humanoid_control.backends import Observation
+from humanoid_control.hosting.topics.filling import fill_stamp, topic, view
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+
+
+class JointStatesTopic:
+    """The topic `joint_states`."""
+
+    def __init__(self, node: Node, robot: str, joints: Sequence[str]) -> None:
+        """Prepare the message."""
+        zeros = [0.0] * len(joints)
+        self._message = JointState(name=list(joints), position=zeros, velocity=zeros, effort=zeros)
+        self._position = view(self._message.position)
+        self._velocity = view(self._message.velocity)
+        self._effort = view(self._message.effort)
+        self._publisher = node.create_publisher(JointState, topic(robot, 'joint_states'), STATE)
+
+    def publish(self, observation: Observation) -> None:
+        """Publish what was observed."""
+        fill_stamp(self._message.header.stamp, observation.time_s)
+        self._position[:] = observation.positions_rad
+        self._velocity[:] = observation.velocities_rad_s
+        self._effort[:] = observation.efforts_nm
+        self._publisher.publish(self._message)

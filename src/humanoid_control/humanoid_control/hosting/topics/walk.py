@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say how the robot walks: its state, its next steps, and how it keeps its balance."""
+
+from __future__ import annotations
+
+import math
+
+from geometry_msgs.msg import PointStamped
+from humanoid_common.qos import LATCHED, STATE
+from humanoid_control.hosting.topics.filling import fill_stamp, topic
+from humanoid_control.walking.footsteps import Footstep
+from humanoid_control.walking.planar import Point
+from humanoid_control.walking.sides import LEFT
+from humanoid_control.walking.status import WalkStatus
+from rclpy.node import Node
+from std_msgs.msg import ColorRGBA, String
+from visualization_msgs.msg import Marker, MarkerArray
+
+LEFT_COLOR = ColorRGBA(r=0.2, g=0.8, b=0.3, a=0.7)
+RIGHT_COLOR = ColorRGBA(r=0.9, g=0.4, b=0.2, a=0.7)
+THICK_M = 0.004
+LIFETIME_S = 1
+"""After this time without news, footsteps vanish."""
+
+
+class WalkingStateTopic:
+    """The topic `walking_state`: said when it changes, and to those who join late."""
+
+    def __init__(self, node: Node, robot: str) -> None:
+        """Begin with nothing said."""
+        self._publisher = node.create_publisher(String, topic(robot, 'walking_state'), LATCHED)
+        self._said = ''
+
+    def publish(self, state: str) -> None:
+        """Publish the state if it is new."""
+        if state != self._said:
+            self._said = state
+            self._publisher.publish(String(data=state))
+
+
+class BalanceTopics:
+    """The topics `walking/dcm`, which is measured, and `walking/zmp`, which is commanded."""
+
+    def __init__(self, node: Node, robot: str, frame: str) -> None:
+        """Prepare the message."""
+        self._message = PointStamped()
+        self._message.header.frame_id = frame
+        self._dcm, self._zmp = (
+            node.create_publisher(PointStamped, topic(robot, f'walking/{name}'), STATE)
+            for name in ('dcm', 'zmp')
+        )
+
+    def publish(self, time_s: float, status: WalkStatus) -> None:
+        """Publish both points, on the ground."""
+        fill_stamp(self._message.header.stamp, time_s)
+        for publisher, point_m in ((self._dcm, status.dcm_m), (self._zmp, status.zmp_m)):
+            self._message.point.x, self._message.point.y = point_m.real, point_m.imag
+            publisher.publish(self._message)
+
+
+class FootstepsTopic:
+    """The topic `footsteps`: where the feet are to land next."""
+
+    def __init__(self, node: Node, robot: str, frame: str, foot_m: tuple[float, float]) -> None:
+        """Set how long and wide a foot is."""
+        self._frame, self._foot_m = frame, foot_m
+        self._publisher = node.create_publisher(MarkerArray, topic(robot, 'footsteps'), STATE)
+
+    def publish(self, time_s: float, status: WalkStatus) -> None:
+        """Publish the planned landings; those that were shown before vanish."""
+        clear = Marker(action=Marker.DELETEALL)
+        clear.header.frame_id = self._frame
+        steps = [self._marker(time_s, *step) for step in enumerate(status.footsteps)]
+        self._publisher.publish(MarkerArray(markers=[clear, *steps]))
+
+    def _marker(self, time_s: float, number: int, step: Footstep) -> Marker:
+        """Return the picture of a footstep: a thin plate."""
+        marker = Marker(ns='footsteps', id=number, type=Marker.CUBE)
+        marker.header.frame_id = self._frame
+        fill_stamp(marker.header.stamp, time_s)
+        marker.lifetime.sec = LIFETIME_S
+        position_m: Point = step.pose.position_m
+        marker.pose.position.x, marker.pose.position.y = position_m.real, position_m.imag
+        marker.pose.orientation.z = math.sin(step.pose.yaw_rad / 2.0)
+        marker.pose.orientation.w = math.cos(step.pose.yaw_rad / 2.0)
+        marker.scale.x, marker.scale.y = self._foot_m
+        marker.scale.z = THICK_M
+        marker.color = LEFT_COLOR if step.side == LEFT else RIGHT_COLOR
+        return marker

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A robot that walks, ready to be run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from humanoid_control.controllers import follow_mode, hold_mode
+from humanoid_control.controllers.silence import Clock
+from humanoid_control.controllers.walking import walking_mode, WalkingController
+from humanoid_control.hosting.robot_control import RobotControl
+from humanoid_control.limits import JointLimits
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.walker import Walker
+from humanoid_description.drives import Drive
+from humanoid_description.robot import Robot
+
+
+@dataclass(frozen=True, eq=False)
+class WalkingRobotControl:
+    """The walker of a robot, and all that decides what the robot does."""
+
+    walker: Walker
+    control: RobotControl
+
+    @property
+    def home_rad(self) -> dict[str, float]:
+        """Return the posture in which the robot stands, ready to walk."""
+        return dict(zip(self.control.manager.joints, self.walker.home.positions_rad.tolist()))
+
+    @classmethod
+    def of(
+        cls,
+        robot: Robot,
+        drives: Mapping[str, Drive],
+        scale: float = 1.0,
+        clock: Clock | None = None,
+        say: Callable[[str], None] = lambda sentence: None,
+    ) -> WalkingRobotControl:
+        """
+        Return the control of a robot that begins in the mode `walking`.
+
+        :param drives: of all joints, in the order of observations and targets
+        :param clock: the computer's, by which commands time out beside the robot's own time
+        :param say: gets a sentence when a controller is at fault
+        """
+        joints = tuple(drives)
+        walker = Walker.of(robot, drives, joints, WalkParameters().scaled(scale))
+        walking = WalkingController(walker)
+        modes = (walking_mode(walking), follow_mode(joints), hold_mode(joints))
+        limits = JointLimits.of(drives, joints)
+        control = RobotControl(joints, limits, modes, walking.drive, clock, say)
+        return cls(walker, control)

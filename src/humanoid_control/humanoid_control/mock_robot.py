@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run robots without physics: what their joints are told comes true."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import Any
+
+from humanoid_common.errors import NodeStartError
+from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.running import run_node
+from humanoid_control.backends.mock import MockBackend
+from humanoid_control.hosting.control_loop import ControlLoop
+from humanoid_control.hosting.host import Host
+from humanoid_control.hosting.hosted_robots import HostedRobots
+from humanoid_control.hosting.pacing import RealTimePace
+from humanoid_control.hosting.parameters import HostParameters
+from humanoid_control.hosting.walking_robot import WalkingRobotControl
+from humanoid_description.drives import load_drives
+from humanoid_description.errors import DescriptionError
+from humanoid_description.expansion import humanoid_urdf
+from humanoid_description.loading import load_robot
+from rclpy.node import Node
+
+
+class MockRobot(Node):
+    """Takes commands and says where the joints are, as a simulator does, but without physics."""
+
+    def __init__(self, **options: Any) -> None:
+        """Start to run."""
+        super().__init__('robot', **options)
+        self._settings = NodeParameters(self, HostParameters, self._change)
+        parameters = self._settings.current
+        controls, backend = self._build(parameters)
+        self._robots = HostedRobots(self, controls, parameters)
+        loop = ControlLoop(backend, {name: robot.control for name, robot in controls.items()})
+        period_s, pace = backend.period_s, RealTimePace(backend.period_s)
+        self._host = Host(self, loop, pace, period_s, self._robots.look, self._robots.tell)
+        self.get_logger().info(
+            f'Mock robot started: {len(backend.joints)} joints at {1.0 / period_s:g} Hz, '
+            'without physics'
+        )
+
+    def _build(
+        self, parameters: HostParameters
+    ) -> tuple[dict[str, WalkingRobotControl], MockBackend]:
+        """Return the control of every robot, and what moves them."""
+        scale, prefix = parameters.scale, parameters.prefix
+        try:
+            model = load_robot(humanoid_urdf(scale, prefix), 'the humanoid')
+        except DescriptionError as error:
+            raise NodeStartError(f'The mock robot has no model. {error}') from error
+        drives, say = load_drives(scale, prefix), self.get_logger().error
+        controls = {
+            name: WalkingRobotControl.of(model, drives, scale, time.monotonic, say)
+            for name in parameters.robots
+        }
+        home_rad = next(iter(controls.values())).home_rad
+        period_s = 1.0 / parameters.control_rate_hz
+        return controls, MockBackend(drives, parameters.robots, period_s, model.mass_kg, home_rad)
+
+    def _change(self, parameters: HostParameters) -> None:
+        """Follow a change of the parameters."""
+        self._robots.change(parameters)
+
+
+def main() -> int:
+    """Run the node."""
+    return run_node(MockRobot)
+
+
+if __name__ == '__main__':
+    sys.exit(main())
