@@ -6,7 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from humanoid_control.dynamics.rotations import from_quaternion, yaw_of
-from humanoid_control.walking import PlanarPose, VelocityCommand, Walker, WalkParameters
+from humanoid_control.hosting.walking_robot import WalkingRobotControl
+from humanoid_control.walking import PlanarPose, VelocityCommand
 from humanoid_description.loading import load_robot
 from humanoid_simulation.backend import BackendSettings, EntityState, MujocoBackend
 from humanoid_simulation.examples.fall_watch import FallWatch, tilt_rad
@@ -23,7 +24,7 @@ def never() -> bool:
 
 
 class LockstepRobot:
-    """Backend and walker in lockstep; a tick that the controller misses leaves the drives alone."""
+    """Backend and control in lockstep; at a tick that control misses, the drives go on alone."""
 
     def __init__(
         self,
@@ -31,11 +32,12 @@ class LockstepRobot:
         scene: Scene = Scene(),
         misses: Callable[[], bool] = never,
     ) -> None:
-        """Put the robot into a scene; `misses` tells before each tick whether control misses it."""
+        """Put the robot into a scene; `misses` tells at each tick whether control misses it."""
         description = humanoid()
         self.backend = MujocoBackend(description, scene, settings=settings)
-        robot, joints = load_robot(description.urdf, 'the humanoid'), self.backend.joints
-        self.walker = Walker.of(robot, description.drives, joints, WalkParameters())
+        robot = load_robot(description.urdf, 'the humanoid')
+        self.walking = WalkingRobotControl.of(robot, description.drives)
+        self._velocity = VelocityCommand()
         self._misses = misses
         self._fall_watch = FallWatch()
 
@@ -60,12 +62,14 @@ class LockstepRobot:
 
     def drive(self, forward: float = 0.0, left: float = 0.0, turn: float = 0.0) -> None:
         """Walk at a velocity from now on, in m/s and rad/s; without arguments, stand."""
-        self.walker.command(VelocityCommand(forward, left, turn))
+        self._velocity = VelocityCommand(forward, left, turn)
 
     def push(self, direction: complex, impulse_ns: float) -> None:
         """Push the base in a direction of the world, a unit vector of the ground plane."""
         force_n = direction * impulse_ns / PUSH_S
-        self.backend.apply_wrench('base_link', (force_n.real, force_n.imag, 0.0), duration_s=PUSH_S)
+        self.backend.apply_wrench(
+            'base_link', (force_n.real, force_n.imag, 0.0), duration_s=PUSH_S
+        )
 
     def wait(self, duration_s: float) -> bool:
         """Let time pass; return whether the robot is on its feet, as soon as it is not."""
@@ -80,10 +84,11 @@ class LockstepRobot:
         if self._misses():
             self.backend.step({})
         else:
-            observation = self.backend.observe()['']
-            self.backend.step({'': self.walker.update(observation)})
+            control = self.walking.control
+            control.walk(self._velocity)
+            self.backend.step({'': control.update(self.backend.observe()[''])})
 
     def reset(self, keyframe: str = 'home') -> None:
         """Put the robot where it began."""
         self.backend.reset(keyframe)
-        self.walker.reset()
+        self.walking.control.reset()
