@@ -41,7 +41,8 @@ class BodyState:
     A robot of n joints, of which the origin of the root is at zero and does not move.
 
     `BodyModel.state` makes it. Points, vectors and wrenches are in the axes of the world; points
-    are seen from the origin of the root. Each quantity is computed when it is first asked for.
+    are seen from the origin of the root. Each quantity is computed when it is first asked for;
+    those that are kept cannot be written to (copy them).
     """
 
     model: BodyModel
@@ -86,21 +87,18 @@ class BodyState:
     @cached_property
     def com_m(self) -> Array:
         """Return the centre of mass (3,)."""
-        com: Array = self._composites[0, :3, 3] / self.model.mass_kg
-        return com
+        return _kept(self._composites[0, :3, 3] / self.model.mass_kg)
 
     @cached_property
     def com_velocity_m_s(self) -> Array:
         """Return the velocity (3,) of the centre of mass."""
-        velocity: Array = self._momentum[:3, 3] / self.model.mass_kg
-        return velocity
+        return _kept(self._momentum[:3, 3] / self.model.mass_kg)
 
     @cached_property
     def angular_momentum_nms(self) -> Array:
         """Return the angular momentum (3,) about the centre of mass."""
-        about_origin = _axial(self._momentum)
         of_com: Array = skew(self.com_m) @ self._momentum[:3, 3]
-        return about_origin - of_com
+        return _kept(_axial(self._momentum) - of_com)
 
     @cached_property
     def bias_nm(self) -> Array:
@@ -112,13 +110,13 @@ class BodyState:
         """
         n = len(self.model.joints)
         powers = (self._screws * self._forces[1:]).reshape(n, 16)
-        return powers @ np.ones(16)
+        return _kept(powers @ np.ones(16))
 
     @cached_property
     def bias_wrench(self) -> Array:
         """Return what holds the root meanwhile: force (N) and torque (Nm) at its origin, (6,)."""
         total = self._forces[0]
-        return np.concatenate([total[:3, 3], _axial(total)])
+        return _kept(np.concatenate([total[:3, 3], _axial(total)]))
 
     def jacobian(self, link: str, point_m: Array | None = None) -> Array:
         """
@@ -257,6 +255,12 @@ class BodyState:
         """Return the sums over the bodies and all that hangs from each."""
         sums: Array = self.model.tree.carries @ values.reshape(-1, 16)
         return sums.reshape(-1, 4, 4)
+
+
+def _kept(values: Array) -> Array:
+    """Return an array that is computed once, and that nobody may change therefore."""
+    values.setflags(write=False)
+    return values
 
 
 def _axial(moments: Array) -> Array:
