@@ -139,9 +139,8 @@ class WalkParameters:
     """The time constant in which a foot that landed too high or low is brought to the ground."""
 
     # Joints.
-    velocity_filter_1_s: float = _rate(139.0)
-    """How fast the velocity of the joints' targets follows their differences."""
-    acceleration_filter_1_s: float = _rate(102.0)
+    acceleration_filter_1_s: float = _rate(40.0)
+    """How fast the acceleration of the joints' targets follows their differences."""
     velocity_limit_rad_s: float = _rate(12.0)
     acceleration_limit_rad_s2: float = _growing(-1.0, 150.0)
     arm_swing: float = 0.5
