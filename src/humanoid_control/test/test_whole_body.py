@@ -24,6 +24,7 @@ P = WalkParameters()
 FEET = (PlanarPose(0.05 + 0.09j, 0.1), PlanarPose(-0.04 - 0.09j, -0.1))
 BASE = Frame(np.array([0.01, 0.005, 0.68]), from_rpy(0.02, -0.03, 0.1))
 TWIST = Twist(np.array([0.2, -0.05, 0.02]), np.array([0.1, -0.2, 0.3]))
+MOTION = BaseMotion(BASE, TWIST)
 
 
 @pytest.fixture(name='body', scope='module')
@@ -44,7 +45,7 @@ def state_of(walking: WalkingRobot, joints: JointMotion) -> BodyState:
 def test_feet_on_the_ground_stay(body: tuple[WalkingRobot, WholeBody, Footing]) -> None:
     """Where the joints are as told and the base moves as wanted, the soles stand still."""
     walking, whole, footing = body
-    joints = whole.motion(BaseMotion(BASE, TWIST), BASE, footing, None)
+    joints = whole.motion(MOTION, MOTION, footing, None)
     state = state_of(walking, joints)
     for leg, pose in zip(walking.legs, FEET):
         place = [pose.position_m.real, pose.position_m.imag, 0.0]
@@ -62,7 +63,7 @@ def test_a_foot_in_the_air_moves_as_planned(
     walking, whole, footing = body
     sole = SoleMotion(PlanarPose(0.1 - 0.12j, 0.2), 0.03, 0.4 - 0.1j, 0.05, 0.3)
     elsewhere = Frame(BASE.position_m + 0.02, np.eye(3))
-    joints = whole.motion(BaseMotion(elsewhere, TWIST), BASE, footing, Swing(RIGHT, sole))
+    joints = whole.motion(BaseMotion(elsewhere, TWIST), MOTION, footing, Swing(RIGHT, sole))
     state, leg = state_of(walking, joints), walking.legs[RIGHT]
     assert state.position_m(leg.sole) + BASE.position_m == pytest.approx([0.1, -0.12, 0.03])
     velocity = state.velocity_m_s(leg.sole) + TWIST.linear_m_s
@@ -73,9 +74,9 @@ def test_a_foot_in_the_air_moves_as_planned(
 def test_arms_go_with_the_opposite_foot(body: tuple[WalkingRobot, WholeBody, Footing]) -> None:
     """While the left foot is ahead, the right arm is, and the left one is behind."""
     walking, whole, footing = body
-    joints = whole.motion(BaseMotion(BASE, TWIST), BASE, footing, None)
+    joints = whole.motion(MOTION, MOTION, footing, None)
     left, right = (walking.index(f'{side}_shoulder') for side in ('left', 'right'))
     assert joints.positions_rad[left] > 0.0 > joints.positions_rad[right]
     ahead = SoleMotion(FEET[LEFT], 0.02, 0.5 + 0j)
-    moving = whole.motion(BaseMotion(BASE, TWIST), BASE, footing, Swing(LEFT, ahead))
+    moving = whole.motion(MOTION, MOTION, footing, Swing(LEFT, ahead))
     assert moving.velocities_rad_s[left] > 0.0 > moving.velocities_rad_s[right]

@@ -128,6 +128,8 @@ class WalkParameters:
     """At which share of the swing the foot is above its landing."""
     reach_down_m_s: float = _speed(0.2)
     """How fast it goes on down when the ground is late."""
+    swing_follow: float = 0.7
+    """How much of what the pelvis moves beside its plan the foot's velocity makes up for."""
     touchdown_phase: float = 0.6
     """From which share of the swing on a load means that the foot stands."""
     touchdown_load: float = 0.12

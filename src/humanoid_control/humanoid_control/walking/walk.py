@@ -90,7 +90,7 @@ class Walk:
         self._footing.settle(1.0 - math.exp(-passed_s / self._parameters.settle_s))
         joints = self._whole_body.motion(
             self._wanted_base(wanted, output.turning),
-            Frame(self.base.position_m, sensed.state.base_rotation),
+            self._measured_base(),
             self._footing,
             output.swing,
         )
@@ -118,6 +118,14 @@ class Walk:
             for side in SIDES
         )
         return GaitInput(passed_s, self.dcm_m, self._zmp_m, (left, right))
+
+    def _measured_base(self) -> BaseMotion:
+        """Return the base as estimated."""
+        state = self.sensed.state
+        return BaseMotion(
+            Frame(self.base.position_m, state.base_rotation),
+            Twist(self.base.velocity_m_s, state.base_angular_velocity_rad_s),
+        )
 
     def _wanted_base(self, com: Motion, turning: Turning) -> BaseMotion:
         """Return the base that is upright, faces a heading and has the centre of mass right."""

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class BaseMotion:
-    """Where the base is in the odometry's frame and how it moves."""
+    """Where the base is in the odometry's frame and how it moves, measured or wanted."""
 
     frame: Frame
     twist: Twist
@@ -48,19 +48,18 @@ class WholeBody:
         self._robot = robot
         self._home = home
         self._shoulders = [robot.index(f'{name}_shoulder') for name in NAMES]
+        self._follow = parameters.swing_follow
         self._swing_rad_m = parameters.arm_swing / home.base_height_m
 
     def motion(
-        self, wanted: BaseMotion, measured: Frame, footing: Footing, swing: Swing | None
+        self, wanted: BaseMotion, measured: BaseMotion, footing: Footing, swing: Swing | None
     ) -> JointMotion:
         """
         Return how the joints are to move.
 
         Feet on the ground move the pelvis where it is wanted. A foot in the air is placed from
-        where the pelvis is, so that it lands where planned even if the pelvis is elsewhere; but
-        it moves as if the pelvis moved as wanted, so that no shaking is fed back to it.
-
-        :param measured: where the base is
+        where the pelvis is, so that it lands where planned even if the pelvis is elsewhere. Its
+        velocity follows that of the pelvis in part only: all of it would feed back any shaking.
         """
         positions: Array = self._home.positions_rad.copy()
         joints = JointMotion(positions, np.zeros_like(positions))
@@ -68,11 +67,19 @@ class WholeBody:
         bases = [wanted, wanted]
         if swing:
             soles[swing.side] = swing.sole
-            bases[swing.side] = BaseMotion(measured, wanted.twist)
+            bases[swing.side] = BaseMotion(measured.frame, self._followed(wanted, measured))
         for side in SIDES:
             self._move_leg(side, bases[side], soles[side], joints)
         self._swing_arms(soles, joints)
         return joints
+
+    def _followed(self, wanted: BaseMotion, measured: BaseMotion) -> Twist:
+        """Return the motion of the pelvis that a foot in the air makes up for."""
+        a, b = wanted.twist, measured.twist
+        return Twist(
+            a.linear_m_s + self._follow * (b.linear_m_s - a.linear_m_s),
+            a.angular_rad_s + self._follow * (b.angular_rad_s - a.angular_rad_s),
+        )
 
     def _move_leg(
         self, side: int, base: BaseMotion, sole: SoleMotion, joints: JointMotion
