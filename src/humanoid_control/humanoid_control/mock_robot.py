@@ -12,6 +12,7 @@ from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.running import run_node
 from humanoid_control.backends.mock import MockBackend
 from humanoid_control.hosting.control_loop import ControlLoop
+from humanoid_control.hosting.diagnostics import HostDiagnostics
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
 from humanoid_control.hosting.pacing import RealTimePace
@@ -37,6 +38,7 @@ class MockRobot(Node):
         loop = ControlLoop(backend, {name: robot.control for name, robot in controls.items()})
         period_s, pace = backend.period_s, RealTimePace(backend.period_s)
         self._host = Host(self, loop, pace, period_s, self._robots.look, self._robots.tell)
+        self._diagnostics = HostDiagnostics(self, self._host, self._robots)
         self.get_logger().info(
             f'Mock robot started: {len(backend.joints)} joints at {1.0 / period_s:g} Hz, '
             'without physics'

@@ -81,9 +81,14 @@ class ControllerManager:
         """Return the name of the controller that moves a joint."""
         return self._name_of(self._owners[self.joints.index(joint)])
 
+    def lent(self) -> dict[str, str]:
+        """Return the joints that belong to guests now, with the names of these."""
+        places = np.flatnonzero(self._owners != _MODE)
+        return {self.joints[place]: self._name_of(self._owners[place]) for place in places}
+
     def check(self, guest: Guest, places: Indices) -> None:
         """Refuse that a guest moves joints which belong to the mode or to a guest before it."""
-        for place in places[~self._lent[places]]:
+        for place in places[~self._may_lend[places]]:
             raise CommandError(self._not_lent(self.joints[place]))
         rank = self._guests.index(guest)
         owners = self._owners[places]
@@ -117,7 +122,7 @@ class ControllerManager:
                 f'the order {self.joints}, but claims {mode.controller.joints}.'
             )
         self._mode, self._entered = mode, True
-        self._lent = np.isin(self.joints, mode.lends)
+        self._may_lend = np.isin(self.joints, mode.lends)
         for guest in self._guests:
             guest.cancel()
 
@@ -135,7 +140,7 @@ class ControllerManager:
         """Return who owns each joint, (n,): the rank of a guest, or _MODE."""
         owners = np.full(len(self.joints), _MODE)
         for rank in reversed(range(len(self._guests))):
-            owners[self._guests[rank].wanted(now_s) & self._lent] = rank
+            owners[self._guests[rank].wanted(now_s) & self._may_lend] = rank
         return owners
 
     def _news(self, owners: Owners) -> Mask:
