@@ -58,9 +58,14 @@ class MockRobot(Node):
             name: WalkingRobotControl.of(model, drives, scale, time.monotonic, say)
             for name in parameters.robots
         }
-        home_rad = next(iter(controls.values())).home_rad
-        period_s = 1.0 / parameters.control_rate_hz
-        return controls, MockBackend(drives, parameters.robots, period_s, model.mass_kg, home_rad)
+        return controls, MockBackend(
+            drives,
+            parameters.robots,
+            1.0 / parameters.control_rate_hz,
+            model.mass_kg,
+            next(iter(controls.values())).home_rad,
+            self.get_clock().now().nanoseconds * 1e-9,
+        )
 
     def _change(self, parameters: HostParameters) -> None:
         """Follow a change of the parameters."""
