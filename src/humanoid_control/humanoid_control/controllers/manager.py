@@ -54,19 +54,23 @@ class ControllerManager:
         return self._mode.name
 
     @property
+    def is_leaving(self) -> bool:
+        """Tell whether another mode waits for the present one to come to rest."""
+        return self._next is not self._mode
+
+    @property
     def modes(self) -> tuple[str, ...]:
         """Return the names of all modes."""
         return tuple(self._modes)
 
     def switch(self, mode: str) -> None:
-        """Go over to another mode, smoothly."""
+        """Go over to another mode, as soon as the present one can be left, and smoothly."""
         if mode not in self._modes:
             known = ', '.join(self._modes)
             raise CommandError(
                 f"There is no mode '{mode}'. {did_you_mean(mode, self._modes)} It has: {known}."
             )
-        if mode != self.mode:
-            self._enter(self._modes[mode])
+        self._next = self._modes[mode]
 
     def reset(self) -> None:
         """Begin anew with the next observation, from where the joints are then."""
@@ -102,6 +106,8 @@ class ControllerManager:
     def update(self, observation: Observation) -> JointTargets:
         """Return the targets of all joints for the coming period."""
         now_s = observation.time_s
+        if self.is_leaving and self._mode.may_end():
+            self._enter(self._next)
         last = self._last or _at_rest(observation)
         elapsed_s = now_s - self._last_s if self._last else 0.0
         held = _continued(last, elapsed_s)
@@ -121,7 +127,7 @@ class ControllerManager:
                 f"The controller of mode '{mode.name}' must claim all joints of the robot, in "
                 f'the order {self.joints}, but claims {mode.controller.joints}.'
             )
-        self._mode, self._entered = mode, True
+        self._mode, self._next, self._entered = mode, mode, True
         self._may_lend = np.isin(self.joints, mode.lends)
         for guest in self._guests:
             guest.cancel()
