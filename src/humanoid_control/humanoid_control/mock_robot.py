@@ -18,11 +18,17 @@ from humanoid_control.hosting.hosted_robots import HostedRobots
 from humanoid_control.hosting.pacing import RealTimePace
 from humanoid_control.hosting.parameters import HostParameters
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
+from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_description.drives import load_drives
 from humanoid_description.errors import DescriptionError
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot
 from rclpy.node import Node
+
+NO_TURN = (
+    'The mock robot does not turn: its inertial sensor is level and faces ahead for ever. It '
+    'walks straight on and sideways; to turn, use the simulator.'
+)
 
 
 class MockRobot(Node):
@@ -55,7 +61,7 @@ class MockRobot(Node):
             raise NodeStartError(f'The mock robot has no model. {error}') from error
         drives, say = load_drives(scale, prefix), self.get_logger().error
         controls = {
-            name: WalkingRobotControl.of(model, drives, scale, time.monotonic, say)
+            name: WalkingRobotControl.of(model, drives, scale, time.monotonic, say, self._able)
             for name in parameters.robots
         }
         return controls, MockBackend(
@@ -66,6 +72,12 @@ class MockRobot(Node):
             next(iter(controls.values())).home_rad,
             self.get_clock().now().nanoseconds * 1e-9,
         )
+
+    def _able(self, velocity: VelocityCommand) -> VelocityCommand:
+        """Leave out the turn, with a word on why, once."""
+        if velocity.turn_rad_s:
+            self.get_logger().warning(NO_TURN, once=True)
+        return VelocityCommand(velocity.forward_m_s, velocity.left_m_s)
 
     def _change(self, parameters: HostParameters) -> None:
         """Follow a change of the parameters."""

@@ -158,6 +158,15 @@ def test_walk(watch: Watch) -> None:
     watch.ros.wait_until(lambda: watch.last['walking_state'].data == 'stand', 20.0, 'a stand')
 
 
+def test_no_turn(watch: Watch) -> None:
+    """It does not turn, and says so."""
+    watch.start()
+    turn = Twist()
+    turn.angular.z = 0.3
+    publisher = watch.publisher(Twist, 'cmd_vel')
+    watch.keep_on(publisher, turn, lambda: watch.told('does not turn'), 'the warning')
+
+
 def test_knee_is_refused_once(watch: Watch) -> None:
     """A command for a knee is refused with the reason, said once; another mode lends it."""
     robot = watch.start()
