@@ -32,9 +32,13 @@ class SimulatedRobot:
     """A robot in a simulator that runs, which is to stay on its feet in all that a test does."""
 
     def __init__(
-        self, ros: RosSandbox, namespace: str = '', simulator: str = '/simulator'
+        self,
+        ros: RosSandbox,
+        namespace: str = '',
+        simulator: str = '/simulator',
+        runs: bool = True,
     ) -> None:
-        """Wait for the robot."""
+        """Wait for the robot, and for its time unless it does not run yet."""
         self._ros = ros
         self._namespace = namespace
         node = ros.start(lambda **options: Node('robot_watcher', namespace=namespace, **options))
