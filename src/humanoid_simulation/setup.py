@@ -30,6 +30,7 @@ setup(
     entry_points={
         'console_scripts': [
             'push_test = humanoid_simulation.examples.push_test:main',
+            'record_gait = humanoid_simulation.examples.record_gait:main',
             'walk_square = humanoid_simulation.examples.walk_square:main',
         ],
     },
