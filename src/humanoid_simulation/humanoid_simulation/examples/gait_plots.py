@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 _FEET = (('left', 'tab:green'), ('right', 'tab:red'))
 _LEG_JOINTS = ('hip_roll', 'hip_pitch', 'knee', 'ankle_pitch', 'ankle_roll')
+_CLOSE = {'handlelength': 1.0, 'columnspacing': 1.0}
 _COM, _ZMP = 'tab:blue', 'tab:orange'
 
 
@@ -35,7 +36,7 @@ def draw_gait(recording: GaitRecording, path: Path) -> None:
 def _legend(axes: Any) -> None:
     """Say what the lines are, above them."""
     axes.margins(y=0.15)
-    axes.legend(loc='upper center', ncols=5, fontsize='small')
+    axes.legend(loc='upper center', ncols=5, fontsize='small', **_CLOSE)
 
 
 def _above(axes: Any, recording: GaitRecording) -> None:
