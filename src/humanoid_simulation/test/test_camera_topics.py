@@ -144,7 +144,9 @@ def test_two_robots(make_set: MakeSet) -> None:
     first = two.collect(Image, 'robot1/camera/image_raw')
     second = two.collect(Image, 'robot2/camera/image_raw')
     two.tick_until(lambda: bool(first) and bool(second), 'pictures of both')
-    assert any(first[0].data) and not any(second[0].data)
+    wall, sky = list(first[0].data[:3]), list(second[0].data[:3])
+    assert wall == pytest.approx([128, 130, 128], abs=3)
+    assert sky == pytest.approx([51, 102, 153], abs=3)
 
 
 def test_off(make_set: MakeSet) -> None:
