@@ -72,9 +72,9 @@ class IdealRobot:
     def _sole(self, side: int) -> SoleReading:
         """Return a sole that is where it was told to be at the tick before."""
         swing = self.output.swing if self.output else None
-        if swing and swing[0] == side:
-            stands = swing[2] <= 0.0
-            return SoleReading(swing[1], max(0.0, swing[2]), 0.5 if stands else 0.0)
+        if swing and swing.side == side:
+            height_m = max(0.0, swing.sole.height_m)
+            return SoleReading(swing.sole.pose, height_m, 0.0 if height_m else 0.5)
         return SoleReading(self.footing.pose(side), 0.0, 0.5)
 
 

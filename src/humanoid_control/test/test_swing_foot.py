@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from humanoid_control.walking.planar import PlanarPose
-from humanoid_control.walking.swing_foot import lift_m, SwingFoot
+from humanoid_control.walking.swing_foot import Lift, SwingFoot
 import pytest
 
 LANDING = PlanarPose(0.3 + 0.1j, 0.4)
@@ -59,8 +59,23 @@ def test_it_turns_the_short_way() -> None:
     assert 3.0 < foot.pose.yaw_rad < 3.3
 
 
+LIFT = Lift(0.05, 0.4, 0.2)
+
+
 def test_lift() -> None:
-    """The foot is on the ground at both ends, at its highest in the middle, and not below."""
-    assert lift_m(0.05, 0.0) == lift_m(0.05, 1.0) == lift_m(0.05, 1.3) == 0.0
-    assert lift_m(0.05, 0.5) == pytest.approx(0.05)
-    assert lift_m(0.05, 0.01) < 1e-4
+    """The foot is on the ground at both ends, gently, and at its highest in the middle."""
+    for time_s in (-0.1, 0.0, 0.4):
+        assert LIFT.at(time_s) == pytest.approx((0.0, 0.0), abs=1e-12)
+    assert LIFT.at(0.2) == pytest.approx((0.05, 0.0))
+
+
+def test_climb_is_the_slope_of_the_height() -> None:
+    """The rate of climb is the derivative of the height."""
+    for time_s in (0.03, 0.15, 0.3, 0.45):
+        slope = (LIFT.at(time_s + 1e-6)[0] - LIFT.at(time_s - 1e-6)[0]) / 2e-6
+        assert LIFT.at(time_s)[1] == pytest.approx(slope, abs=1e-6)
+
+
+def test_late_ground_is_reached_for() -> None:
+    """After the planned landing the foot goes on down."""
+    assert LIFT.at(0.5) == pytest.approx((-0.02, -0.2))

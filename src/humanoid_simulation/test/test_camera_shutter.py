@@ -11,8 +11,8 @@ def taken_ms(rate_hz: float, tick_ms: int, until_ms: int) -> list[int]:
     """Return when pictures are taken, with a tick in so many milliseconds."""
     shutter, times = Shutter(rate_hz), []
     for time_ms in range(0, until_ms, tick_ms):
-        if shutter.is_due(time_ms / 1000):
-            shutter.release(time_ms / 1000)
+        if shutter.is_due(time_ms * 1_000_000):
+            shutter.release(time_ms * 1_000_000)
             times.append(time_ms)
     return times
 
@@ -31,10 +31,10 @@ def test_mean_rate(rate_hz: float) -> None:
 def test_late() -> None:
     """What could not be taken in time is due until it is, and then on the grid again."""
     shutter = Shutter(10.0)
-    shutter.release(0.0)
-    assert shutter.is_due(0.15) and shutter.is_due(0.25)
-    shutter.release(0.25)
-    assert not shutter.is_due(0.29) and shutter.is_due(0.3)
+    shutter.release(0)
+    assert shutter.is_due(150_000_000) and shutter.is_due(250_000_000)
+    shutter.release(250_000_000)
+    assert not shutter.is_due(290_000_000) and shutter.is_due(300_000_000)
 
 
 def test_off() -> None:

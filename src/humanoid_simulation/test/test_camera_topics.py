@@ -10,7 +10,6 @@ from typing import Any
 
 from humanoid_common.parameters import build, ParameterError
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
-from humanoid_simulation.backend import Snapshot
 from humanoid_simulation.camera.parameters import CameraParameters
 from humanoid_simulation.camera.topics import CameraTopics
 from humanoid_simulation.errors import SimulationError
@@ -25,13 +24,19 @@ SMALL = {'camera_width_px': 64, 'camera_height_px': 49, 'camera_renderer': 'rays
 class Set:
     """The cameras of a node, and a clock that ticks when the test wants."""
 
-    def __init__(self, ros: RosSandbox, cameras: Mapping[str, str], **parameters: Any) -> None:
+    def __init__(
+        self,
+        ros: RosSandbox,
+        cameras: Mapping[str, str],
+        prefix: str = '',
+        **parameters: Any,
+    ) -> None:
         """Begin at time 0."""
         self._ros = ros
         self._model, self._data = world()
         self.node = ros.observer()
         given = build(CameraParameters, {**SMALL, **parameters})
-        self.topics = CameraTopics(self.node, cameras, self._model, self._take, given)
+        self.topics = CameraTopics(self.node, cameras, self._model, given, prefix)
         self._ticks = 0
 
     def collect(self, kind: Any, topic: str) -> list[Any]:
@@ -52,16 +57,12 @@ class Set:
     def tick(self) -> None:
         """Tick once."""
         self._ticks += 1
-        self.topics.tick(time.monotonic(), self.time_s)
+        self.topics.tick(time.monotonic(), self.time_ns, self._data)
 
     @property
-    def time_s(self) -> float:
+    def time_ns(self) -> int:
         """Return the simulated time."""
-        return self._ticks * 0.01
-
-    def _take(self) -> Snapshot:
-        """Copy the state."""
-        return Snapshot(self.time_s, self._data.qpos, self._data.qvel)
+        return self._ticks * 10_000_000
 
 
 MakeSet = Callable[..., Set]
@@ -97,15 +98,16 @@ def test_color(make_set: MakeSet) -> None:
     assert image.header.frame_id == 'camera_optical_frame' and not image.is_bigendian
     pixels = np.frombuffer(image.data, np.uint8).reshape(49, 64, 3)
     assert pixels[5, 5] == pytest.approx([128, 130, 128], abs=3)
-    assert 0 < stamp_ns(image) < stamp_ns(images[1]) <= one.time_s * 1e9 + 1
+    assert 0 < stamp_ns(image) < stamp_ns(images[1]) <= one.time_ns
 
 
 def test_depth(make_set: MakeSet) -> None:
     """A depth picture is in metres."""
-    one = make_set({'': 'eye'})
+    one = make_set({'': 'eye'}, prefix='my_')
     images = one.collect(Image, 'camera/depth/image_raw')
     one.tick_until(lambda: bool(images), 'a picture')
     image = images[0]
+    assert image.header.frame_id == 'my_camera_optical_frame'
     assert (image.encoding, image.step) == ('32FC1', 256)
     metres = np.frombuffer(image.data, np.float32).reshape(49, 64)
     assert metres[5, 5] == pytest.approx(2.0, abs=1e-3)
@@ -142,7 +144,9 @@ def test_two_robots(make_set: MakeSet) -> None:
     first = two.collect(Image, 'robot1/camera/image_raw')
     second = two.collect(Image, 'robot2/camera/image_raw')
     two.tick_until(lambda: bool(first) and bool(second), 'pictures of both')
-    assert any(first[0].data) and not any(second[0].data)
+    wall, sky = list(first[0].data[:3]), list(second[0].data[:3])
+    assert wall == pytest.approx([128, 130, 128], abs=3)
+    assert sky == pytest.approx([51, 102, 153], abs=3)
 
 
 def test_off(make_set: MakeSet) -> None:

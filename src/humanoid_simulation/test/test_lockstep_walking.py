@@ -7,6 +7,7 @@ from humanoid_control.walking import PlanarPose
 from humanoid_simulation.backend import BackendSettings
 from humanoid_simulation.backend.noise import REALISTIC
 from humanoid_simulation.disturbances import DropOuts
+from humanoid_simulation.examples.square_drive import Corner, SquareDrive, SquarePlan
 from humanoid_simulation.testing.lockstep_robot import LockstepRobot
 import numpy as np
 import pytest
@@ -68,3 +69,25 @@ def test_a_reset_while_walking_forgets_the_walk() -> None:
     robot.drive(0.25)
     assert robot.wait(3.0)
     assert robot.pose.position_m.real > 0.3
+
+
+def test_a_square_by_odometry() -> None:
+    """The drive of the example leads a robot that really steps round its square, and stops it."""
+    robot = LockstepRobot()
+    assert robot.wait(1.0)
+    drive, corners = SquareDrive(odometry(robot), SquarePlan(side_m=0.6)), list[Corner]()
+    while not drive.is_done and robot.backend.time_s < 60.0:
+        command, corner = drive.update(odometry(robot))
+        corners += [corner] if corner else []
+        robot.drive(command.forward_m_s, command.left_m_s, command.turn_rad_s)
+        assert robot.wait(0.02)
+    assert robot.wait(3.0)
+    assert [corner.number for corner in corners] == [1, 2, 3, 4]
+    assert abs(robot.pose.position_m) < 0.15
+
+
+def odometry(robot: LockstepRobot) -> PlanarPose:
+    """Return where the robot believes to be."""
+    status = robot.walking.walker.status
+    assert status is not None
+    return status.odometry.pose

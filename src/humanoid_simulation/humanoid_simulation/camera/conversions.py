@@ -15,9 +15,9 @@ from sensor_msgs.msg import CameraInfo, Image
 _NANOSECONDS = 1_000_000_000
 
 
-def stamp_of(time_s: float) -> Time:
+def stamp_of(time_ns: int) -> Time:
     """Return a time as ROS writes it."""
-    seconds, nanoseconds = divmod(round(time_s * _NANOSECONDS), _NANOSECONDS)
+    seconds, nanoseconds = divmod(time_ns, _NANOSECONDS)
     return Time(sec=seconds, nanosec=nanoseconds)
 
 

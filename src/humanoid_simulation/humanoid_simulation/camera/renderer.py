@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 import os
-from typing import TYPE_CHECKING
 
 from humanoid_simulation.camera.frames import Frames, unnamed_file
 from humanoid_simulation.camera.painter import Color, Depth
@@ -16,16 +15,14 @@ from humanoid_simulation.camera.render_process import RenderProcess
 from humanoid_simulation.camera.view import CameraView, check_views, Wanted
 import mujoco
 import numpy as np
-
-if TYPE_CHECKING:  # the process that draws is to start without all of the backend
-    from humanoid_simulation.backend import Snapshot
+from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, eq=False)
 class Pictures:
     """What each view showed at a moment; valid until the next request."""
 
-    time_s: float
+    time_ns: int
     wanted: tuple[Wanted, ...]
     colors: Sequence[Color]
     depths: Sequence[Depth]
@@ -54,7 +51,7 @@ class Renderer:
         self._frames = Frames(self._frames_file, model.nq, views)
         self._keeper = ProcessKeeper(self._start, methods, log, patience)
         self._is_needed = False
-        self._requested: tuple[float, tuple[Wanted, ...]] | None = None
+        self._requested: tuple[int, tuple[Wanted, ...]] | None = None
 
     @property
     def process_id(self) -> int | None:
@@ -71,14 +68,17 @@ class Renderer:
         """Tell whether a request can be made."""
         return self._keeper.can_draw and self._requested is None
 
-    def request(self, snapshot: Snapshot, wanted: Sequence[Wanted], now_s: float) -> None:
+    def request(
+        self, qpos: NDArray[np.float64], time_ns: int, wanted: Sequence[Wanted], now_s: float
+    ) -> None:
         """
-        Have a state drawn; only when `can_draw`.
+        Copy positions, (nq,), and have them drawn; only when `can_draw`.
 
-        `wanted` has one element for each view; `now_s` is that of a clock that nobody sets.
+        `wanted` has one element for each view. `time_ns` is that of the state; `now_s` is that of
+        a clock that nobody sets.
         """
-        self._frames.qpos[:] = snapshot.qpos
-        self._requested = (snapshot.time_s, tuple(wanted))
+        self._frames.qpos[:] = qpos
+        self._requested = (time_ns, tuple(wanted))
         self._keeper.request(wanted, now_s)
 
     def poll(self, now_s: float) -> Pictures | None:
@@ -105,11 +105,11 @@ class Renderer:
         """Start a process that draws by a method."""
         return RenderProcess(Assignment(method, self._model_file, self._frames_file, self._views))
 
-    def _finished(self, time_s: float, wanted: tuple[Wanted, ...]) -> Pictures:
+    def _finished(self, time_ns: int, wanted: tuple[Wanted, ...]) -> Pictures:
         """Return the pictures that are in the memory now."""
         self._requested = None
         self._keeper.note_picture()
-        return Pictures(time_s, wanted, self._frames.colors, self._frames.depths)
+        return Pictures(time_ns, wanted, self._frames.colors, self._frames.depths)
 
 
 def _file_with(model: mujoco.MjModel) -> int:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+_NANOSECONDS = 1_000_000_000
 _TINY = 1e-6
 """By so many periods a time may miss the beginning of one, for all that numbers are round."""
 
@@ -19,14 +20,14 @@ class Shutter:
         self._rate_hz = rate_hz
         self._last: int | None = None
 
-    def is_due(self, time_s: float) -> bool:
+    def is_due(self, time_ns: int) -> bool:
         """Tell whether a picture is to be taken at a time."""
-        return self._period_of(time_s) != self._last
+        return self._period_of(time_ns) != self._last
 
-    def release(self, time_s: float) -> None:
+    def release(self, time_ns: int) -> None:
         """Note that a picture was taken."""
-        self._last = self._period_of(time_s)
+        self._last = self._period_of(time_ns)
 
-    def _period_of(self, time_s: float) -> int:
+    def _period_of(self, time_ns: int) -> int:
         """Return the number of the period that a time is in; exact where periods begin."""
-        return int(time_s * self._rate_hz + _TINY)
+        return int(time_ns * self._rate_hz / _NANOSECONDS + _TINY)

@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
-from humanoid_simulation.backend import Snapshot
 from humanoid_simulation.camera.conversions import stamp_of
 from humanoid_simulation.camera.methods import methods_of
 from humanoid_simulation.camera.parameters import CameraParameters
@@ -29,8 +28,8 @@ class CameraTopics:
         node: Node,
         cameras: Mapping[str, str],
         model: mujoco.MjModel,
-        take: Callable[[], Snapshot],
         parameters: CameraParameters,
+        prefix: str = '',
     ) -> None:
         """
         Announce the topics; raise SimulationError if the model has not the cameras.
@@ -39,18 +38,18 @@ class CameraTopics:
 
         :param cameras: the name of the camera in the model, by the namespace of its robot
             relative to the node: '' for a robot alone
-        :param take: copies the state; called when a picture is taken, within `tick`
+        :param prefix: what the names of frames begin with
         """
         cameras = cameras if parameters.camera_rate_hz > 0.0 else {}
         width_px, height_px = parameters.camera_width_px, parameters.camera_height_px
         views = [CameraView(camera, width_px, height_px) for camera in cameras.values()]
         methods = methods_of(parameters.camera_renderer)
         self._renderer = Renderer(model, views, methods, node.get_logger())
+        frame = f'{prefix}{parameters.camera_frame}'
         self._publishers = [
-            CameraPublisher(node, _prefix(robot), pinhole_of(model, view), parameters.camera_frame)
+            CameraPublisher(node, _folder(robot), pinhole_of(model, view), frame)
             for robot, view in zip(cameras, views)
         ]
-        self._take_snapshot = take
         self._shutter = Shutter(parameters.camera_rate_hz)
 
     @property
@@ -58,44 +57,45 @@ class CameraTopics:
         """Return the number of the process that draws, if it runs."""
         return self._renderer.process_id
 
-    def tick(self, now_s: float, time_s: float) -> None:
+    def tick(self, now_s: float, time_ns: int, data: mujoco.MjData) -> None:
         """
         Publish what was drawn; have the state drawn if it is time. Call it once a control period.
 
-        `now_s` is that of a clock that nobody sets, `time_s` the simulated time.
+        `now_s` is that of a clock that nobody sets, `time_ns` the simulated time of the state,
+        which is read here only.
         """
         pictures = self._renderer.poll(now_s)
         if pictures is not None:
             self._publish(pictures)
-        if self._shutter.is_due(time_s):
-            self._take(now_s, time_s)
+        if self._shutter.is_due(time_ns):
+            self._take(now_s, time_ns, data)
 
     def close(self) -> None:
         """End the process that draws."""
         self._renderer.close()
 
-    def _take(self, now_s: float, time_s: float) -> None:
+    def _take(self, now_s: float, time_ns: int, data: mujoco.MjData) -> None:
         """Have the state drawn for those who look, as soon as the last one is done."""
         wanted = [publisher.wanted() for publisher in self._publishers]
         if any(wanted):
             self._renderer.need()
             if not self._renderer.can_draw:
                 return
-            self._renderer.request(self._take_snapshot(), wanted, now_s)
-        self._shutter.release(time_s)
-        stamp = stamp_of(time_s)
+            self._renderer.request(data.qpos, time_ns, wanted, now_s)
+        self._shutter.release(time_ns)
+        stamp = stamp_of(time_ns)
         for publisher in self._publishers:
             publisher.publish_info(stamp)
 
     def _publish(self, pictures: Pictures) -> None:
         """Publish what was drawn."""
-        stamp = stamp_of(pictures.time_s)
+        stamp = stamp_of(pictures.time_ns)
         for publisher, wanted, color, depth in zip(
             self._publishers, pictures.wanted, pictures.colors, pictures.depths
         ):
             publisher.publish(wanted, color, depth, stamp)
 
 
-def _prefix(robot: str) -> str:
+def _folder(robot: str) -> str:
     """Return what comes before the names of the topics of a robot."""
     return f'{robot}/' if robot else ''

@@ -9,7 +9,6 @@ import logging
 import time
 
 from humanoid_common.testing.waiting import wait_until
-from humanoid_simulation.backend import Snapshot
 from humanoid_simulation.camera import CameraView, Renderer, Wanted
 from humanoid_simulation.camera.process_keeper import Patience
 from humanoid_simulation.camera.renderer import Pictures
@@ -31,7 +30,7 @@ class Studio:
         self.renderer = Renderer(self.model, views, methods, self.log, patience)
         self.renderer.need()
         self._count = len(views)
-        self._time_s = 0.0
+        self._time_ns = 0
 
     def picture(self, wanted: Sequence[Wanted] = ()) -> Pictures:
         """Return the pictures of the state as it is now."""
@@ -48,10 +47,9 @@ class Studio:
 
     def ask(self, wanted: Sequence[Wanted] = ()) -> None:
         """Have the state drawn as it is now."""
-        self._time_s += 0.1
+        self._time_ns += 1
         every = list(wanted) or [ALL] * self._count
-        snapshot = Snapshot(self._time_s, self.data.qpos, self.data.qvel)
-        self.renderer.request(snapshot, every, time.monotonic())
+        self.renderer.request(self.data.qpos, self._time_ns, every, time.monotonic())
 
     def wait_until(self, predicate: Callable[[], bool], what: str) -> None:
         """Poll until the predicate holds."""
