@@ -86,7 +86,7 @@ class Host:
             return
         now_s = time.monotonic()
         end_s, early_s = now_s + SLICE_S, _EARLY * self._interval_s
-        while now_s < end_s and self._pace.wait_s(now_s) <= early_s:
+        while not self._paused and now_s < end_s and self._pace.wait_s(now_s) <= early_s:
             self.tick()
             before_s, now_s = now_s, time.monotonic()
             self.load.add(now_s - before_s)
