@@ -16,7 +16,7 @@ SETUP := $(PYTHON) tools/setup
 RUN := tools/foreground tools/in_environment
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build bringup run test check fix bench docs pictures lock clean distclean
+.PHONY: help setup build bringup run test check fix bench soak docs pictures lock clean distclean
 
 help: ## Show this list
 	@echo 'The humanoid workspace. Each command makes what it needs.'
@@ -47,7 +47,7 @@ fix: setup ## Format the code and mend what ruff can
 	@tools/in_environment --underlay ruff format .
 	@tools/in_environment --underlay ruff check --fix .
 
-bench: build ## Measure what commands, launches, bags, transforms and RViz cost
+bench: build ## Measure what commands, launches, bags, transforms, RViz and physics cost
 	@$(RUN) python3 tools/benchmarks/command_times.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/launch_times.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/prefork_times.py $(ARGS)
@@ -56,6 +56,10 @@ bench: build ## Measure what commands, launches, bags, transforms and RViz cost
 	@$(RUN) python3 tools/benchmarks/robot_state_publisher.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/tf2_lookups.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/rviz.py $(ARGS)
+	@$(RUN) python3 tools/benchmarks/simulation.py $(ARGS)
+
+soak: build ## Let the humanoid walk for 20 minutes under bad conditions
+	@$(RUN) python3 tools/benchmarks/walking_soak.py $(ARGS)
 
 docs: build ## Write docs/reference anew from the code, the commands and the launch files
 	@tools/in_environment python3 tools/reference/generate.py

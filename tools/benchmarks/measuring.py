@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 import os
+from pathlib import Path
 from statistics import median
 import subprocess
 import time
@@ -49,3 +51,21 @@ def median_cost(command: list[str], runs: int) -> Cost:
 def median_of(measure: Callable[[], float], runs: int) -> float:
     """Return the median of several measurements after one that is not counted."""
     return median([measure() for _ in range(runs + 1)][1:])
+
+
+@contextmanager
+def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
+    """Run a command for the time of a `with`."""
+    with subprocess.Popen(
+        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    ) as process:
+        try:
+            yield process
+        finally:
+            process.terminate()
+
+
+def cpu_s(process: subprocess.Popen[bytes]) -> float:
+    """Return the CPU time that a process has used so far."""
+    fields = Path(f'/proc/{process.pid}/stat').read_text().rpartition(')')[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')

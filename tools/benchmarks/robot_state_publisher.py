@@ -13,13 +13,13 @@ from contextlib import contextmanager
 import os
 from pathlib import Path
 from statistics import median
-import subprocess
 import sys
 import tempfile
 import time
 from typing import Any
 
 from domain_coordinator import domain_id
+from measuring import cpu_s, running
 import rclpy
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
@@ -92,18 +92,6 @@ def share_of(command: list[str], rate_hz: int) -> tuple[float, float]:
 
 
 @contextmanager
-def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a command for the time of a `with`."""
-    with subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    ) as process:
-        try:
-            yield process
-        finally:
-            process.terminate()
-
-
-@contextmanager
 def sender() -> Iterator[tuple[Any, Any]]:
     """Make a node that publishes joint states; wait until somebody hears them."""
     rclpy.init()
@@ -135,12 +123,6 @@ def send(node: Any, states: Any, rate_hz: int, seconds: float) -> int:
         states.publish(message)
     node.destroy_subscription(tf)
     return len(heard)
-
-
-def cpu_s(process: subprocess.Popen[bytes]) -> float:
-    """Return the CPU time that a process has used so far."""
-    fields = Path(f'/proc/{process.pid}/stat').read_text().rpartition(')')[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
 
 
 def urdf() -> str:

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How what a robot measures is put into one array, but for the orientation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Channels:
+    """The parts of an array of so many values; feet are left, right."""
+
+    positions: slice
+    velocities: slice
+    efforts: slice
+    angular_velocity: slice
+    acceleration: slice
+    forces: slice
+    torques: slice
+
+    @property
+    def size(self) -> int:
+        """Return how many values there are."""
+        return int(self.torques.stop)
+
+
+def channels_of(joints: int) -> Channels:
+    """Return the parts for a robot with so many joints."""
+    parts = []
+    at = 0
+    for length in (joints, joints, joints, 3, 3, 6, 6):
+        parts.append(slice(at, at + length))
+        at += length
+    return Channels(*parts)

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What touches what."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from humanoid_control.backends import Array
+import mujoco
+import numpy as np
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """
+    A point at which two bodies touch, in world axes.
+
+    The normal (3,) points from the first body to the second one; the force (3,) is that of the
+    first on the second.
+    """
+
+    body1: str
+    body2: str
+    position_m: Array
+    normal: Array
+    force_n: Array
+
+
+def contacts_in(model: Any, data: Any, names: Sequence[str]) -> Iterator[Contact]:
+    """Yield the contacts of a world; the names are those of its bodies."""
+    wrench = np.empty(6)
+    bodies = model.geom_bodyid
+    for number in range(data.ncon):
+        contact = data.contact[number]
+        mujoco.mj_contactForce(model, data, number, wrench)
+        axes = contact.frame.reshape(3, 3)
+        yield Contact(
+            names[bodies[contact.geom1]],
+            names[bodies[contact.geom2]],
+            contact.pos.copy(),
+            axes[0].copy(),
+            wrench[:3] @ axes,
+        )

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the numbers of a floating body are in those of the world."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Floating:
+    """Parts of the position, and of the velocity: linear in the world, angular in the body."""
+
+    position: slice
+    orientation: slice
+    linear: slice
+    angular: slice
+
+
+def floating_body(model: Any, joint: str) -> Floating:
+    """Find the body that a free joint lets float."""
+    found = model.joint(joint)
+    at, rate_at = int(found.qposadr[0]), int(found.dofadr[0])
+    return Floating(
+        slice(at, at + 3),
+        slice(at + 3, at + 7),
+        slice(rate_at, rate_at + 3),
+        slice(rate_at + 3, rate_at + 6),
+    )

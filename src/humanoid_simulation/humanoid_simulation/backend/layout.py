@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the numbers of a robot are in those of the world."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from humanoid_control.backends import Array
+from humanoid_simulation.backend.floating import Floating, floating_body
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.model import in_world, RobotDescription
+from humanoid_simulation.model.robot_spec import ACCELEROMETER, FLOATING_BASE
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+Indices = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Indices into arrays of MuJoCo: of the base, of n joints and of sensors."""
+
+    floating: Floating
+    positions: Indices
+    velocities: Indices
+    servos: Indices
+    acceleration: slice
+    base: int
+    feet: tuple[int, int]
+    soles: tuple[int, int]
+    imu_mount: Array
+    """How the unit is turned on the base: a quaternion (4,)."""
+
+
+def layout_of(model: Any, description: RobotDescription, robot: str) -> Layout:
+    """Find a robot in a world."""
+
+    def body(name: str) -> int:
+        return int(model.body(in_world(robot, name)).id)
+
+    names = [in_world(robot, name) for name in description.drives]
+    sensor = int(model.sensor(in_world(robot, ACCELEROMETER)).adr[0])
+    left, right = description.feet
+    left_sole, right_sole = description.soles
+    base = body(description.base)
+    return Layout(
+        floating_body(model, in_world(robot, FLOATING_BASE)),
+        np.array([model.joint(name).qposadr[0] for name in names], dtype=np.intp),
+        np.array([model.joint(name).dofadr[0] for name in names], dtype=np.intp),
+        np.array([model.actuator(name).id for name in names], dtype=np.intp),
+        slice(sensor, sensor + 3),
+        base,
+        (body(left), body(right)),
+        (body(left_sole), body(right_sole)),
+        _mount(model, body(description.imu), base),
+    )
+
+
+def _mount(model: Any, body: int, base: int) -> Array:
+    """Return how a body is turned that is fixed to the base."""
+    mount = np.array([1.0, 0.0, 0.0, 0.0])
+    while body != base:
+        if body == 0 or model.body_jntnum[body]:
+            raise SimulationError(
+                'The inertial measurement unit must be fixed to the base, but '
+                f"'{model.body(body).name}' lies between them."
+            )
+        outer = mount.copy()
+        mujoco.mju_mulQuat(mount, model.body_quat[body], outer)
+        body = int(model.body_parentid[body])
+    return mount

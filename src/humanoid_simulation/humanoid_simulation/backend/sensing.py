@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the sensors of a robot say."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from humanoid_control.backends import Array, Observation
+from humanoid_simulation.backend.channels import channels_of
+from humanoid_simulation.backend.layout import Layout
+from humanoid_simulation.backend.noise import NoiseSource
+from humanoid_simulation.rotations import from_vector, inverse, product, rotated
+import mujoco
+import numpy as np
+
+
+class Sensors:
+    """
+    Measures a robot in a world.
+
+    Joints and rates are those of this moment; forces and accelerations are those of the physics
+    step that led to it.
+    """
+
+    def __init__(self, model: Any, data: Any, layout: Layout, noise: NoiseSource) -> None:
+        """Take the arrays in which the world keeps its state."""
+        self._qpos, self._qvel = data.qpos, data.qvel
+        self._actuator_force, self._sensordata = data.actuator_force, data.sensordata
+        self._external = [data.cfrc_ext[foot] for foot in layout.feet]
+        self._sole_positions = [data.xpos[sole] for sole in layout.soles]
+        self._sole_turns = [data.xmat[sole] for sole in layout.soles]
+        # What forces on bodies are given about.
+        self._centre = data.subtree_com[model.body_rootid[layout.base]]
+        self._layout = layout
+        self._mount, self._unmount = layout.imu_mount, inverse(layout.imu_mount)
+        self._noise = noise
+        self._channels = channels_of(len(layout.positions))
+
+    def measure(self, time_s: float) -> Observation:
+        """Return an observation, with noise."""
+        values = self._true_values()
+        orientation = product(self._qpos[self._layout.floating.orientation], self._mount)
+        if not self._noise.is_silent:
+            errors, turn = self._noise.draw()
+            values += errors
+            orientation = product(orientation, from_vector(turn))
+        return self._observation(time_s, values, orientation)
+
+    def _true_values(self) -> Array:
+        """Return the values of the channels."""
+        layout, channels = self._layout, self._channels
+        values = np.empty(channels.size)
+        values[channels.positions] = self._qpos[layout.positions]
+        values[channels.velocities] = self._qvel[layout.velocities]
+        values[channels.efforts] = self._actuator_force[layout.servos]
+        rate = self._qvel[layout.floating.angular]
+        values[channels.angular_velocity] = rotated(rate, self._unmount)
+        values[channels.acceleration] = self._sensordata[layout.acceleration]
+        left, right = self._wrench_about_sole(0), self._wrench_about_sole(1)
+        values[channels.forces] = np.concatenate((left[3:], right[3:]))
+        values[channels.torques] = np.concatenate((left[:3], right[:3]))
+        return values
+
+    def _wrench_about_sole(self, foot: int) -> Array:
+        """Return torque and force (6,) on a foot from outside, about its sole in its axes."""
+        wrench = np.empty(6)
+        mujoco.mju_transformSpatial(
+            wrench,
+            self._external[foot],
+            1,
+            self._sole_positions[foot],
+            self._centre,
+            self._sole_turns[foot],
+        )
+        return wrench
+
+    def _observation(self, time_s: float, values: Array, orientation: Array) -> Observation:
+        """Name the parts of the values."""
+        channels = self._channels
+        return Observation(
+            time_s,
+            values[channels.positions],
+            values[channels.velocities],
+            values[channels.efforts],
+            orientation,
+            values[channels.angular_velocity],
+            values[channels.acceleration],
+            values[channels.forces].reshape(2, 3),
+            values[channels.torques].reshape(2, 3),
+        )

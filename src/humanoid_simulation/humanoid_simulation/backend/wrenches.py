@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Forces from outside that last for a while."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from humanoid_control.backends import Array
+from humanoid_simulation.errors import SimulationError
+import numpy as np
+
+
+@dataclass(frozen=True, eq=False)
+class Wrench:
+    """A force and a torque (3,) in world axes on a point (3,) of a body, in the body's axes."""
+
+    body: int
+    force_n: Array
+    torque_nm: Array
+    point_m: Array
+    duration_s: float
+
+    def __post_init__(self) -> None:
+        """Refuse what is no wrench."""
+        for kind in ('force_n', 'torque_nm', 'point_m'):
+            array = getattr(self, kind)
+            if array.shape != (3,) or not np.isfinite(array).all():
+                raise SimulationError(
+                    f'A wrench needs a {kind} of three finite numbers, but it is {array}.'
+                )
+        if not 0.0 < self.duration_s < np.inf:
+            raise SimulationError(
+                f'A wrench cannot last {self.duration_s:g} s. Give a duration above zero.'
+            )
+
+
+class Wrenches:
+    """
+    Wrenches that act on the bodies of a world.
+
+    What ends within a period acts in all of it with so much less force that the impulse is right.
+    """
+
+    def __init__(self, model: Any, data: Any) -> None:
+        """Begin without any."""
+        self._model, self._data = model, data
+        self._acting: list[tuple[Wrench, float]] = []
+
+    def add(self, wrench: Wrench) -> None:
+        """Let a wrench act from now on."""
+        self._acting.append((wrench, wrench.duration_s))
+
+    def clear(self) -> None:
+        """End all of them."""
+        self._acting = []
+        self._data.xfrc_applied[:] = 0.0
+
+    def act(self, period_s: float) -> None:
+        """Set the forces of the coming period."""
+        if not self._acting:
+            return
+        self._data.xfrc_applied[:] = 0.0
+        for wrench, left_s in self._acting:
+            self._apply(wrench, min(1.0, left_s / period_s))
+        # The wrenches that have ended leave zeros behind in the next period.
+        self._acting = [
+            (wrench, left_s - period_s) for wrench, left_s in self._acting if left_s > 0
+        ]
+
+    def _apply(self, wrench: Wrench, part: float) -> None:
+        """Add a part of a wrench to those on its body, about its centre of mass."""
+        if part <= 0.0:
+            return
+        data, body = self._data, wrench.body
+        point_m = data.xpos[body] + data.xmat[body].reshape(3, 3) @ wrench.point_m
+        turning = np.cross(point_m - data.xipos[body], wrench.force_n)
+        data.xfrc_applied[body, :3] += part * wrench.force_n
+        data.xfrc_applied[body, 3:] += part * (wrench.torque_nm + turning)

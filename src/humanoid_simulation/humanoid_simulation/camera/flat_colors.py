@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Colours and light for surfaces that are drawn without OpenGL."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+_UNSET_RGBA = np.array([0.5, 0.5, 0.5, 1.0], dtype=np.float32)
+"""The colour of a geom that was given none: that of its material counts."""
+
+
+def geom_colors(model: mujoco.MjModel) -> Array:
+    """Return one colour for each geom, (ngeom, 3), 0 to 1: of a texture, its mean."""
+    colors = np.array(model.geom_rgba[:, :3], dtype=np.float64)
+    for geom, material in enumerate(model.geom_matid):
+        if material >= 0:
+            if np.array_equal(model.geom_rgba[geom], _UNSET_RGBA):
+                colors[geom] = model.mat_rgba[material, :3]
+            colors[geom] *= _mean_texture(model, _texture_of(model, material))
+    return colors
+
+
+def sky_color(model: mujoco.MjModel) -> Array:
+    """Return the colour where nothing is, (3,), 0 to 1."""
+    kinds = list(model.tex_type)
+    if mujoco.mjtTexture.mjTEXTURE_SKYBOX in kinds:
+        return _mean_texture(model, kinds.index(mujoco.mjtTexture.mjTEXTURE_SKYBOX))
+    return np.zeros(3)
+
+
+def brightness(
+    model: mujoco.MjModel, data: mujoco.MjData, points: Array, normals: Array, forward: Array
+) -> Array:
+    """
+    Return how bright matt surfaces are, (n, 3), by Lambert's law.
+
+    Points, in metres, and unit normals are (n, 3) in the world. The headlight shines along
+    `forward`, (3,), where the camera looks.
+    """
+    head = model.vis.headlight
+    light = np.zeros_like(points)
+    if head.active:
+        light += head.ambient + np.outer(_facing(normals, -forward), head.diffuse)
+    for number in np.flatnonzero(model.light_active):
+        towards = _towards_light(model, data, int(number), points)
+        diffuse = np.outer(_facing(normals, towards), model.light_diffuse[number])
+        light += model.light_ambient[number] + diffuse
+    return light
+
+
+def _towards_light(
+    model: mujoco.MjModel, data: mujoco.MjData, number: int, points: Array
+) -> Array:
+    """Return the unit vectors to a light, (3,) if it is as far as the sun, else (n, 3)."""
+    if model.light_type[number] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL:
+        return -np.asarray(data.light_xdir[number], dtype=np.float64)
+    towards = data.light_xpos[number] - points
+    return np.asarray(towards / np.linalg.norm(towards, axis=1, keepdims=True))
+
+
+def _facing(normals: Array, towards: Array) -> Array:
+    """Return the cosines between normals, (n, 3), and the way to a light, none below 0."""
+    return np.asarray(np.maximum(np.sum(normals * towards, axis=1), 0.0))
+
+
+def _texture_of(model: mujoco.MjModel, material: int) -> int:
+    """Return the number of the texture that gives a material its colour, or -1."""
+    return int(model.mat_texid[material, mujoco.mjtTextureRole.mjTEXROLE_RGB])
+
+
+def _mean_texture(model: mujoco.MjModel, texture: int) -> Array:
+    """Return the mean colour of a texture, (3,), 0 to 1; white without one."""
+    if texture < 0:
+        return np.ones(3)
+    channels = int(model.tex_nchannel[texture])
+    size = int(model.tex_height[texture] * model.tex_width[texture]) * channels
+    first = int(model.tex_adr[texture])
+    pixels = np.split(model.tex_data, [first, first + size])[1].reshape(-1, channels)
+    return np.array(np.broadcast_to(pixels.mean(axis=0)[:3] / 255.0, 3))

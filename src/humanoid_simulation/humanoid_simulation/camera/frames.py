@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The memory that the simulator and the process that draws share."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import mmap
+import os
+from typing import Any
+
+from humanoid_simulation.camera.painter import Color, Depth
+from humanoid_simulation.camera.view import CameraView
+import numpy as np
+from numpy.typing import NDArray
+
+_ALIGNMENT = 64
+
+
+class Frames:
+    """
+    One piece of memory with the positions of a state, and two pictures of each view.
+
+    The memory has no name and is gone with the last process that holds it.
+    """
+
+    def __init__(self, file: int, nq: int, views: Sequence[CameraView]) -> None:
+        """Map the memory of an open file; give it its size if it is new."""
+        sizes = [nq * 8]
+        for view in views:
+            pixels = view.width_px * view.height_px
+            sizes += [pixels * 3, pixels * 4]
+        ends = np.cumsum([-(-size // _ALIGNMENT) * _ALIGNMENT for size in sizes])
+        os.ftruncate(file, int(ends[-1]))
+        self._memory = mmap.mmap(file, int(ends[-1]))
+        starts = [0, *(int(end) for end in ends[:-1])]
+        self.qpos: NDArray[np.float64] = self._array(np.float64, 0, nq)
+        self.colors: list[Color] = [
+            self._array(np.uint8, start, view.height_px, view.width_px, 3)
+            for start, view in zip(starts[1::2], views)
+        ]
+        self.depths: list[Depth] = [
+            self._array(np.float32, start, view.height_px, view.width_px)
+            for start, view in zip(starts[2::2], views)
+        ]
+
+    def _array(self, kind: Any, start: int, *shape: int) -> NDArray[Any]:
+        """Return a part of the memory as an array."""
+        count = int(np.prod(shape))
+        return np.frombuffer(self._memory, kind, count, start).reshape(shape)
+
+
+def unnamed_file(purpose: str) -> int:
+    """Open a file that exists in memory only; others reach it by its number alone."""
+    return os.memfd_create(f'humanoid_simulation_{purpose}')

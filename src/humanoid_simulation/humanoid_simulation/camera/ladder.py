@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which method to draw by is next, after what has failed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+_MOST_DEATHS = 3
+
+
+class Ladder:
+    """
+    The methods, best first, and why those that were tried are no good.
+
+    A method that has drawn before gets another chance when its process ends, until that happens
+    three times with no picture between.
+    """
+
+    def __init__(self, methods: Sequence[str]) -> None:
+        """Begin with the first method."""
+        self._methods = list(methods)
+        self._deaths = 0
+        self._has_drawn = False
+        self.failures: dict[str, str] = {}
+        """Why a method cannot be used, by method."""
+
+    @property
+    def method(self) -> str:
+        """Return the method to use, '' if none is left."""
+        left = [method for method in self._methods if method not in self.failures]
+        return left[0] if left else ''
+
+    def note_picture(self) -> None:
+        """Note that the method works."""
+        self._has_drawn = True
+        self._deaths = 0
+
+    def note_end(self, reason: str) -> bool:
+        """Note why a process ended; tell whether the same method is to be tried again."""
+        self._deaths += 1
+        if self._has_drawn and self._deaths < _MOST_DEATHS:
+            return True
+        self.failures[self.method] = reason
+        self._deaths = 0
+        self._has_drawn = False
+        return False

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The ways to draw, from the best to the one that works everywhere."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+EGL = 'egl'
+OSMESA = 'osmesa'
+RAYS = 'rays'
+AUTO = 'auto'
+CHOICES = (AUTO, EGL, OSMESA, RAYS)
+
+_PLATFORM = 'PYOPENGL_PLATFORM'
+_OWN = {
+    # mujoco would try to start what it finds, and not tell why it cannot.
+    'MUJOCO_GL': 'disable',
+    # The folder that one happens to be in is no place to import from.
+    'PYTHONSAFEPATH': '1',
+}
+_TITLES = {EGL: 'EGL', OSMESA: 'OSMesa', RAYS: 'rays'}
+_WAY_OUT = (
+    'To have OpenGL, on Debian or Ubuntu: `apt install libegl1 libegl-mesa0 libgl1-mesa-dri`, '
+    'or `apt install libosmesa6`; then start the simulator again.'
+)
+
+
+def methods_of(choice: str) -> tuple[str, ...]:
+    """Return the methods to try, in this order, for one of CHOICES."""
+    return (EGL, OSMESA, RAYS) if choice == AUTO else (choice,)
+
+
+def environment_of(method: str, environment: Mapping[str, str]) -> dict[str, str]:
+    """Return the environment of a process that draws: it decides which OpenGL it uses."""
+    others = {name: value for name, value in environment.items() if name != _PLATFORM}
+    return {**others, **_OWN, **({} if method == RAYS else {_PLATFORM: method})}
+
+
+def title_of(method: str) -> str:
+    """Return what users call a method."""
+    return _TITLES[method]
+
+
+def success_sentence(method: str, failures: Mapping[str, str]) -> str:
+    """Say how is drawn, why not by anything better, and how to get that."""
+    reasons = ' '.join(f'{title_of(each)}: {reason}' for each, reason in failures.items())
+    if method != RAYS:
+        return f'The cameras are drawn by OpenGL with {title_of(method)}. {reasons}'.rstrip()
+    if not failures:
+        return 'The cameras are drawn by casting rays, in flat colours.'
+    return (
+        'The cameras are drawn by casting rays, which is slow and in flat colours, because there '
+        f'is no OpenGL. {reasons} {_WAY_OUT}'
+    )
+
+
+def give_up_sentence(failures: Mapping[str, str]) -> str:
+    """Say that nothing can be drawn, and why."""
+    reasons = ' '.join(f'{title_of(each)}: {reason}' for each, reason in failures.items())
+    return f'The cameras are off, the simulation goes on. {reasons} {_WAY_OUT}'

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What every way to draw has in common."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+NEAR_M = 0.02
+FAR_M = 100.0
+HIDDEN_GROUP = 3
+"""The group of geoms, and those above it, that only collisions see."""
+
+Color = NDArray[np.uint8]
+"""(height, width, 3) red, green, blue"""
+
+Depth = NDArray[np.float32]
+"""(height, width) metres along the optical axis; infinite where nothing is (REP 118)"""
+
+
+class Painter(Protocol):
+    """Draws what the cameras of a model see."""
+
+    def draw(
+        self, data: mujoco.MjData, camera: int, color: Color | None, depth: Depth | None
+    ) -> None:
+        """Fill the pictures that are given; both have the same size."""
+
+    def close(self) -> None:
+        """Give back what is held."""

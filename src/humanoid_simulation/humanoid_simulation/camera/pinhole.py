@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The geometry of a camera without distortion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+
+from humanoid_simulation.errors import SimulationError
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Pinhole:
+    """
+    A pinhole camera with square pixels that looks through the middle of its picture.
+
+    The optical frame is that of REP 103: z forward, x right, y down. Whole pixel coordinates
+    are the centres of pixels, (0, 0) that of the upper left one.
+    """
+
+    width_px: int
+    height_px: int
+    fovy_rad: float
+    """The angle from the lower to the upper edge of the picture."""
+
+    def __post_init__(self) -> None:
+        """Check that there is something to see."""
+        if self.width_px < 1 or self.height_px < 1:
+            raise SimulationError(
+                f'A picture of {self.width_px} x {self.height_px} pixels has nothing to show. '
+                'Give the camera at least one pixel in each direction.'
+            )
+        if not 0.0 < self.fovy_rad < math.pi:
+            raise SimulationError(
+                f'The vertical field of view of a camera is {self.fovy_rad} rad. '
+                'It must be more than 0 and less than pi.'
+            )
+
+    @property
+    def focal_px(self) -> float:
+        """Return the focal length, the same in both directions."""
+        return 0.5 * self.height_px / math.tan(0.5 * self.fovy_rad)
+
+    @property
+    def centre_px(self) -> tuple[float, float]:
+        """Return the coordinates x, y of the point that the camera looks at."""
+        return 0.5 * (self.width_px - 1), 0.5 * (self.height_px - 1)
+
+    @property
+    def matrix(self) -> Array:
+        """Return the intrinsic matrix K, (3, 3), from the optical frame to pixels."""
+        x_px, y_px = self.centre_px
+        focal_px = self.focal_px
+        return np.array([[focal_px, 0.0, x_px], [0.0, focal_px, y_px], [0.0, 0.0, 1.0]])
+
+    def rays(self) -> Array:
+        """Return the point at distance 1 along the axis for each pixel, (height, width, 3)."""
+        x_px, y_px = self.centre_px
+        x = (np.arange(self.width_px) - x_px) / self.focal_px
+        y = (np.arange(self.height_px) - y_px) / self.focal_px
+        right, down = np.meshgrid(x, y)
+        return np.stack([right, down, np.ones_like(right)], axis=-1)

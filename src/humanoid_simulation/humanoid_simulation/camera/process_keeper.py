@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Keeps a process that draws at hand, whatever happens to it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from humanoid_simulation.camera.ladder import Ladder
+from humanoid_simulation.camera.methods import give_up_sentence, RAYS, success_sentence
+from humanoid_simulation.camera.render_process import RenderProcess
+from humanoid_simulation.camera.view import Wanted
+
+
+class Log(Protocol):
+    """Where to tell the user what happens, such as the logger of a node."""
+
+    def info(self, message: str) -> object:
+        """Tell something good to know."""
+
+    def warning(self, message: str) -> object:
+        """Tell something that is worse than expected."""
+
+
+@dataclass(frozen=True)
+class Patience:
+    """How long to wait before something counts as hung, and before the next try."""
+
+    start_s: float = 60.0
+    draw_s: float = 10.0
+    retry_s: float = 1.0
+    end_s: float = 1.0
+
+
+class ProcessKeeper:
+    """
+    Starts a process, and another one when it ends or hangs, and says so.
+
+    Times are those of a clock that nobody sets.
+    """
+
+    def __init__(
+        self,
+        start: Callable[[str], RenderProcess],
+        methods: Sequence[str],
+        log: Log,
+        patience: Patience,
+    ) -> None:
+        """Start nothing yet; `start` starts a process that draws by a method."""
+        self._start = start
+        self._ladder = Ladder(methods)
+        self._log = log
+        self._patience = patience
+        self._process: RenderProcess | None = None
+        self._deadline_s = 0.0
+        self._next_start_s = 0.0
+        self._said = ''
+
+    @property
+    def process(self) -> RenderProcess | None:
+        """Return the process, if there is one."""
+        return self._process
+
+    @property
+    def can_draw(self) -> bool:
+        """Tell whether the process waits for a request."""
+        process = self._process
+        return process is not None and process.is_ready and not process.is_busy
+
+    def tend(self, now_s: float) -> None:
+        """Start what is missing, and see what has become of what was started."""
+        if self._process is None:
+            if self._ladder.method and now_s >= self._next_start_s:
+                self._begin(now_s)
+            return
+        self._process.poll()
+        if self._process.has_ended():
+            self._bury(self._process, now_s)
+        elif self._process.is_busy and now_s > self._deadline_s:
+            self._process.kill('it did not answer in time.')
+        elif self._process.is_ready:
+            self._say_once(success_sentence(self._ladder.method, self._ladder.failures))
+
+    def request(self, wanted: Sequence[Wanted], now_s: float) -> None:
+        """Ask for pictures; only when it can draw."""
+        if self._process is not None:
+            self._deadline_s = now_s + self._patience.draw_s
+            self._process.request(wanted)
+
+    def note_picture(self) -> None:
+        """Note that what was asked for has come."""
+        self._ladder.note_picture()
+
+    def close(self) -> None:
+        """End the process."""
+        if self._process is not None:
+            self._process.release()
+            self._process.wait(self._patience.end_s)
+            self._process = None
+
+    def _begin(self, now_s: float) -> None:
+        """Start a process."""
+        self._deadline_s = now_s + self._patience.start_s
+        try:
+            self._process = self._start(self._ladder.method)
+        except OSError as error:
+            self._go_on(f'its process cannot be started: {error.strerror}.', now_s)
+
+    def _bury(self, process: RenderProcess, now_s: float) -> None:
+        """Take leave of a process that has ended."""
+        reason = process.end_reason()
+        process.release()
+        self._process = None
+        self._go_on(reason, now_s)
+
+    def _go_on(self, reason: str, now_s: float) -> None:
+        """Say why there is no process, and what comes next."""
+        if self._ladder.note_end(reason):
+            self._next_start_s = now_s + self._patience.retry_s
+            self._log.warning(
+                f'The cameras are interrupted: {reason} The simulation goes on, and the process '
+                'that draws is started again.'
+            )
+        elif not self._ladder.method:
+            self._log.warning(give_up_sentence(self._ladder.failures))
+
+    def _say_once(self, sentence: str) -> None:
+        """Say how is drawn, unless it was said before."""
+        if sentence == self._said:
+            return
+        self._said = sentence
+        if self._ladder.failures and self._ladder.method == RAYS:
+            self._log.warning(sentence)
+        else:
+            self._log.info(sentence)

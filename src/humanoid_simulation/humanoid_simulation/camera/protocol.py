@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the simulator and the process that draws tell each other, one line each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+import json
+
+from humanoid_simulation.camera.view import CameraView, Wanted
+
+READY = 'ready'
+"""The process can draw."""
+DONE = 'done'
+"""The wanted pictures are in the memory."""
+FAILED = 'failed '
+"""The process ends; the reason follows."""
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """What a process is to draw, how, and the numbers of the open files that it shares."""
+
+    method: str
+    model_file: int
+    frames_file: int
+    views: tuple[CameraView, ...]
+
+    def as_text(self) -> str:
+        """Return the assignment as an argument of a command."""
+        return json.dumps(asdict(self))
+
+    @staticmethod
+    def from_text(text: str) -> Assignment:
+        """Return the assignment that `as_text` wrote."""
+        given = json.loads(text)
+        views = tuple(CameraView(**view) for view in given.pop('views'))
+        return Assignment(**given, views=views)
+
+
+def request_line(wanted: Sequence[Wanted]) -> str:
+    """Return the line that asks for pictures, with one element for each view."""
+    return json.dumps([[each.color, each.depth] for each in wanted]) + '\n'
+
+
+def wanted_in(line: str) -> list[Wanted]:
+    """Return which pictures a line asks for."""
+    return [Wanted(color, depth) for color, depth in json.loads(line)]

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The topics of one camera."""
+
+from __future__ import annotations
+
+from builtin_interfaces.msg import Time
+from humanoid_common.qos import STATE
+from humanoid_simulation.camera.conversions import (
+    camera_info,
+    color_image,
+    depth_image,
+    fill_image,
+)
+from humanoid_simulation.camera.painter import Color, Depth
+from humanoid_simulation.camera.pinhole import Pinhole
+from humanoid_simulation.camera.view import Wanted
+from rclpy.node import Node
+from sensor_msgs.msg import CameraInfo, Image
+
+
+class CameraPublisher:
+    """
+    Publishes `camera/image_raw`, `camera/depth/image_raw`, and `camera_info` beside each.
+
+    Pictures are reliable: large messages lose parts otherwise, and with them the whole.
+    """
+
+    def __init__(self, node: Node, folder: str, pinhole: Pinhole, frame: str) -> None:
+        """Announce the topics; `folder` is '' or the name of a robot and a slash."""
+        base = f'{folder}camera'
+        self._color = node.create_publisher(Image, f'{base}/image_raw', STATE)
+        self._depth = node.create_publisher(Image, f'{base}/depth/image_raw', STATE)
+        self._color_info = node.create_publisher(CameraInfo, f'{base}/camera_info', STATE)
+        self._depth_info = node.create_publisher(CameraInfo, f'{base}/depth/camera_info', STATE)
+        self._color_image = color_image(pinhole, frame)
+        self._depth_image = depth_image(pinhole, frame)
+        self._info = camera_info(pinhole, frame)
+
+    def wanted(self) -> Wanted:
+        """Tell which pictures somebody has subscribed to."""
+        return Wanted(
+            color=self._color.get_subscription_count() > 0,
+            depth=self._depth.get_subscription_count() > 0,
+        )
+
+    def publish(self, wanted: Wanted, color: Color, depth: Depth, stamp: Time) -> None:
+        """Publish the pictures that were wanted, all with the same time."""
+        if wanted.color:
+            fill_image(self._color_image, color, stamp)
+            self._color.publish(self._color_image)
+        if wanted.depth:
+            fill_image(self._depth_image, depth, stamp)
+            self._depth.publish(self._depth_image)
+
+    def publish_info(self, stamp: Time) -> None:
+        """Publish what the camera is like."""
+        self._info.header.stamp = stamp
+        for publisher in (self._color_info, self._depth_info):
+            if publisher.get_subscription_count() > 0:
+                publisher.publish(self._info)

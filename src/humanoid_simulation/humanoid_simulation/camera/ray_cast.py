@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What rays from one point hit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from humanoid_simulation.camera.painter import FAR_M, HIDDEN_GROUP
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+_SEEN_GROUPS = np.array([group < HIDDEN_GROUP for group in range(6)], dtype=np.uint8)
+_MOST_SHELLS = 8
+"""How many things one inside the other a camera may be in."""
+
+
+@dataclass(frozen=True, eq=False)
+class Hits:
+    """What each of n rays hits first."""
+
+    geoms: NDArray[np.int32]
+    """(n,) -1 where a ray hits nothing"""
+    distances_m: Array
+    """(n,) infinite where a ray hits nothing"""
+    points: Array
+    """(n, 3) in the world; the start where a ray hits nothing"""
+    normals: Array
+    """(n, 3) of the surfaces, in the world"""
+
+
+def cast_rays(model: mujoco.MjModel, data: mujoco.MjData, start: Array, rays: Array) -> Hits:
+    """
+    Cast rays, unit vectors (n, 3), from a point (3,) at what is shown.
+
+    Things that the point is inside of do not count: OpenGL leaves out what is seen from behind.
+    The model must be one that nobody else uses: its geoms are hidden meanwhile.
+    """
+    surrounding = np.zeros(0, dtype=np.int32)
+    for _ in range(_MOST_SHELLS):
+        with _hidden(model, surrounding):
+            hits = _cast(model, data, start, rays)
+        leaves = (hits.geoms >= 0) & (np.sum(hits.normals * rays, axis=1) > 1e-9)
+        if not leaves.any():
+            break
+        surrounding = np.union1d(surrounding, hits.geoms[leaves])
+    return hits
+
+
+def _cast(model: mujoco.MjModel, data: mujoco.MjData, start: Array, rays: Array) -> Hits:
+    """Cast the rays at all geoms that are not hidden."""
+    count = len(rays)
+    geoms = np.empty(count, dtype=np.int32)
+    distances_m = np.empty(count)
+    normals = np.empty(3 * count)
+    mujoco.mj_multiRay(
+        model, data, start, rays.ravel(), _SEEN_GROUPS, True, -1,
+        geoms, distances_m, normals, count, FAR_M * 2.0,
+    )  # fmt: skip
+    hit = geoms >= 0
+    points = start + np.where(hit, distances_m, 0.0)[:, None] * rays
+    return Hits(geoms, np.where(hit, distances_m, np.inf), points, normals.reshape(-1, 3))
+
+
+@contextmanager
+def _hidden(model: mujoco.MjModel, geoms: NDArray[np.int32]) -> Iterator[None]:
+    """Let no ray hit some geoms for the length of a `with` block."""
+    groups = model.geom_group[geoms]
+    model.geom_group[geoms] = HIDDEN_GROUP
+    try:
+        yield
+    finally:
+        model.geom_group[geoms] = groups

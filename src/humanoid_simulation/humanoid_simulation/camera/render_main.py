@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The process that draws: `python3 -m humanoid_simulation.camera.render_main ASSIGNMENT`.
+
+Its environment says which OpenGL mujoco takes. It ends with the process that started it, at the
+latest when its standard input is closed.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import sys
+
+from humanoid_simulation.camera.frames import Frames
+from humanoid_simulation.camera.gl_painter import GlPainter
+from humanoid_simulation.camera.methods import RAYS
+from humanoid_simulation.camera.painter import Painter
+from humanoid_simulation.camera.protocol import Assignment, DONE, FAILED, READY, wanted_in
+from humanoid_simulation.camera.ray_painter import RayPainter
+from humanoid_simulation.camera.view import camera_id
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+_PR_SET_PDEATHSIG = 1
+_LESS_URGENT = 5
+
+
+def main() -> int:
+    """Draw what is asked for, until nobody can ask any more."""
+    _depend_on_parent()
+    try:
+        _serve(Assignment.from_text(sys.argv[1]))
+    except BrokenPipeError:
+        return 0
+    except Exception as error:  # whatever a driver raises: the other side decides what to do
+        _say(FAILED + ' '.join(str(error).split()))
+        return 1
+    return 0
+
+
+def _depend_on_parent() -> None:
+    """End with the parent even if a driver hangs; leave signals of the terminal to it."""
+    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    os.nice(_LESS_URGENT)
+
+
+def _serve(assignment: Assignment) -> None:
+    """Answer each line of standard input by the pictures that it asks for."""
+    model = mujoco.MjModel.from_binary_path(f'/proc/self/fd/{assignment.model_file}')
+    data = mujoco.MjData(model)
+    frames = Frames(assignment.frames_file, model.nq, assignment.views)
+    cameras = [camera_id(model, view.camera) for view in assignment.views]
+    painter = _painter(assignment, model)
+    _say(READY)
+    for line in sys.stdin:
+        _show(model, data, frames.qpos)
+        for number, wanted in enumerate(wanted_in(line)):
+            color = frames.colors[number] if wanted.color else None
+            depth = frames.depths[number] if wanted.depth else None
+            painter.draw(data, cameras[number], color, depth)
+        _say(DONE)
+    painter.close()
+
+
+def _show(model: mujoco.MjModel, data: mujoco.MjData, qpos: NDArray[np.float64]) -> None:
+    """Put everything where positions, (nq,), say, ready to be drawn."""
+    data.qpos[:] = qpos
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    mujoco.mj_camlight(model, data)
+
+
+def _painter(assignment: Assignment, model: mujoco.MjModel) -> Painter:
+    """Make what draws by the assigned method."""
+    views = assignment.views
+    if assignment.method == RAYS:
+        return RayPainter(model, views)
+    width_px = max(view.width_px for view in views)
+    height_px = max(view.height_px for view in views)
+    return GlPainter(assignment.method, model, width_px, height_px)
+
+
+def _say(line: str) -> None:
+    """Tell the parent something."""
+    sys.stdout.write(line + '\n')
+    sys.stdout.flush()
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The simulator's side of one process that draws."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+import os
+import signal
+import subprocess
+import sys
+from typing import IO
+
+from humanoid_simulation.camera.frames import unnamed_file
+from humanoid_simulation.camera.methods import environment_of
+from humanoid_simulation.camera.protocol import Assignment, FAILED, READY, request_line
+from humanoid_simulation.camera.view import Wanted
+
+_MODULE = 'humanoid_simulation.camera.render_main'
+_LAST_WORDS = 300
+
+
+class RenderProcess:
+    """
+    A process that draws one request at a time; nothing here ever waits for it.
+
+    It writes its noise, such as warnings of drivers, to a file in memory. It ends at the latest
+    with the thread that has started it.
+    """
+
+    def __init__(self, assignment: Assignment) -> None:
+        """Start the process; raise OSError if the computer has no room for it."""
+        self._noise = unnamed_file('noise')
+        try:
+            self._process = _start(assignment, self._noise)
+        except OSError:
+            os.close(self._noise)
+            raise
+        self._requests, self._replies = _pipes_of(self._process)
+        os.set_blocking(self._replies.fileno(), False)
+        self._unread = b''
+        self._reason = ''
+        self.is_ready = False
+        """Whether it has begun, so that it can draw."""
+        self.is_busy = True
+        """Whether it has yet to answer: that it is ready, or that pictures are done."""
+
+    @property
+    def pid(self) -> int:
+        """Return its process number."""
+        return self._process.pid
+
+    def request(self, wanted: Sequence[Wanted]) -> None:
+        """Ask for pictures; only when it is not busy."""
+        self.is_busy = True
+        with suppress(BrokenPipeError):  # `end_reason` tells that it has ended
+            self._requests.write(request_line(wanted).encode())
+
+    def poll(self) -> None:
+        """Take in what it has said meanwhile."""
+        with suppress(BlockingIOError):
+            self._unread += os.read(self._replies.fileno(), 4096)
+        *lines, self._unread = self._unread.split(b'\n')
+        for line in lines:
+            self._take(line.decode(errors='replace'))
+
+    def has_ended(self) -> bool:
+        """Tell whether the process is no more."""
+        return self._process.poll() is not None
+
+    def end_reason(self) -> str:
+        """Say why it has ended, as the end of a sentence."""
+        status = self._process.poll()
+        if self._reason:
+            return self._reason
+        if status is not None and status < 0:
+            return f'its process was ended by {_signal_name(-status)}.{self._last_words()}'
+        return f'its process ended with status {status}.{self._last_words()}'
+
+    def kill(self, reason: str) -> None:
+        """End it, whatever it does; `has_ended` tells when that has happened."""
+        self._reason = self._reason or reason
+        self._process.kill()
+
+    def release(self) -> None:
+        """Close what connects to the process, which makes it end; it must not be used after."""
+        with suppress(BrokenPipeError):
+            self._requests.close()
+        self._replies.close()
+        os.close(self._noise)
+
+    def wait(self, timeout_s: float) -> None:
+        """Wait for the end; kill it after a time."""
+        try:
+            self._process.wait(timeout_s)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+
+    def _take(self, line: str) -> None:
+        """Take in one line."""
+        self.is_busy = False
+        if line == READY:
+            self.is_ready = True
+        elif line.startswith(FAILED):
+            self.is_busy = True
+            self._reason = line.removeprefix(FAILED).rstrip('.') + '.'
+
+    def _last_words(self) -> str:
+        """Return the last line that it wrote besides its answers."""
+        size = os.fstat(self._noise).st_size
+        text = os.pread(self._noise, _LAST_WORDS, max(0, size - _LAST_WORDS))
+        lines = text.decode(errors='replace').strip().splitlines()
+        return f' It wrote: {lines[-1].strip()}' if lines else ''
+
+
+def _start(assignment: Assignment, noise: int) -> subprocess.Popen[bytes]:
+    """Start a process; it writes to an open file what is no answer."""
+    return subprocess.Popen(
+        [sys.executable, '-m', _MODULE, assignment.as_text()],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=noise,
+        bufsize=0,
+        pass_fds=(assignment.model_file, assignment.frames_file),
+        env=environment_of(assignment.method, os.environ),
+    )
+
+
+def _pipes_of(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], IO[bytes]]:
+    """Return where it reads and where it writes."""
+    if process.stdin is None or process.stdout is None:
+        raise RuntimeError('A process was started without pipes.')
+    return process.stdin, process.stdout
+
+
+def _signal_name(number: int) -> str:
+    """Return the name of a signal, such as SIGSEGV."""
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f'signal {number}'

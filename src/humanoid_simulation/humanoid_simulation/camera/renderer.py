@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Pictures of copied states, by a process that may fail."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import os
+
+from humanoid_simulation.camera.frames import Frames, unnamed_file
+from humanoid_simulation.camera.painter import Color, Depth
+from humanoid_simulation.camera.process_keeper import Log, Patience, ProcessKeeper
+from humanoid_simulation.camera.protocol import Assignment
+from humanoid_simulation.camera.render_process import RenderProcess
+from humanoid_simulation.camera.view import CameraView, check_views, Wanted
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class Pictures:
+    """What each view showed at a moment; valid until the next request."""
+
+    time_ns: int
+    wanted: tuple[Wanted, ...]
+    colors: Sequence[Color]
+    depths: Sequence[Depth]
+
+
+class Renderer:
+    """
+    Draws one state at a time in another process, which starts with the first request.
+
+    Nothing here waits for that process; if it ends or hangs, it is replaced.
+    """
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        views: Sequence[CameraView],
+        methods: Sequence[str],
+        log: Log,
+        patience: Patience = Patience(),
+    ) -> None:
+        """Copy the model; raise SimulationError if a view cannot be drawn."""
+        check_views(model, views)
+        self._views = tuple(views)
+        self._model_file = _file_with(model)
+        self._frames_file = unnamed_file('frames')
+        self._frames = Frames(self._frames_file, model.nq, views)
+        self._keeper = ProcessKeeper(self._start, methods, log, patience)
+        self._is_needed = False
+        self._requested: tuple[int, tuple[Wanted, ...]] | None = None
+
+    @property
+    def process_id(self) -> int | None:
+        """Return the number of the process that draws, if it runs."""
+        process = self._keeper.process
+        return process.pid if process else None
+
+    def need(self) -> None:
+        """Say that pictures will be asked for: the process starts at the next poll."""
+        self._is_needed = True
+
+    @property
+    def can_draw(self) -> bool:
+        """Tell whether a request can be made."""
+        return self._keeper.can_draw and self._requested is None
+
+    def request(
+        self, qpos: NDArray[np.float64], time_ns: int, wanted: Sequence[Wanted], now_s: float
+    ) -> None:
+        """
+        Copy positions, (nq,), and have them drawn; only when `can_draw`.
+
+        `wanted` has one element for each view. `time_ns` is that of the state; `now_s` is that of
+        a clock that nobody sets.
+        """
+        self._frames.qpos[:] = qpos
+        self._requested = (time_ns, tuple(wanted))
+        self._keeper.request(wanted, now_s)
+
+    def poll(self, now_s: float) -> Pictures | None:
+        """Return the pictures that were asked for, once, when they are there."""
+        if not self._is_needed:
+            return None
+        process = self._keeper.process
+        self._keeper.tend(now_s)
+        if self._requested is None:
+            return None
+        if self._keeper.process is not process:
+            self._requested = None
+        elif self._keeper.can_draw:
+            return self._finished(*self._requested)
+        return None
+
+    def close(self) -> None:
+        """End the process; nothing else may be called after it."""
+        self._keeper.close()
+        os.close(self._model_file)
+        os.close(self._frames_file)
+
+    def _start(self, method: str) -> RenderProcess:
+        """Start a process that draws by a method."""
+        return RenderProcess(Assignment(method, self._model_file, self._frames_file, self._views))
+
+    def _finished(self, time_ns: int, wanted: tuple[Wanted, ...]) -> Pictures:
+        """Return the pictures that are in the memory now."""
+        self._requested = None
+        self._keeper.note_picture()
+        return Pictures(time_ns, wanted, self._frames.colors, self._frames.depths)
+
+
+def _file_with(model: mujoco.MjModel) -> int:
+    """Open a file in memory that holds a model."""
+    content = np.empty(mujoco.mj_sizeModel(model), dtype=np.uint8)
+    mujoco.mj_saveModel(model, None, content)
+    file = unnamed_file('model')
+    with open(file, 'wb', closefd=False) as stream:
+        stream.write(content.tobytes())
+    return file

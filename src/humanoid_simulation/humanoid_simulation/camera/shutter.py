@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""When the next picture is due."""
+
+from __future__ import annotations
+
+_NANOSECONDS = 1_000_000_000
+_TINY = 1e-6
+"""By so many periods a time may miss the beginning of one, for all that numbers are round."""
+
+
+class Shutter:
+    """
+    Is due once a period, on a grid, so that the mean rate holds whatever the ticks are.
+
+    A picture that could not be taken in time is due until it is; those in between are left out.
+    """
+
+    def __init__(self, rate_hz: float) -> None:
+        """Be due at once."""
+        self._rate_hz = rate_hz
+        self._last: int | None = None
+
+    def is_due(self, time_ns: int) -> bool:
+        """Tell whether a picture is to be taken at a time."""
+        return self._period_of(time_ns) != self._last
+
+    def release(self, time_ns: int) -> None:
+        """Note that a picture was taken."""
+        self._last = self._period_of(time_ns)
+
+    def _period_of(self, time_ns: int) -> int:
+        """Return the number of the period that a time is in; exact where periods begin."""
+        return int(time_ns * self._rate_hz / _NANOSECONDS + _TINY)

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The cameras of all robots of a world, on ROS topics."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from humanoid_simulation.camera.conversions import stamp_of
+from humanoid_simulation.camera.methods import methods_of
+from humanoid_simulation.camera.parameters import CameraParameters
+from humanoid_simulation.camera.publisher import CameraPublisher
+from humanoid_simulation.camera.renderer import Pictures, Renderer
+from humanoid_simulation.camera.shutter import Shutter
+from humanoid_simulation.camera.view import CameraView, pinhole_of
+import mujoco
+from rclpy.node import Node
+
+
+class CameraTopics:
+    """
+    Publishes what the cameras see, at a rate in simulated time, while somebody subscribes.
+
+    One process draws the pictures of all of them; `tick` never waits for it.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        cameras: Mapping[str, str],
+        model: mujoco.MjModel,
+        parameters: CameraParameters,
+        prefix: str = '',
+    ) -> None:
+        """
+        Announce the topics; raise SimulationError if the model has not the cameras.
+
+        At rate 0 there are no topics.
+
+        :param cameras: the name of the camera in the model, by the namespace of its robot
+            relative to the node: '' for a robot alone
+        :param prefix: what the names of frames begin with
+        """
+        cameras = cameras if parameters.camera_rate_hz > 0.0 else {}
+        width_px, height_px = parameters.camera_width_px, parameters.camera_height_px
+        views = [CameraView(camera, width_px, height_px) for camera in cameras.values()]
+        methods = methods_of(parameters.camera_renderer)
+        self._renderer = Renderer(model, views, methods, node.get_logger())
+        frame = f'{prefix}{parameters.camera_frame}'
+        self._publishers = [
+            CameraPublisher(node, _folder(robot), pinhole_of(model, view), frame)
+            for robot, view in zip(cameras, views)
+        ]
+        self._shutter = Shutter(parameters.camera_rate_hz)
+
+    @property
+    def process_id(self) -> int | None:
+        """Return the number of the process that draws, if it runs."""
+        return self._renderer.process_id
+
+    def tick(self, now_s: float, time_ns: int, data: mujoco.MjData) -> None:
+        """
+        Publish what was drawn; have the state drawn if it is time. Call it once a control period.
+
+        `now_s` is that of a clock that nobody sets, `time_ns` the simulated time of the state,
+        which is read here only.
+        """
+        pictures = self._renderer.poll(now_s)
+        if pictures is not None:
+            self._publish(pictures)
+        if self._shutter.is_due(time_ns):
+            self._take(now_s, time_ns, data)
+
+    def close(self) -> None:
+        """End the process that draws."""
+        self._renderer.close()
+
+    def _take(self, now_s: float, time_ns: int, data: mujoco.MjData) -> None:
+        """Have the state drawn for those who look, as soon as the last one is done."""
+        wanted = [publisher.wanted() for publisher in self._publishers]
+        if any(wanted):
+            self._renderer.need()
+            if not self._renderer.can_draw:
+                return
+            self._renderer.request(data.qpos, time_ns, wanted, now_s)
+        self._shutter.release(time_ns)
+        stamp = stamp_of(time_ns)
+        for publisher in self._publishers:
+            publisher.publish_info(stamp)
+
+    def _publish(self, pictures: Pictures) -> None:
+        """Publish what was drawn."""
+        stamp = stamp_of(pictures.time_ns)
+        for publisher, wanted, color, depth in zip(
+            self._publishers, pictures.wanted, pictures.colors, pictures.depths
+        ):
+            publisher.publish(wanted, color, depth, stamp)
+
+
+def _folder(robot: str) -> str:
+    """Return what comes before the names of the topics of a robot."""
+    return f'{robot}/' if robot else ''

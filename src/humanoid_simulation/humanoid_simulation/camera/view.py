@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which cameras of a model are drawn, and how large."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+from humanoid_simulation.camera.pinhole import Pinhole
+from humanoid_simulation.choosing import named
+import mujoco
+
+
+@dataclass(frozen=True)
+class CameraView:
+    """A camera of the model, by its name, and the size of its pictures."""
+
+    camera: str
+    width_px: int
+    height_px: int
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Which pictures of a camera somebody wants to see."""
+
+    color: bool
+    depth: bool
+
+    def __bool__(self) -> bool:
+        """Tell whether anything is wanted."""
+        return self.color or self.depth
+
+
+def camera_id(model: mujoco.MjModel, name: str) -> int:
+    """Return the number of a camera in the model; raise SimulationError if there is none."""
+    numbers = {model.camera(number).name: number for number in range(model.ncam)}
+    return named('camera', name, numbers)
+
+
+def pinhole_of(model: mujoco.MjModel, view: CameraView) -> Pinhole:
+    """Return the geometry of a view; raise SimulationError if it cannot be drawn."""
+    fovy_deg = float(model.cam_fovy[camera_id(model, view.camera)])
+    return Pinhole(view.width_px, view.height_px, math.radians(fovy_deg))
+
+
+def check_views(model: mujoco.MjModel, views: Sequence[CameraView]) -> None:
+    """Raise SimulationError unless all views can be drawn."""
+    for view in views:
+        pinhole_of(model, view)

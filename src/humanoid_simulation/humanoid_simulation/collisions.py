@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+What collides with what.
+
+Two geoms collide when a bit of the `contype` of one is set in the `conaffinity` of the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+WORLD = 1
+_ARM_ON_ARM = 1 << 1
+_ARM_ON_TRUNK = 1 << 2
+_LEG_ON_LEG = 1 << 3
+_FIRST_ROBOT = 8
+MOST_ROBOTS = 20
+_ALL_ROBOTS = ((1 << MOST_ROBOTS) - 1) << _FIRST_ROBOT
+
+_ARMS = ('upper_arm', 'forearm')
+_TRUNK = ('base_link', 'torso', 'head', 'left_thigh', 'right_thigh')
+_LEGS = ('thigh', 'shank', 'foot')
+
+COLLISION_GROUP = 3
+"""The group of the geoms that collide but are not to be seen."""
+
+
+@dataclass(frozen=True)
+class Bits:
+    """Which collisions a geom is the cause of, and which ones it suffers."""
+
+    contype: int
+    conaffinity: int
+
+    def __or__(self, other: Bits) -> Bits:
+        """Return what has the collisions of both."""
+        return Bits(self.contype | other.contype, self.conaffinity | other.conaffinity)
+
+
+NOTHING = Bits(0, 0)
+
+
+def is_collision(geom: Any) -> bool:
+    """Tell whether a geom of a robot came from a collision element of its URDF."""
+    return bool(geom.contype or geom.conaffinity)
+
+
+def robot_bits(link: str, number: int, self_collision: str) -> Bits:
+    """
+    Return the bits of a link of a robot.
+
+    :param link: its name, without a prefix
+    :param number: which robot it is; robots collide with each other with all that they have
+    """
+    own = 1 << (_FIRST_ROBOT + number)
+    bits = Bits(own, WORLD | (_ALL_ROBOTS & ~own))
+    if self_collision in ('arms', 'all'):
+        bits |= _arm_bits(link)
+    if self_collision == 'all':
+        bits |= _leg_bits(link)
+    return bits
+
+
+def _arm_bits(link: str) -> Bits:
+    """Return what makes arms collide with each other, with the trunk and with the thighs."""
+    if link.endswith(_ARMS):
+        return Bits(_ARM_ON_ARM | _ARM_ON_TRUNK, _ARM_ON_ARM)
+    return Bits(0, _ARM_ON_TRUNK) if link in _TRUNK else NOTHING
+
+
+def _leg_bits(link: str) -> Bits:
+    """Return what makes the left leg collide with the right one."""
+    if not link.endswith(_LEGS):
+        return NOTHING
+    return Bits(_LEG_ON_LEG, 0) if link.startswith('left') else Bits(0, _LEG_ON_LEG)

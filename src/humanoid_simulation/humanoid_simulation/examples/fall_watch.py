@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tell from outside whether a robot has fallen."""
+
+from __future__ import annotations
+
+import math
+
+LOWEST_SHARE = 0.6
+"""A base below this share of the height at which it was first seen has fallen."""
+STEEPEST_RAD = 0.8
+"""A base that leans more than this has fallen."""
+
+
+class FallWatch:
+    """Compares the base with how it was when it was first seen, which is taken for standing."""
+
+    def __init__(self) -> None:
+        """Wait for the first pose."""
+        self._height_m: float | None = None
+
+    def stands(self, height_m: float, tilt_rad: float) -> bool:
+        """Tell whether a robot stands whose base is so high, and leans so much."""
+        if self._height_m is None:
+            self._height_m = height_m
+        return height_m > LOWEST_SHARE * self._height_m and tilt_rad < STEEPEST_RAD
+
+
+def tilt_rad(x: float, y: float, z: float, w: float) -> float:
+    """Return the angle between the vertical and the z axis of a frame, from its quaternion."""
+    norm = x * x + y * y + z * z + w * w
+    if not norm > 0.0:
+        return math.inf
+    return math.acos(max(-1.0, 1.0 - 2.0 * (x * x + y * y) / norm))

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""End a node that waits for a simulator which does not run."""
+
+from __future__ import annotations
+
+from humanoid_common.errors import NodeStartError
+from humanoid_common.steady import SteadyTimer
+from rclpy.node import Node
+
+PATIENCE_S = 5.0
+
+
+class ExampleError(NodeStartError):
+    """Tell why an example cannot start or go on."""
+
+
+class SimulatorWatch:
+    """Ends the node, with a sentence, when nothing has come from the simulator for a while."""
+
+    def __init__(self, node: Node, topics: str, patience_s: float = PATIENCE_S) -> None:
+        """Begin to wait for something on the topics."""
+        self._node = node
+        self._topics = topics
+        self._heard = False
+        self._timer = SteadyTimer(node, 1.0 / patience_s, self._look)
+
+    def heard(self) -> None:
+        """Note that the simulator is there."""
+        self._heard = True
+
+    def _look(self, now_s: float) -> None:
+        """Raise if nothing came since the last look."""
+        if not self._heard:
+            raise ExampleError(
+                f'Nothing comes on {self._topics} (namespace {self._node.get_namespace()}): '
+                'either no simulator runs there, or it is paused. Start one with '
+                "'ros2 launch humanoid_simulation simulation.launch.py'."
+            )
+        self._heard = False

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find out which pushes the robot stands: `ros2 run humanoid_simulation push_test`."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.qos import STATE
+from humanoid_common.running import run_node
+from humanoid_interfaces.srv import ApplyWrench, ResetSimulation
+from humanoid_simulation.examples.conversions import (
+    height_and_tilt,
+    planar_pose,
+    push_request,
+    seconds,
+)
+from humanoid_simulation.examples.example_parameters import PushTestParameters
+from humanoid_simulation.examples.fall_watch import FallWatch
+from humanoid_simulation.examples.needs_simulator import ExampleError, SimulatorWatch
+from humanoid_simulation.examples.push_series import NeverStoodError, PushSeries, Step
+from nav_msgs.msg import Odometry
+import rclpy
+from rclpy.client import Client
+from rclpy.node import Node
+from rclpy.task import Future
+
+
+class PushTest(Node):
+    """Pushes the robot harder and harder, and resets the simulation after each push."""
+
+    def __init__(self, **options: Any) -> None:
+        """Wait for the robot."""
+        super().__init__('push_test', **options)
+        self._parameters = NodeParameters(self, PushTestParameters).current
+        self._series = PushSeries(self._parameters.plan)
+        self._fall_watch = FallWatch()
+        self._waits = False
+        name = self._parameters.simulator
+        self._push = self.create_client(ApplyWrench, f'{name}/apply_wrench')
+        self._reset = self.create_client(ResetSimulation, f'{name}/reset_simulation')
+        self._simulator = SimulatorWatch(self, "'ground_truth/odom'")
+        self.create_subscription(Odometry, 'ground_truth/odom', self._go_on, STATE)
+
+    def _go_on(self, message: Odometry) -> None:
+        """Do what the series says, unless an answer is awaited."""
+        self._simulator.heard()
+        if self._waits:
+            return
+        stands = self._fall_watch.stands(*height_and_tilt(message))
+        try:
+            step = self._series.update(seconds(message.header.stamp), stands)
+        except NeverStoodError as error:
+            raise ExampleError(str(error)) from error
+        if step is Step.PUSH:
+            self._send_push(message)
+        elif step is Step.RESET:
+            self._send(self._reset, ResetSimulation.Request())
+        elif step is Step.DONE:
+            self._report()
+
+    def _send_push(self, message: Odometry) -> None:
+        """Ask the simulator to push."""
+        robot, push = self.get_namespace().strip('/'), self._series.push
+        self.get_logger().info(f'Pushing {push.direction}: {push.impulse_ns:g} N s')
+        pose, duration_s = planar_pose(message), self._parameters.duration_s
+        self._send(self._push, push_request(push, robot, pose, duration_s))
+
+    def _send(self, client: Client, request: Any) -> None:
+        """Send a request; until its answer comes, nothing else is done."""
+        if not client.service_is_ready():
+            raise ExampleError(
+                f"Nobody offers '{client.srv_name}'. If the simulator has another name, say so: "
+                '--ros-args -p simulator:=/its/name'
+            )
+        self._waits = True
+        client.call_async(request).add_done_callback(self._take_answer)
+
+    def _take_answer(self, future: Future) -> None:
+        """Go on, unless the request was refused."""
+        answer = future.result()
+        if not answer.success:
+            raise ExampleError(f'The simulator refused: {answer.message}')
+        self._waits = False
+
+    def _report(self) -> None:
+        """Say what the robot stood, and end."""
+        for direction, impulse_ns in self._series.stood_ns.items():
+            self.get_logger().info(f'Stood, pushed {direction}: {impulse_ns:g} N s')
+        rclpy.try_shutdown(context=self.context)
+
+
+def main() -> int:
+    """Run the node."""
+    return run_node(PushTest)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

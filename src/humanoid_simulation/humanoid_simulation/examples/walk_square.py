@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Walk round a square by odometry: `ros2 run humanoid_simulation walk_square`."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+from geometry_msgs.msg import Twist
+from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.qos import COMMAND, STATE
+from humanoid_common.running import run_node
+from humanoid_simulation.examples.conversions import (
+    height_and_tilt,
+    planar_pose,
+    seconds,
+    twist_message,
+)
+from humanoid_simulation.examples.example_parameters import WalkSquareParameters
+from humanoid_simulation.examples.fall_watch import FallWatch
+from humanoid_simulation.examples.needs_simulator import ExampleError, SimulatorWatch
+from humanoid_simulation.examples.square_walk import NotRoundError, Progress, SquareWalk
+from nav_msgs.msg import Odometry
+import rclpy
+from rclpy.duration import Duration
+from rclpy.node import Node
+
+
+class WalkSquare(Node):
+    """Drives the robot by `cmd_vel` with what `odom` says; `ground_truth/odom` only judges."""
+
+    def __init__(self, **options: Any) -> None:
+        """Wait for the robot."""
+        super().__init__('walk_square', **options)
+        self._plan = NodeParameters(self, WalkSquareParameters).current.plan
+        self._fall_watch = FallWatch()
+        self._truth: Odometry | None = None
+        self._walk: SquareWalk | None = None
+        self._publisher = self.create_publisher(Twist, 'cmd_vel', COMMAND)
+        self._simulator = SimulatorWatch(self, "'odom' and 'ground_truth/odom'")
+        self.create_subscription(Odometry, 'ground_truth/odom', self._keep_truth, STATE)
+        self.create_subscription(Odometry, 'odom', self._go_on, STATE)
+
+    def destroy_node(self) -> None:
+        """Stop the robot and end."""
+        if self.context.ok():
+            self._publisher.publish(Twist())
+            self._publisher.wait_for_all_acked(Duration(seconds=1))
+        super().destroy_node()
+
+    def _keep_truth(self, message: Odometry) -> None:
+        """Keep where the robot really is."""
+        self._truth = message
+
+    def _go_on(self, message: Odometry) -> None:
+        """Steer, once both topics are there."""
+        if self._truth is None:
+            return
+        self._simulator.heard()
+        try:
+            progress = self._progress(message, self._truth)
+        except NotRoundError as error:
+            raise ExampleError(str(error)) from error
+        self._publisher.publish(twist_message(progress.command))
+        self._say(progress)
+
+    def _progress(self, message: Odometry, truth: Odometry) -> Progress:
+        """Ask the walk, which begins with the first message."""
+        where = seconds(message.header.stamp), planar_pose(message), planar_pose(truth)
+        if self._walk is None:
+            self.get_logger().info(f'Walking round a square of {self._plan.side_m:g} m')
+            self._walk = SquareWalk(self._plan, *where)
+        stands = self._fall_watch.stands(*height_and_tilt(truth))
+        return self._walk.update(*where, stands)
+
+    def _say(self, progress: Progress) -> None:
+        """Log what is new; after the last news, end."""
+        if progress.news:
+            self.get_logger().info(progress.news)
+        if progress.is_done:
+            rclpy.try_shutdown(context=self.context)
+
+
+def main() -> int:
+    """Run the node."""
+    return run_node(WalkSquare)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

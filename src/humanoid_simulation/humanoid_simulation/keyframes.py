@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Postures that have a name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from humanoid_control.backends import Array
+from humanoid_simulation.choosing import named
+from humanoid_simulation.files import share
+from humanoid_simulation.tables import load_table, Table
+import numpy as np
+
+SIDES = {'left_': 1.0, 'right_': -1.0}
+
+
+@dataclass(frozen=True)
+class Keyframe:
+    """The joints that are not at zero, by their names without a prefix, and how the base lies."""
+
+    joints_rad: Mapping[str, float] = field(default_factory=dict)
+    roll_rad: float = 0.0
+    pitch_rad: float = 0.0
+
+    def positions_rad(self, joints: Iterable[str], prefix: str = '') -> Array:
+        """Return the positions of joints; a keyframe that names an unknown one is refused."""
+        numbers = {joint.removeprefix(prefix): index for index, joint in enumerate(joints)}
+        positions = np.zeros(len(numbers))
+        for name, position in self.joints_rad.items():
+            positions[named('joint', name, numbers)] = position
+        return positions
+
+
+def load_keyframes() -> dict[str, Keyframe]:
+    """Return the installed keyframes."""
+    table = load_table(share() / 'config' / 'keyframes.yaml')
+    return {name: _keyframe(table.table(name)) for name in table.names}
+
+
+def _keyframe(table: Table) -> Keyframe:
+    """Read one keyframe."""
+    table.allow('joints', 'roll', 'pitch')
+    joints = table.table('joints')
+    return Keyframe(
+        _both_sides({name: joints.number(name) for name in joints.names}),
+        table.number('roll', 0.0),
+        table.number('pitch', 0.0),
+    )
+
+
+def _both_sides(joints_rad: Mapping[str, float]) -> dict[str, float]:
+    """Return the joints of both sides for those that are named without one."""
+    result: dict[str, float] = {}
+    for name, position in joints_rad.items():
+        if name.startswith((*SIDES, 'waist_', 'head_')):
+            result[name] = position
+        else:
+            turned = name.endswith(('_roll', '_yaw'))
+            for side, sign in SIDES.items():
+                result[side + name] = position * (sign if turned else 1.0)
+    return result

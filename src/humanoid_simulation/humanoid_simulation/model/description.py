@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the simulator must know of a robot: its URDF, and the drives of its joints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from humanoid_description.drives import Drive, load_drives
+from humanoid_description.expansion import humanoid_urdf
+
+
+@dataclass(frozen=True)
+class RobotDescription:
+    """A robot whose names of links and joints begin with the prefix, and its driven joints."""
+
+    urdf: str
+    drives: Mapping[str, Drive]
+    prefix: str = ''
+
+    @property
+    def base(self) -> str:
+        """Return the link that floats."""
+        return f'{self.prefix}base_link'
+
+    @property
+    def imu(self) -> str:
+        """Return the link of the inertial measurement unit."""
+        return f'{self.prefix}imu_link'
+
+    @property
+    def feet(self) -> tuple[str, str]:
+        """Return the links that stand on the ground, left and right."""
+        return f'{self.prefix}left_foot', f'{self.prefix}right_foot'
+
+    @property
+    def soles(self) -> tuple[str, str]:
+        """Return the frames of the soles, left and right."""
+        return f'{self.prefix}l_sole', f'{self.prefix}r_sole'
+
+    @property
+    def camera(self) -> str:
+        """Return the optical frame of the camera."""
+        return f'{self.prefix}camera_optical_frame'
+
+
+def humanoid(scale: float = 1.0, prefix: str = '') -> RobotDescription:
+    """Return the humanoid, at a scale."""
+    return RobotDescription(humanoid_urdf(scale, prefix), load_drives(scale, prefix), prefix)

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Make a robot that can be simulated out of its description."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from humanoid_description.drives import Drive
+from humanoid_simulation.choosing import named
+from humanoid_simulation.collisions import COLLISION_GROUP, is_collision, robot_bits
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.model.description import RobotDescription
+from humanoid_simulation.model.physics import Physics
+from humanoid_simulation.model.urdf import spec_of
+import mujoco
+
+ACCELEROMETER = 'accelerometer'
+CAMERA = 'head_camera'
+FLOATING_BASE = 'floating_base'
+FIELD_OF_VIEW_DEG = 60.0
+
+# ROS: z forward and y down; MuJoCo: z backward and y up.
+_FROM_OPTICAL_FRAME = (0.0, 1.0, 0.0, 0.0)
+
+
+def robot_spec(description: RobotDescription, number: int, physics: Physics) -> Any:
+    """Return the specification of a robot: its base floats, and its joints are driven."""
+    spec = spec_of(description.urdf)
+    _body(spec, description.base).add_freejoint(name=FLOATING_BASE)
+    for name, drive in description.drives.items():
+        _add_drive(spec, name, drive)
+    _set_collisions(spec, description.prefix, number, physics.self_collision)
+    _add_accelerometer(spec, description.imu)
+    _body(spec, description.camera).add_camera(
+        name=CAMERA, fovy=FIELD_OF_VIEW_DEG, quat=_FROM_OPTICAL_FRAME
+    )
+    _change_masses(spec, physics)
+    return spec
+
+
+def _body(spec: Any, name: str) -> Any:
+    """Return a link; one that is missing is named in the error."""
+    return named('link', name, {body.name: body for body in spec.bodies})
+
+
+def _add_drive(spec: Any, name: str, drive: Drive) -> None:
+    """
+    Add the rotor and the servo of a joint.
+
+    The range of its input is left open: feed-forward may lead it beyond that of the joint.
+    """
+    joint = named('joint', name, {joint.name: joint for joint in spec.joints})
+    joint.armature = drive.armature_kgm2
+    servo = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+    servo.set_to_position(kp=drive.kp_nm_rad, kv=drive.kd_nms_rad)
+    servo.forcelimited = True
+    servo.forcerange = (-drive.effort_nm, drive.effort_nm)
+
+
+def _set_collisions(spec: Any, prefix: str, number: int, self_collision: str) -> None:
+    """Say what the links collide with; what is only seen collides with nothing."""
+    for geom in spec.geoms:
+        if is_collision(geom):
+            bits = robot_bits(geom.parent.name.removeprefix(prefix), number, self_collision)
+            geom.contype, geom.conaffinity = bits.contype, bits.conaffinity
+            geom.group = COLLISION_GROUP
+
+
+def _add_accelerometer(spec: Any, link: str) -> None:
+    """Add the sensor whose value no state holds."""
+    _body(spec, link).add_site(name=ACCELEROMETER)
+    spec.add_sensor(
+        name=ACCELEROMETER,
+        type=mujoco.mjtSensor.mjSENS_ACCELEROMETER,
+        objtype=mujoco.mjtObj.mjOBJ_SITE,
+        objname=ACCELEROMETER,
+    )
+
+
+def _change_masses(spec: Any, physics: Physics) -> None:
+    """Make links heavier or lighter."""
+    for link, factor in physics.mass_factors.items():
+        body = _body(spec, link)
+        if not body.mass > 0.0:
+            raise SimulationError(f"Link '{link}' has no mass that could be multiplied.")
+        body.mass *= factor
+        body.inertia = body.inertia * factor
+        body.fullinertia = body.fullinertia * factor

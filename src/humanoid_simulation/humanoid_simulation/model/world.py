@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Put a scene and robots into one world."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from humanoid_simulation.collisions import MOST_ROBOTS
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.model.description import RobotDescription
+from humanoid_simulation.model.physics import Physics
+from humanoid_simulation.model.placement import check_placements, Placement
+from humanoid_simulation.model.robot_spec import robot_spec
+from humanoid_simulation.scene import Scene
+from humanoid_simulation.scene.building import add_scene
+import mujoco
+
+
+def in_world(robot: str, name: str) -> str:
+    """Return what a link, joint, sensor or camera of a robot is called in the world."""
+    return f'{robot or "robot"}/{name}'
+
+
+def build_world(
+    description: RobotDescription,
+    scene: Scene,
+    placements: Sequence[Placement],
+    physics: Physics,
+) -> Any:
+    """Return the compiled model of a world with robots of one kind."""
+    check_placements(placements)
+    if len(placements) > MOST_ROBOTS:
+        raise SimulationError(f'A world has room for {MOST_ROBOTS} robots, not {len(placements)}.')
+    world = _empty_world(physics)
+    add_scene(world, scene)
+    robots = [robot_spec(description, number, physics) for number, _ in enumerate(placements)]
+    for placement, robot in zip(placements, robots):
+        frame = world.worldbody.add_frame(pos=(placement.x_m, placement.y_m, placement.z_m))
+        world.attach(robot, prefix=in_world(placement.robot, ''), frame=frame)
+    try:
+        return world.compile()
+    except ValueError as error:
+        raise SimulationError(f'MuJoCo cannot make a world of this: {error}.') from error
+
+
+def _empty_world(physics: Physics) -> Any:
+    """Return a world with nothing in it but the laws of physics."""
+    world = mujoco.MjSpec()
+    world.modelname = 'world'
+    option = world.option
+    option.timestep = physics.period_s
+    option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    option.impratio = 10.0
+    # Numbers without bounds must be found, not replaced by a fresh start.
+    option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
+    return world

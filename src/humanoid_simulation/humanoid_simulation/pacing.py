@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How fast the time of the world passes."""
+
+from __future__ import annotations
+
+from humanoid_simulation.errors import SimulationError
+
+MOST_LATE_S = 0.1
+"""A computer that was busy elsewhere for longer does not catch up with the rest."""
+_WINDOW_S = 1.0
+_LARGEST_FACTOR = 100.0
+
+
+class Pacer:
+    """
+    Says when the next period of the world is due, and how fast the periods really follow.
+
+    The factor is how many seconds of the world pass in a real one; 0 is as fast as possible. All
+    times are those of a clock that nobody sets.
+    """
+
+    def __init__(self, period_s: float, factor: float, now_s: float) -> None:
+        """Begin: the first period is due now."""
+        self._period_s = period_s
+        self._factor = _checked(factor)
+        self.restart(now_s)
+
+    @property
+    def factor(self) -> float:
+        """Return how fast the time of the world is to pass."""
+        return self._factor
+
+    @property
+    def interval_s(self) -> float:
+        """Return the real time between two periods; zero is as little as possible."""
+        return self._period_s / self._factor if self._factor else 0.0
+
+    def change(self, factor: float, now_s: float) -> None:
+        """Change how fast the time of the world is to pass."""
+        self._factor = _checked(factor)
+        self.restart(now_s)
+
+    def restart(self, now_s: float) -> None:
+        """Go on after a pause: what was missed meanwhile is not caught up with."""
+        self._next_s = now_s
+        self._window_start_s = now_s
+        self._periods = 0
+        self._reached: float | None = None
+
+    def wait_s(self, now_s: float) -> float:
+        """Return for how long the next period is not due yet; zero if it is."""
+        return 0.0 if self._factor == 0.0 else max(0.0, self._next_s - now_s)
+
+    def ticked(self, now_s: float) -> None:
+        """Take note that a period was computed."""
+        self._periods += 1
+        if self._factor > 0.0:
+            self._next_s = max(self._next_s + self._period_s / self._factor, now_s - MOST_LATE_S)
+        elapsed_s = now_s - self._window_start_s
+        if elapsed_s >= _WINDOW_S:
+            self._reached = self._periods * self._period_s / elapsed_s
+            self._window_start_s, self._periods = now_s, 0
+
+    @property
+    def reached(self) -> float | None:
+        """Return the factor that was reached in the last second; None before the first one."""
+        return self._reached
+
+
+def _checked(factor: float) -> float:
+    """Refuse a factor that makes no sense."""
+    if not 0.0 <= factor <= _LARGEST_FACTOR:
+        raise SimulationError(
+            f'The real-time factor cannot be {factor:g}. Give 1 for real time, 2 for twice as '
+            f'fast, up to {_LARGEST_FACTOR:g}, or 0 for as fast as possible.'
+        )
+    return factor

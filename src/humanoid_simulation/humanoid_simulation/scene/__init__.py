@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is in the world besides robots."""
+
+from humanoid_simulation.scene.loading import load_scene, scene_of
+from humanoid_simulation.scene.scene import Floor, Scene, Thing
+
+__all__ = ['Floor', 'Scene', 'Thing', 'load_scene', 'scene_of']

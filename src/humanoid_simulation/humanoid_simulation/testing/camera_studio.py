@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Draw the world of the camera tests, in this process or by the renderer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+import logging
+import time
+
+from humanoid_common.testing.waiting import wait_until
+from humanoid_simulation.camera import CameraView, Renderer, Wanted
+from humanoid_simulation.camera.process_keeper import Patience
+from humanoid_simulation.camera.renderer import Pictures
+from humanoid_simulation.testing.camera_world import world
+import mujoco
+
+ALL = Wanted(color=True, depth=True)
+
+
+class Studio:
+    """A renderer, and the world that it draws."""
+
+    def __init__(
+        self, views: Sequence[CameraView], methods: Sequence[str], patience: Patience
+    ) -> None:
+        """Need pictures of the views, so that the process starts."""
+        self.model, self.data = world()
+        self.log = logging.getLogger('camera_studio')
+        self.renderer = Renderer(self.model, views, methods, self.log, patience)
+        self.renderer.need()
+        self._count = len(views)
+        self._time_ns = 0
+
+    def picture(self, wanted: Sequence[Wanted] = ()) -> Pictures:
+        """Return the pictures of the state as it is now."""
+        self.wait_until(lambda: self.renderer.can_draw, 'a renderer that can draw')
+        self.ask(wanted)
+        taken: list[Pictures] = []
+
+        def is_drawn() -> bool:
+            taken.extend(filter(None, [self.renderer.poll(time.monotonic())]))
+            return bool(taken)
+
+        wait_until(is_drawn, 60.0, lambda: 'a picture')
+        return taken[0]
+
+    def ask(self, wanted: Sequence[Wanted] = ()) -> None:
+        """Have the state drawn as it is now."""
+        self._time_ns += 1
+        every = list(wanted) or [ALL] * self._count
+        self.renderer.request(self.data.qpos, self._time_ns, every, time.monotonic())
+
+    def wait_until(self, predicate: Callable[[], bool], what: str) -> None:
+        """Poll until the predicate holds."""
+
+        def pause() -> None:
+            self.renderer.poll(time.monotonic())
+            time.sleep(0.005)
+
+        wait_until(predicate, 60.0, lambda: what, pause)
+
+
+@contextmanager
+def studio(
+    methods: Sequence[str],
+    views: Sequence[CameraView] = (CameraView('eye', 160, 120),),
+    patience: Patience = Patience(retry_s=0.0),
+) -> Iterator[Studio]:
+    """Give a renderer for the length of a `with` block."""
+    place = Studio(views, methods, patience)
+    try:
+        yield place
+    finally:
+        place.renderer.close()
+
+
+def ball_address(model: mujoco.MjModel) -> int:
+    """Return where the position of the ball is in qpos."""
+    return int(model.jnt_qposadr[0])

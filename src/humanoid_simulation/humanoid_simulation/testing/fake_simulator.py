@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A stand-in for the simulator, for tests of what drives and pushes a robot."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import Twist
+from humanoid_common.qos import COMMAND, LATCHED, STATE
+from humanoid_control.walking.planar import PlanarPose
+from humanoid_interfaces.srv import ApplyWrench, ResetSimulation, StepSimulation
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from std_msgs.msg import String
+from std_srvs.srv import SetBool
+
+PERIOD_S = 0.02
+FASTER = 10
+"""How many times faster than real its time runs."""
+STANDS_NS = 12.0
+"""The robot falls when it is pushed harder."""
+STEPS_A_PERIOD = 10
+START = PlanarPose(1 + 2j, 0.5)
+
+
+class FakeSimulator(Node):
+    """A robot that goes exactly as it is told; without physics, and without a control of time."""
+
+    def __init__(self, **options: Any) -> None:
+        """Put the robot at the start."""
+        super().__init__('simulator', **options)
+        self.velocity = Twist()
+        self.pushes: list[ApplyWrench.Request] = []
+        self.refuses = ''
+        """Why pushes are refused, if they are."""
+        self._pose, self._time_s = START, 0.0
+        self._lies = self._pauses = False
+        self._odometries = [
+            self.create_publisher(Odometry, topic, STATE)
+            for topic in ('ground_truth/odom', 'odom')
+        ]
+        self._state = self.create_publisher(String, 'walking_state', LATCHED)
+        self._state.publish(String(data='STAND'))
+        self.create_subscription(Twist, 'cmd_vel', self._obey, COMMAND)
+        self.create_service(ApplyWrench, '~/apply_wrench', self._be_pushed)
+        self.create_service(ResetSimulation, '~/reset_simulation', self._begin_anew)
+        self.create_service(SetBool, '~/set_pause', self._pause)
+        self.create_service(StepSimulation, '~/step_simulation', self._go_on)
+        self.create_timer(PERIOD_S / FASTER, self._tick)
+
+    def _obey(self, message: Twist) -> None:
+        """Take a velocity."""
+        self.velocity = message
+
+    def _be_pushed(
+        self, request: ApplyWrench.Request, response: ApplyWrench.Response
+    ) -> ApplyWrench.Response:
+        """Fall if the push is hard."""
+        self.pushes.append(request)
+        force, duration_s = request.wrench.force, request.duration.nanosec * 1e-9
+        self._lies = math.hypot(force.x, force.y) * duration_s > STANDS_NS
+        response.success, response.message = not self.refuses, self.refuses
+        return response
+
+    def _begin_anew(
+        self, request: ResetSimulation.Request, response: ResetSimulation.Response
+    ) -> ResetSimulation.Response:
+        """Stand at the start."""
+        self._lies, self._pose = False, START
+        response.success = True
+        return response
+
+    def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        """Let time stand still, or go on."""
+        self._pauses = request.data
+        response.success = True
+        return response
+
+    def _go_on(
+        self, request: StepSimulation.Request, response: StepSimulation.Response
+    ) -> StepSimulation.Response:
+        """Go on by some steps."""
+        for _ in range(request.steps // STEPS_A_PERIOD):
+            self._step()
+        response.success = True
+        return response
+
+    def _tick(self) -> None:
+        """Go on, unless paused."""
+        if not self._pauses:
+            self._step()
+
+    def _step(self) -> None:
+        """Go on by a period, and say where the robot is."""
+        self._time_s += PERIOD_S
+        go = self.velocity
+        yaw_rad = self._pose.yaw_rad + go.angular.z * PERIOD_S
+        place = self._pose.at(go.linear.x * PERIOD_S, go.linear.y * PERIOD_S)
+        self._pose = PlanarPose(place, yaw_rad)
+        message = self._odometry()
+        for publisher in self._odometries:
+            publisher.publish(message)
+
+    def _odometry(self) -> Odometry:
+        """Return the message of where the robot is."""
+        message = Odometry()
+        message.header.stamp = Time(sec=int(self._time_s), nanosec=int(self._time_s % 1 * 1e9))
+        pose, yaw_rad = message.pose.pose, self._pose.yaw_rad
+        pose.position.x, pose.position.y = self._pose.position_m.real, self._pose.position_m.imag
+        pose.position.z = 0.1 if self._lies else 0.7
+        pose.orientation.w, pose.orientation.z = math.cos(yaw_rad / 2), math.sin(yaw_rad / 2)
+        return message

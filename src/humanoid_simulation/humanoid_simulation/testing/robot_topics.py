@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The topics and services of a simulated robot, as its users have them."""
+
+from __future__ import annotations
+
+import math
+
+from geometry_msgs.msg import Twist
+from humanoid_common.qos import COMMAND, LATCHED, STATE
+from humanoid_control.walking.planar import PlanarPose
+from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+from humanoid_interfaces.srv import ApplyWrench, ResetSimulation, StepSimulation
+from humanoid_simulation.examples.conversions import (
+    height_and_tilt,
+    planar_pose,
+    seconds,
+    twist_message,
+)
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from std_msgs.msg import String
+from std_srvs.srv import SetBool
+
+REPEAT_S = 0.1
+"""How often, on the computer's clock, the velocity is sent again, so that it does not time out."""
+
+
+class RobotTopics:
+    """Keeps the newest of what the robot says, and goes on to send the velocity."""
+
+    def __init__(self, node: Node, simulator: str) -> None:
+        """Take part; the names are in the namespace of the node."""
+        self.velocity: VelocityCommand | None = None
+        self.sent = 0
+        """How many velocities were sent."""
+        self.time_s = -math.inf
+        self.pose = PlanarPose()
+        self.odometry = PlanarPose()
+        self.height_m = self.tilt_rad = math.nan
+        self.walking_state = ''
+        self.went_back = False
+        """Whether a stamp was older than the one before it."""
+        self.pause = node.create_client(SetBool, f'{simulator}/set_pause')
+        self.steps = node.create_client(StepSimulation, f'{simulator}/step_simulation')
+        self.reset = node.create_client(ResetSimulation, f'{simulator}/reset_simulation')
+        self.push = node.create_client(ApplyWrench, f'{simulator}/apply_wrench')
+        self._publisher = node.create_publisher(Twist, 'cmd_vel', COMMAND)
+        node.create_subscription(Odometry, 'ground_truth/odom', self._take_truth, STATE)
+        node.create_subscription(Odometry, 'odom', self._take_odometry, STATE)
+        node.create_subscription(String, 'walking_state', self._take_state, LATCHED)
+        node.create_timer(REPEAT_S, self.send)
+
+    @property
+    def is_complete(self) -> bool:
+        """Tell whether the simulator is there with all that a test uses."""
+        clients = (self.pause, self.steps, self.reset, self.push)
+        is_heard = self._publisher.get_subscription_count() > 0
+        return is_heard and all(each.service_is_ready() for each in clients)
+
+    def send(self) -> None:
+        """Send the velocity, if there is one."""
+        if self.velocity is not None:
+            self._publisher.publish(twist_message(self.velocity))
+            self.sent += 1
+
+    def drive(self, velocity: VelocityCommand | None) -> None:
+        """Send a velocity from now on; None lets the others drive."""
+        self.velocity = velocity
+        self.send()
+
+    def stand(self) -> None:
+        """Let the robot stand."""
+        self.drive(STANDING)
+
+    def _take_truth(self, message: Odometry) -> None:
+        """Keep where the robot is."""
+        time_s = seconds(message.header.stamp)
+        self.went_back |= time_s < self.time_s
+        self.time_s, self.pose = time_s, planar_pose(message)
+        self.height_m, self.tilt_rad = height_and_tilt(message)
+
+    def _take_odometry(self, message: Odometry) -> None:
+        """Keep where the robot believes to be."""
+        self.odometry = planar_pose(message)
+
+    def _take_state(self, message: String) -> None:
+        """Keep what the robot says that it does."""
+        self.walking_state = message.data

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Drive, push and watch a simulated robot; all durations are in simulated time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from humanoid_common.testing.ros import RosSandbox
+from humanoid_control.walking.planar import PlanarPose
+from humanoid_control.walking.velocity_command import VelocityCommand
+from humanoid_interfaces.srv import ResetSimulation, StepSimulation
+from humanoid_simulation.examples.conversions import push_request
+from humanoid_simulation.examples.fall_watch import FallWatch
+from humanoid_simulation.examples.push_series import Push
+from humanoid_simulation.testing.robot_topics import RobotTopics
+from rclpy.client import Client
+from rclpy.node import Node
+from std_srvs.srv import SetBool
+
+PATIENCE_S = 60.0
+"""How long, on the computer's clock, something may take that should come at once."""
+PUSH_S = 0.1
+"""How long a push lasts."""
+
+
+class FellError(AssertionError):
+    """The robot fell."""
+
+
+class SimulatedRobot:
+    """A robot in a simulator that runs, which is to stay on its feet in all that a test does."""
+
+    def __init__(
+        self,
+        ros: RosSandbox,
+        namespace: str = '',
+        simulator: str = '/simulator',
+        runs: bool = True,
+    ) -> None:
+        """Wait for the robot, and for its time unless it does not run yet."""
+        self._ros = ros
+        self._namespace = namespace
+        node = ros.start(lambda **options: Node('robot_watcher', namespace=namespace, **options))
+        self.topics = RobotTopics(node, simulator)
+        ros.wait_until(lambda: self.topics.is_complete, PATIENCE_S, 'the simulator')
+        if runs:
+            ros.wait_until(lambda: self.topics.time_s > 0.0, PATIENCE_S, 'ground truth')
+        self._fall_watch = FallWatch()
+
+    @property
+    def pose(self) -> PlanarPose:
+        """Return where the robot really is."""
+        return self.topics.pose
+
+    @property
+    def stands(self) -> bool:
+        """Tell whether it has not fallen."""
+        return self._fall_watch.stands(self.topics.height_m, self.topics.tilt_rad)
+
+    def wait(self, duration_s: float) -> None:
+        """Let time pass; raise FellError if the robot does not stay on its feet."""
+        self.wait_until(lambda: False, duration_s)
+
+    def wait_until(self, done: Callable[[], bool], at_most_s: float) -> bool:
+        """Let time pass until a condition holds; return whether it came to hold in time."""
+        end_s = self.topics.time_s + at_most_s
+        self._spin(lambda: done() or not self.stands or self.topics.time_s >= end_s, at_most_s)
+        if not self.stands:
+            topics = self.topics
+            raise FellError(
+                f'The robot fell before {topics.time_s:.2f} s: its base is at '
+                f'{topics.height_m:.2f} m and leans {topics.tilt_rad:.2f} rad. It was driven '
+                f'with {topics.velocity}, and its state is {topics.walking_state!r}'
+            )
+        return done()
+
+    def drive(self, forward: float = 0.0, left: float = 0.0, turn: float = 0.0) -> None:
+        """Walk at a velocity from now on, in m/s and rad/s; without arguments, stand."""
+        self.topics.drive(VelocityCommand(forward, left, turn))
+
+    def push(self, direction: str, impulse_ns: float) -> None:
+        """Push the base in a direction of the robot."""
+        push = Push(direction, impulse_ns)
+        self._ask(self.topics.push, push_request(push, self._namespace, self.pose, PUSH_S))
+
+    def reset(self, keyframe: str = '') -> None:
+        """Put the robot where it began, at rest, and let it stand for a second."""
+        self.drive()
+        self._ask(self.topics.reset, ResetSimulation.Request(keyframe=keyframe))
+        self._fall_watch, begin_s = FallWatch(), self.topics.time_s
+        self._spin(lambda: self.topics.time_s > begin_s + 0.1, 0.1)
+        self.wait(1.0)
+
+    def pause(self, on: bool = True) -> None:
+        """Let time stand still, or go on."""
+        self._ask(self.topics.pause, SetBool.Request(data=on))
+
+    def step(self, steps: int) -> None:
+        """Let a paused simulation go on by some steps of physics."""
+        self._ask(self.topics.steps, StepSimulation.Request(steps=steps))
+
+    def hear_of(self, time_s: float) -> None:
+        """Wait until ground truth of a time has come, which the simulator has reached."""
+        self._spin(lambda: self.topics.time_s > time_s - 1e-6, 0.0)
+
+    def step_commanded(self, steps: int) -> None:
+        """
+        The same, with a velocity that has certainly come just before.
+
+        What a paused simulation does in fewer steps than the velocity lasts is the same each time.
+        """
+        sent = self.topics.sent
+        self._ros.wait_until(lambda: self.topics.sent > sent + 1, PATIENCE_S, 'a velocity')
+        self.step(steps)
+
+    def _ask(self, client: Client, request: Any) -> None:
+        """Send a request, and expect that it is granted."""
+        future = client.call_async(request)
+        self._ros.wait_until(future.done, PATIENCE_S, f'an answer of {client.srv_name}')
+        answer = future.result()
+        assert answer.success, f'{client.srv_name} refused: {answer.message}'
+
+    def _spin(self, done: Callable[[], bool], duration_s: float) -> None:
+        """Take what comes until a condition holds."""
+        patience_s = PATIENCE_S + 3 * duration_s
+        self._ros.wait_until(done, patience_s, f'{duration_s:g} s of simulated time')

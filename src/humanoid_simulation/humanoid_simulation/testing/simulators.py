@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A simulator for the length of a test."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from humanoid_common.testing.processes import module_command, running_program
+from humanoid_common.testing.ros import ros_sandbox
+from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+
+AS_FAST_AS_POSSIBLE = {'real_time_factor': '0.0'}
+
+
+@contextmanager
+def simulated_robot(**parameters: str) -> Iterator[SimulatedRobot]:
+    """Run a simulator without a camera, in a domain of its own, and hand out its robot."""
+    values = {**AS_FAST_AS_POSSIBLE, 'camera_rate_hz': '0.0', **parameters}
+    settings = [text for name, value in values.items() for text in ('-p', f'{name}:={value}')]
+    command = module_command('humanoid_simulation.simulator', '--ros-args', *settings)
+    with ros_sandbox() as ros, running_program(command) as program:
+        program.wait_for_output('Simulator started', timeout_s=60.0)
+        yield SimulatedRobot(ros, runs=values.get('start_paused') != 'true')

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Measure what the simulated humanoid costs: control and physics, and the whole with ROS.
+
+`make bench ARGS='--runs 5'`. The first table is of lockstep without ROS; the times are CPU time of
+one thread. The second one starts the simulator, drives it by `cmd_vel`, and reads its CPU time.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from statistics import median
+import time
+from typing import TypeVar
+
+from humanoid_control.walking import VelocityCommand
+from humanoid_simulation.backend import BackendSettings
+from humanoid_simulation.testing.lockstep_robot import LockstepRobot
+from simulator_run import Share, simulator_share
+
+T = TypeVar('T')
+FORWARD_M_S = 0.25
+SETTLE_TICKS = 200
+TICKS = 1000
+FACTORS = {1.0: 'in real time', 0.0: 'as fast as possible'}
+
+
+def main() -> None:
+    """Measure and print two tables."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('--runs', type=int, default=3, help='runs of each row')
+    runs = parser.parse_args().runs
+    print_costs([TickCosts().means_us() for _ in range(runs)])
+    print(f'\n{"CPU %":>7} {"faster":>7}  the simulator while it walks, median of {runs} runs')
+    for factor, what in FACTORS.items():
+        print_share([simulator_share(factor, FORWARD_M_S) for _ in range(runs)], what)
+
+
+def print_costs(runs: list[dict[str, float]]) -> None:
+    """Print what the parts of a tick cost while the robot walks."""
+    settings = BackendSettings()
+    print(f'{"CPU us":>7}  of a tick, mean of {TICKS} while it walks, median of {len(runs)} runs')
+    for name in runs[0]:
+        print(f'{median(run[name] for run in runs):7.0f}  {name}')
+    whole_us = median(sum(run.values()) for run in runs)
+    print(f'{whole_us:7.0f}  together, {settings.period_s * 1e6 / whole_us:.1f} times real time')
+    step_us = median(run['step'] for run in runs) / settings.steps_per_period
+    print(f'{1e6 / step_us:7.0f}  physics steps a second', flush=True)
+
+
+def print_share(runs: list[Share], what: str) -> None:
+    """Print what share of a core the simulator takes, and how fast its time runs."""
+    cpu, factor = median(run.cpu for run in runs), median(run.factor for run in runs)
+    print(f'{cpu:7.1%} {factor:7.2f}  {what}', flush=True)
+
+
+class TickCosts:
+    """A robot that walks without ROS, and the CPU time of the parts of its ticks."""
+
+    def __init__(self) -> None:
+        """Let it stand for a while, and begin to walk."""
+        robot = LockstepRobot()
+        self._backend, self._control = robot.backend, robot.walking.control
+        self._spent_s: dict[str, float] = {}
+        self._go(SETTLE_TICKS, 0.0)
+        self._go(SETTLE_TICKS, FORWARD_M_S)
+
+    def means_us(self) -> dict[str, float]:
+        """Walk, and return the mean time of each part."""
+        self._spent_s = {}
+        self._go(TICKS, FORWARD_M_S)
+        return {name: spent_s / TICKS * 1e6 for name, spent_s in self._spent_s.items()}
+
+    def _go(self, ticks: int, forward_m_s: float) -> None:
+        """Observe, decide and step, many times."""
+        backend, control = self._backend, self._control
+        for _ in range(ticks):
+            control.walk(VelocityCommand(forward_m_s))
+            observation = self._timed('observe', lambda: backend.observe()[''])
+            targets = self._timed('control', lambda: control.update(observation))  # noqa: B023
+            self._timed('step', lambda: backend.step({'': targets}))  # noqa: B023
+
+    def _timed(self, name: str, action: Callable[[], T]) -> T:
+        """Do something and add its time."""
+        begin_s = time.process_time()
+        result = action()
+        self._spent_s[name] = self._spent_s.get(name, 0.0) + time.process_time() - begin_s
+        return result
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run the simulator as users do, let its robot walk, and read what it takes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+import os
+from statistics import mean
+import sys
+import time
+from typing import Any
+
+from domain_coordinator import domain_id
+from geometry_msgs.msg import Twist
+from measuring import cpu_s, running
+import rclpy
+from std_msgs.msg import Float64
+
+SECONDS = 10.0
+SETTLE_S = 3.0
+TIMEOUT_S = 60.0
+SEND_S = 0.1
+
+
+@dataclass(frozen=True)
+class Share:
+    """The share of a core that the simulator takes, and how much faster than real it runs."""
+
+    cpu: float
+    factor: float
+
+
+def simulator_share(real_time_factor: float, forward_m_s: float) -> Share:
+    """Start the simulator without a camera, let the robot walk, and measure."""
+    with domain_id() as domain:
+        os.environ['ROS_DOMAIN_ID'] = str(domain)
+        command = _simulator(real_time_factor)
+        with running(command) as process, _driver(forward_m_s) as driver:
+            driver.wait_for_factor()
+            driver.drive(SETTLE_S)
+            begin_s, begin_cpu_s = time.monotonic(), cpu_s(process)
+            factors = driver.drive(SECONDS)
+            wall_s = time.monotonic() - begin_s
+            return Share((cpu_s(process) - begin_cpu_s) / wall_s, mean(factors))
+
+
+def _simulator(real_time_factor: float) -> list[str]:
+    """Return the command of a simulator that draws no camera images."""
+    settings = {'real_time_factor': real_time_factor, 'camera_rate_hz': 0.0}
+    command = [sys.executable, '-m', 'humanoid_simulation.simulator', '--ros-args']
+    for name, value in settings.items():
+        command += ['-p', f'{name}:={value}']
+    return command
+
+
+class _Driver:
+    """Sends a velocity, and hears how fast time runs."""
+
+    def __init__(self, node: Any, forward_m_s: float) -> None:
+        self._node = node
+        self._factors: list[float] = []
+        self._velocity = Twist()
+        self._velocity.linear.x = forward_m_s
+        self._publisher = node.create_publisher(Twist, 'cmd_vel', 1)
+        node.create_timer(SEND_S, lambda: self._publisher.publish(self._velocity))
+        node.create_subscription(
+            Float64, 'real_time_factor', lambda message: self._factors.append(message.data), 10
+        )
+
+    def wait_for_factor(self) -> None:
+        """Wait until the simulator says how fast it is."""
+        end_s = time.monotonic() + TIMEOUT_S
+        while not self._factors:
+            if time.monotonic() > end_s:
+                raise TimeoutError('the simulator has not started')
+            rclpy.spin_once(self._node, timeout_sec=0.1)
+
+    def drive(self, duration_s: float) -> list[float]:
+        """Go on for a while; return the factors that were heard meanwhile."""
+        self._factors.clear()
+        end_s = time.monotonic() + duration_s
+        while (left_s := end_s - time.monotonic()) > 0:
+            rclpy.spin_once(self._node, timeout_sec=left_s)
+        return list(self._factors)
+
+
+@contextmanager
+def _driver(forward_m_s: float) -> Iterator[_Driver]:
+    """Make the node that drives."""
+    rclpy.init()
+    node = rclpy.create_node('driver')
+    try:
+        yield _Driver(node, forward_m_s)
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()

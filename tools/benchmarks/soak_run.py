@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One run of the walking soak: random commands and pushes under random conditions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+
+from humanoid_control.walking import VelocityCommand
+from humanoid_simulation.backend import BackendSettings
+from humanoid_simulation.backend.noise import REALISTIC
+from humanoid_simulation.disturbances import DropOuts
+from humanoid_simulation.model import Physics
+from humanoid_simulation.scene import Scene
+from humanoid_simulation.scene.scene import Floor
+from humanoid_simulation.testing.lockstep_robot import LockstepRobot
+import numpy as np
+
+MASS_LINK = 'torso'
+SETTLE_S = 1.0
+WAY_S = 0.5
+LONGEST_STALL_TICKS = 10
+EXTRAPOLATION_S = 0.1
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """What differs from run to run."""
+
+    seed: int
+    friction: float
+    mass_factor: float
+    latency_periods: int
+
+    @classmethod
+    def drawn(cls, seed: int) -> Conditions:
+        """Draw friction 0.5 to 1.1, the trunk's mass +-20 %, and up to 20 ms of latency."""
+        random = np.random.default_rng([seed, 1])
+        return cls(
+            seed,
+            float(random.uniform(0.5, 1.1)),
+            float(random.uniform(0.8, 1.2)),
+            int(random.integers(0, 3)),
+        )
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A command for a while, in which the robot is pushed once."""
+
+    command: VelocityCommand
+    duration_s: float
+    push_after_s: float
+    impulse_ns: complex
+
+
+@dataclass(frozen=True)
+class SoakResult:
+    """How a run ended; where it walked and what it was told last."""
+
+    conditions: Conditions
+    survived_s: float
+    fell: bool
+    distance_m: float
+    last: Segment
+    phase: str
+
+
+def drawn_segment(random: np.random.Generator, push_ns: float) -> Segment:
+    """Draw a command of one of six kinds, and a push in any direction."""
+    forward, left, turn = (
+        (0.0, 0.0, 0.0),
+        (random.uniform(-0.2, 0.35), 0.0, 0.0),
+        (0.0, random.uniform(-0.12, 0.12), 0.0),
+        (0.0, 0.0, random.uniform(-0.6, 0.6)),
+        (random.uniform(0.0, 0.3), random.uniform(-0.08, 0.08), random.uniform(-0.4, 0.4)),
+        (random.uniform(0.2, 0.35), 0.0, random.uniform(-0.3, 0.3)),
+    )[random.integers(6)]
+    duration_s = float(random.uniform(1.5, 5.0))
+    angle_rad = random.uniform(0.0, 2 * math.pi)
+    return Segment(
+        VelocityCommand(float(forward), float(left), float(turn)),
+        duration_s,
+        float(random.uniform(0.0, duration_s - 0.2)),
+        push_ns * complex(math.cos(angle_rad), math.sin(angle_rad)),
+    )
+
+
+class SoakRun:
+    """A robot that walks in a world of its own, without ROS."""
+
+    def __init__(self, conditions: Conditions, push_ns: float, drop_outs: float) -> None:
+        """Make the world; `drop_outs` is the chance at a tick that control begins to stall."""
+        self._conditions, self._push_ns = conditions, push_ns
+        settings = BackendSettings(
+            Physics(mass_factors={MASS_LINK: conditions.mass_factor}),
+            noise=REALISTIC,
+            seed=conditions.seed,
+            latency_periods=conditions.latency_periods,
+            extrapolation_s=EXTRAPOLATION_S,
+        )
+        scene = Scene(floor=Floor(friction=conditions.friction))
+        stalls = np.random.default_rng([conditions.seed, 3])
+        misses = DropOuts(stalls, drop_outs, LONGEST_STALL_TICKS).misses
+        self._robot = LockstepRobot(settings, scene, misses)
+        self._random = np.random.default_rng([conditions.seed, 2])
+        self._distance_m = 0.0
+
+    def run(self, duration_s: float) -> SoakResult:
+        """Walk until the time is over or the robot falls."""
+        backend = self._robot.backend
+        segment = Segment(VelocityCommand(), SETTLE_S, 0.0, 0j)
+        stands = self._obey(segment, duration_s)
+        while stands and backend.time_s < duration_s - backend.period_s:
+            segment = drawn_segment(self._random, self._push_ns)
+            stands = self._obey(segment, duration_s - backend.time_s)
+        status = self._robot.walking.walker.status
+        phase = status.phase if status else ''
+        return SoakResult(
+            self._conditions, backend.time_s, not stands, self._distance_m, segment, phase
+        )
+
+    def _obey(self, segment: Segment, at_most_s: float) -> bool:
+        """Obey a command; return whether the robot is on its feet at the end."""
+        robot, command = self._robot, segment.command
+        robot.drive(command.forward_m_s, command.left_m_s, command.turn_rad_s)
+        duration_s = min(segment.duration_s, at_most_s)
+        before_s = min(segment.push_after_s, duration_s)
+        if not self._walk(before_s):
+            return False
+        if segment.impulse_ns:
+            robot.push(segment.impulse_ns / abs(segment.impulse_ns), abs(segment.impulse_ns))
+        return self._walk(duration_s - before_s)
+
+    def _walk(self, duration_s: float) -> bool:
+        """Let time pass, and add to the way, half a second after the other."""
+        left_s = duration_s
+        while left_s > 0.0:
+            place = self._robot.pose.position_m
+            stands = self._robot.wait(min(left_s, WAY_S))
+            self._distance_m += abs(self._robot.pose.position_m - place)
+            if not stands:
+                return False
+            left_s -= WAY_S
+        return True
