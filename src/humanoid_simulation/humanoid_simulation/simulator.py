@@ -44,7 +44,9 @@ class Simulator(Node):
             {name: backend.camera(name) for name in backend.robots},
             backend.model,
             parameters,
+            parameters.prefix,
         )
+        self._see()
         brains = {name: robot.control for name, robot in simulated.controls.items()}
         loop = GuardedLoop(backend, brains, self._fail)
         self._pacer = Pacer(backend.period_s, parameters.real_time_factor, time.monotonic())
@@ -74,6 +76,10 @@ class Simulator(Node):
         """Publish what is due after a period."""
         self._world.tell(observations)
         self._robots.tell(observations)
+        self._see()
+
+    def _see(self) -> None:
+        """Let the cameras see the world as it is."""
         time_ns = round(self._backend.time_s * 1e9)
         self._cameras.tick(time.monotonic(), time_ns, self._backend.data)
 
