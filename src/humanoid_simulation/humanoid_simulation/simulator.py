@@ -62,6 +62,11 @@ class Simulator(Node):
         self._diagnostics = HostDiagnostics(self, self._host, self._robots)
         self.get_logger().info(_greeting(simulated, parameters))
 
+    @property
+    def camera_process_id(self) -> int | None:
+        """Return the number of the process that draws what the cameras see, if it runs."""
+        return self._cameras.process_id
+
     def destroy_node(self) -> None:
         """End, together with the process that draws."""
         self._cameras.close()
