@@ -19,21 +19,25 @@ import pytest
 from sensor_msgs.msg import CameraInfo, Image
 
 SMALL = {'camera_width_px': 64, 'camera_height_px': 49, 'camera_renderer': 'rays'}
-TICK_NS = 10_000_000
 
 
 class Set:
     """The cameras of a node, and a clock that ticks when the test wants."""
 
-    def __init__(self, ros: RosSandbox, cameras: Mapping[str, str], **parameters: Any) -> None:
+    def __init__(
+        self,
+        ros: RosSandbox,
+        cameras: Mapping[str, str],
+        prefix: str = '',
+        **parameters: Any,
+    ) -> None:
         """Begin at time 0."""
         self._ros = ros
         self._model, self._data = world()
         self.node = ros.observer()
-        self.topics = CameraTopics(
-            self.node, cameras, self._model, build(CameraParameters, {**SMALL, **parameters})
-        )
-        self.time_ns = 0
+        given = build(CameraParameters, {**SMALL, **parameters})
+        self.topics = CameraTopics(self.node, cameras, self._model, given, prefix)
+        self._ticks = 0
 
     def collect(self, kind: Any, topic: str) -> list[Any]:
         """Collect the messages of a topic."""
@@ -52,8 +56,13 @@ class Set:
 
     def tick(self) -> None:
         """Tick once."""
-        self.time_ns += TICK_NS
+        self._ticks += 1
         self.topics.tick(time.monotonic(), self.time_ns, self._data)
+
+    @property
+    def time_ns(self) -> int:
+        """Return the simulated time."""
+        return self._ticks * 10_000_000
 
 
 MakeSet = Callable[..., Set]
@@ -94,10 +103,11 @@ def test_color(make_set: MakeSet) -> None:
 
 def test_depth(make_set: MakeSet) -> None:
     """A depth picture is in metres."""
-    one = make_set({'': 'eye'})
+    one = make_set({'': 'eye'}, prefix='my_')
     images = one.collect(Image, 'camera/depth/image_raw')
     one.tick_until(lambda: bool(images), 'a picture')
     image = images[0]
+    assert image.header.frame_id == 'my_camera_optical_frame'
     assert (image.encoding, image.step) == ('32FC1', 256)
     metres = np.frombuffer(image.data, np.float32).reshape(49, 64)
     assert metres[5, 5] == pytest.approx(2.0, abs=1e-3)
@@ -134,7 +144,9 @@ def test_two_robots(make_set: MakeSet) -> None:
     first = two.collect(Image, 'robot1/camera/image_raw')
     second = two.collect(Image, 'robot2/camera/image_raw')
     two.tick_until(lambda: bool(first) and bool(second), 'pictures of both')
-    assert any(first[0].data) and not any(second[0].data)
+    wall, sky = list(first[0].data[:3]), list(second[0].data[:3])
+    assert wall == pytest.approx([128, 130, 128], abs=3)
+    assert sky == pytest.approx([51, 102, 153], abs=3)
 
 
 def test_off(make_set: MakeSet) -> None:

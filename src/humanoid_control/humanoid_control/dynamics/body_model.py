@@ -49,10 +49,11 @@ class BodyModel:
 
         :param joints: joints that turn; others are taken as fixed at zero
         :param armature_kgm2: inertia of the rotors seen at the joints: one, or (n,)
-        :raises DynamicsError: if the robot is no tree of links and turning joints
+        :raises DynamicsError: if the robot is no tree of links and turning joints, or the armature
+            is none
         """
-        armature = np.array(np.broadcast_to(np.asarray(armature_kgm2, float), len(joints)))
-        return cls(Tree.of(robot, tuple(joints)), armature, gravity_m_s2)
+        tree = Tree.of(robot, tuple(joints))
+        return cls(tree, _armature(tree.joints, armature_kgm2), gravity_m_s2)
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -117,6 +118,24 @@ class BodyModel:
         return BodyState(
             self, rotation, rotation @ angular_velocity_rad_s, positions_rad, velocities_rad_s
         )
+
+
+def _armature(joints: tuple[str, ...], given: ArrayLike) -> Array:
+    """Return the armature of every joint."""
+    values = np.asarray(given, dtype=np.float64)
+    if values.shape not in ((), (len(joints),)):
+        raise DynamicsError(
+            f'{values.size} values of armature are given for {len(joints)} joints. '
+            'Give one for each, or one for all.'
+        )
+    armature = np.full(len(joints), values)
+    for joint, value in zip(joints, armature):
+        if not 0.0 <= value < math.inf:
+            raise DynamicsError(
+                f"The armature of joint '{joint}' is {value}: give an inertia in kg m2, "
+                'zero or more.'
+            )
+    return armature
 
 
 def _check(name: str, values: Array, shape: tuple[int, ...]) -> None:

@@ -111,8 +111,8 @@ class BodyState:
         nothing touches the robot.
         """
         n = len(self.model.joints)
-        bias: Array = (self._screws * self._forces[1:]).reshape(n, 16).sum(axis=1)
-        return bias
+        powers = (self._screws * self._forces[1:]).reshape(n, 16)
+        return powers @ np.ones(16)
 
     @cached_property
     def bias_wrench(self) -> Array:
@@ -186,7 +186,9 @@ class BodyState:
         if point_m is None:
             origin: Array = self._poses[mount.body] @ mount.pose[:, 3]
             return origin
-        return np.append(point_m, 1.0)
+        point = np.ones(4)
+        point[:3] = point_m
+        return point
 
     @cached_property
     def _poses(self) -> Array:

@@ -25,11 +25,14 @@ class ForwardKinematics:
     """(n, 3, 16) poses in the parents, flat: what 1, sin q and cos q are multiplied by"""
     jumps: tuple[NDArray[np.intp], ...]
     """(n + 1,) a round: the body above; n + 1, which stays put, where there is none"""
+    at_rest: Array
+    """(n + 2, 4, 4) identities: of the root, the bodies, and what stays put"""
 
     @classmethod
     def of(cls, tree: Tree) -> ForwardKinematics:
         """Prepare the tables for a tree."""
-        return cls(_turned(tree.placements), _jumps(tree.parents))
+        at_rest = np.tile(np.eye(4), (len(tree.parents) + 1, 1, 1))
+        return cls(_turned(tree.placements), _jumps(tree.parents), at_rest)
 
     def poses(self, rotation: Array, positions_rad: Array) -> Array:
         """Return where the bodies are, (n + 1, 4, 4), for a rotation (3, 3) of the root."""
@@ -37,14 +40,13 @@ class ForwardKinematics:
         factors = np.ones((n, 1, 3))
         np.sin(positions_rad, out=factors[:, 0, 1])
         np.cos(positions_rad, out=factors[:, 0, 2])
-        poses = np.zeros((n + 2, 4, 4))
-        np.matmul(factors, self.turned, out=poses[1:-1].reshape(n, 1, 16))
+        whole = self.at_rest.copy()
+        poses: Array = whole[:-1]
         poses[0, :3, :3] = rotation
-        poses[0, 3, 3] = 1.0
-        poses[-1] = np.eye(4)
+        np.matmul(factors, self.turned, out=poses[1:].reshape(n, 1, 16))
         for jump in self.jumps:
-            poses[:-1] = poses[jump] @ poses[:-1]
-        return poses[:-1]
+            poses[:] = whole.take(jump, axis=0) @ poses
+        return poses
 
 
 def _turned(placements: Array) -> Array:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,7 +38,12 @@ class JointGroup:
 
     def symmetric(self, below: Array) -> Array:
         """Return the whole of a symmetric matrix (k, k) of which only `carries` is right."""
-        right = below * self.carries
+        right = below * self._shares
         whole: Array = right + right.T
-        whole[np.diag_indices_from(whole)] *= 0.5
         return whole
+
+    @cached_property
+    def _shares(self) -> Array:
+        """Return (k, k) what a matrix is multiplied by to be added to its transpose."""
+        shares: Array = self.carries - 0.5 * np.eye(len(self.carries))
+        return shares

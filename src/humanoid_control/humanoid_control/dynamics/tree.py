@@ -87,6 +87,8 @@ def _check(robot: Robot, joints: tuple[str, ...]) -> None:
             f"Robot '{robot.name}' has {len(robot.roots)} links that hang from no joint "
             f'({", ".join(robot.roots)}), but needs exactly one root.'
         )
+    if not robot.mass_kg > 0.0:
+        raise DynamicsError(f"Robot '{robot.name}' weighs nothing: its links need <inertial>.")
     if double := repeated(joints):
         raise DynamicsError(f"Joint '{double[0]}' is named twice. Name each joint once.")
     for name in joints:

@@ -30,11 +30,13 @@ class FootShape:
         """Measure the left foot of a robot; the right one is its mirror image."""
         sole = robot.prefix + 'l_sole'
         way = chain(robot, sole)
-        while way and way[-1].kind == 'fixed':
-            foot_in_sole = np.asarray(np.linalg.inv(pose_along(way[-1:], {})), np.float64)
-            foot = robot.link[way.pop().parent]
+        for start in reversed(range(len(way))):
+            if way[start].kind != 'fixed':
+                break
+            foot = robot.link[way[start].parent]
             if foot.collisions:
-                corners = outline(foot.collisions, foot_in_sole)
+                in_sole = np.asarray(np.linalg.inv(pose_along(way[start:], {})), np.float64)
+                corners = outline(foot.collisions, in_sole)
                 return cls._within(corners.min(axis=0), corners.max(axis=0), parameters)
         raise WalkingError(
             f"'{sole}' has no foot with a collision shape: nobody can tell where it may stand."

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from humanoid_control.dynamics.rotations import wrap_angle
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.planar import PlanarPose
+from humanoid_control.walking.planar import limited, PlanarPose, Point
 from humanoid_control.walking.sides import other, outwards
 from humanoid_control.walking.velocity_command import VelocityCommand
 
@@ -46,7 +46,16 @@ class FootstepPlanner:
         middle = PlanarPose(
             support.at(0.0, -half_width_m) + way_m * heading, support.yaw_rad + turn_rad
         )
-        return PlanarPose(middle.at(0.0, -half_width_m), middle.yaw_rad)
+        place = support.local(middle.at(0.0, -half_width_m))
+        reached = self.reachable(place, side)
+        return PlanarPose(support.at(reached.real, reached.imag), middle.yaw_rad)
+
+    def reachable(self, place: Point, side: int) -> Point:
+        """Return the place closest to one where a foot can go, seen from the support's side."""
+        p, inwards = self.parameters, -outwards(side)
+        width_m = limited(inwards * place.imag, p.least_width_m, p.most_width_m)
+        length_m = limited(place.real, -p.most_length_m, p.most_length_m)
+        return complex(length_m, inwards * width_m)
 
     def footsteps(
         self, landing: PlanarPose, support: int, command: VelocityCommand

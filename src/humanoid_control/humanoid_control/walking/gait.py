@@ -11,7 +11,9 @@ from humanoid_control.walking.footing import Loads, loads_for
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.gear import GaitInput, Gear
 from humanoid_control.walking.phases import Phase, Standing
-from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.planar import Point
+from humanoid_control.walking.swing_foot import Swing
+from humanoid_control.walking.turning import Turning
 from humanoid_control.walking.velocity_command import VelocityCommand
 
 
@@ -23,9 +25,9 @@ class GaitOutput:
     zmp_m: Point
     """The zero-moment point with feedback, within the support polygon."""
     loads: Loads
-    heading_rad: float
-    swing: tuple[int, PlanarPose, float] | None
-    """Side, pose and height of the sole in the air."""
+    turning: Turning
+    """Where the pelvis is to face."""
+    swing: Swing | None
     sides: tuple[int, ...]
     """The sides whose feet carry the robot."""
 
@@ -65,7 +67,7 @@ class Gait:
             reference,
             zmp,
             loads_for(footing, phase.sides, zmp),
-            phase.heading_rad,
+            phase.turning,
             phase.swing(),
             phase.sides,
         )

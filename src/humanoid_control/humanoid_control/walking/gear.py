@@ -52,7 +52,7 @@ class Gear:
     def __post_init__(self) -> None:
         """Make what plans with the parameters."""
         self.planner = FootstepPlanner(self.parameters)
-        self.adjuster = StepAdjuster(self.parameters, self.pendulum.rate_1_s)
+        self.adjuster = StepAdjuster(self.planner, self.pendulum.rate_1_s)
 
     def approach_target(self, time_s: float) -> None:
         """Bring the velocity nearer to what is wanted, by what is allowed in a time."""

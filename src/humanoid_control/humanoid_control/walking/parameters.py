@@ -128,6 +128,8 @@ class WalkParameters:
     """At which share of the swing the foot is above its landing."""
     reach_down_m_s: float = _speed(0.2)
     """How fast it goes on down when the ground is late."""
+    swing_follow: float = 0.7
+    """How much of what the pelvis moves beside its plan the foot's velocity makes up for."""
     touchdown_phase: float = 0.6
     """From which share of the swing on a load means that the foot stands."""
     touchdown_load: float = 0.12
@@ -139,9 +141,8 @@ class WalkParameters:
     """The time constant in which a foot that landed too high or low is brought to the ground."""
 
     # Joints.
-    velocity_filter_1_s: float = _rate(139.0)
-    """How fast the velocity of the joints' targets follows their differences."""
-    acceleration_filter_1_s: float = _rate(102.0)
+    acceleration_filter_1_s: float = _rate(40.0)
+    """How fast the acceleration of the joints' targets follows their differences."""
     velocity_limit_rad_s: float = _rate(12.0)
     acceleration_limit_rad_s2: float = _growing(-1.0, 150.0)
     arm_swing: float = 0.5

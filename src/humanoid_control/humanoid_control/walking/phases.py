@@ -12,6 +12,8 @@ from humanoid_control.walking.gear import GaitInput, Gear
 from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
 from humanoid_control.walking.step import Step
+from humanoid_control.walking.swing_foot import Swing
+from humanoid_control.walking.turning import Turning
 
 _SETTLED_S = 0.3
 """A robot that just begins to stand does not step against pushes yet."""
@@ -33,7 +35,7 @@ class Phase(Protocol):
         """Return the sides whose feet carry the robot."""
 
     @property
-    def heading_rad(self) -> float:
+    def turning(self) -> Turning:
         """Return where the pelvis is to face."""
 
     @property
@@ -46,8 +48,8 @@ class Phase(Protocol):
     def reference(self, now: GaitInput) -> BalanceReference:
         """Return where the divergent component and the zero-moment point should be now."""
 
-    def swing(self) -> tuple[int, PlanarPose, float] | None:
-        """Return side, pose and height of the sole in the air; to be asked once a tick."""
+    def swing(self) -> Swing | None:
+        """Return where the sole in the air is to be, if one is; to be asked once a tick."""
 
 
 class _OnBothFeet:
@@ -62,12 +64,13 @@ class _OnBothFeet:
         self._elapsed_s = 0.0
 
     @property
-    def heading_rad(self) -> float:
+    def turning(self) -> Turning:
         """Return the mean heading of the feet."""
-        return self._gear.footing.middle.yaw_rad
+        return Turning(self._gear.footing.middle.yaw_rad)
 
-    def swing(self) -> None:
+    def swing(self) -> Swing | None:
         """Return that no foot swings."""
+        return None
 
 
 class Standing(_OnBothFeet):
@@ -103,7 +106,8 @@ class Standing(_OnBothFeet):
 
     def _off_balance(self, dcm: Point) -> Point:
         """Return how far the divergent component is from rest, ahead and to the left."""
-        return PlanarPose(self._gear.footing.rest_point, self.heading_rad).local(dcm)
+        feet = self._gear.footing
+        return PlanarPose(feet.rest_point, feet.middle.yaw_rad).local(dcm)
 
     def _is_pushed(self, off: Point) -> bool:
         """Tell whether the robot has to step to stay upright."""
@@ -127,9 +131,9 @@ class Stepping:
         return self._step.sides
 
     @property
-    def heading_rad(self) -> float:
+    def turning(self) -> Turning:
         """Return where the pelvis is to face."""
-        return self._step.heading_rad
+        return self._step.turning
 
     @property
     def footsteps(self) -> Sequence[Footstep]:
@@ -154,7 +158,7 @@ class Stepping:
         """Return the way of the plan."""
         return self._step.reference(now)
 
-    def swing(self) -> tuple[int, PlanarPose, float] | None:
+    def swing(self) -> Swing | None:
         """Return where the foot in the air is to be."""
         return self._step.swing()
 

@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+import math
 
-from humanoid_control.backends import Observation
-from humanoid_control.dynamics import BodyState
+from humanoid_control.backends import Array, Observation
+from humanoid_control.dynamics import BodyState, DynamicsError
 from humanoid_control.dynamics.rotations import to_rpy
 from humanoid_control.walking.attitude import Attitude
+from humanoid_control.walking.errors import WalkingError
 from humanoid_control.walking.heading import HeadingFrame
 from humanoid_control.walking.pendulum import GRAVITY_M_S2
 from humanoid_control.walking.walking_robot import WalkingRobot
@@ -38,13 +40,18 @@ class Senses:
         """
         Return what an observation means.
 
-        :raises DynamicsError: if it has the wrong lengths or holds what is no finite number
+        :raises WalkingError: if it has the wrong lengths or holds what is no finite number
         """
-        rotation = self._heading.base_rotation(observation.orientation)
-        rates = self._heading.base_rates(observation.angular_velocity_rad_s)
-        state = self._robot.body.state(
-            rotation, rates, observation.positions_rad, observation.velocities_rad_s
-        )
+        _check('angular_velocity_rad_s', observation.angular_velocity_rad_s, (3,))
+        _check('foot_forces_n', observation.foot_forces_n, (2, 3))
+        try:
+            rotation = self._heading.base_rotation(observation.orientation)
+            rates = self._heading.base_rates(observation.angular_velocity_rad_s)
+            state = self._robot.body.state(
+                rotation, rates, observation.positions_rad, observation.velocities_rad_s
+            )
+        except (DynamicsError, ValueError) as error:
+            raise WalkingError(f'Nobody can walk by this observation: {error}') from error
         left_n, right_n = observation.foot_forces_n[:, 2].tolist()
         x, y, z = rates.tolist()
         return Sensed(
@@ -53,3 +60,12 @@ class Senses:
             Attitude(*to_rpy(rotation), (x, y, z)),
             (left_n / self._weight_n, right_n / self._weight_n),
         )
+
+
+def _check(name: str, values: Array, shape: tuple[int, ...]) -> None:
+    """Refuse what nobody can walk by."""
+    if values.shape != shape:
+        raise WalkingError(f'{name} has the shape {values.shape}, but {shape} is needed.')
+    # The sum is finite only if all are.
+    if not math.isfinite(values.sum()):
+        raise WalkingError(f'{name} is {values.tolist()}: give finite numbers.')

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from humanoid_control.dynamics.rotations import wrap_angle
 from humanoid_control.walking.dcm_plan import BalanceReference, DcmPlan
 from humanoid_control.walking.footing import Foothold
 from humanoid_control.walking.footsteps import Footstep
@@ -11,7 +10,8 @@ from humanoid_control.walking.gear import GaitInput, Gear
 from humanoid_control.walking.planar import limited, PlanarPose, Point
 from humanoid_control.walking.sides import other, SIDES
 from humanoid_control.walking.step_adjustment import Residual
-from humanoid_control.walking.swing_foot import lift_m, SwingFoot
+from humanoid_control.walking.swing_foot import Lift, SoleMotion, Swing, SwingFoot
+from humanoid_control.walking.turning import smooth_turn, Turning
 
 _INSTANT_S = 1e-4
 """The plan is asked for a moment before the end of a step until the foot has landed."""
@@ -33,6 +33,8 @@ class Step:
         self.error_m = 0.0
         self._lift_off = gear.footing.pose(self.side)
         self._foot = SwingFoot(self._lift_off)
+        p = gear.parameters
+        self._lift = Lift(p.swing_height_m, p.swing_s, p.reach_down_m_s)
         self._nominal = self._next_landing()
         self._planned_for = gear.is_stopping
         self._nominal_plan = self._planned(self._nominal)
@@ -90,26 +92,27 @@ class Step:
         return reference
 
     @property
-    def heading_rad(self) -> float:
+    def turning(self) -> Turning:
         """Return the mean heading of the feet on its way from lift-off to landing."""
         support = self._gear.footing.pose(self.support)
-        before = support.halfway(self._lift_off).yaw_rad
-        turn_rad = wrap_angle(support.halfway(self.landing).yaw_rad - before)
-        share = min(1.0, self.elapsed_s / self.end_s)
-        return before + turn_rad * share**2 * (3.0 - 2.0 * share)
+        before, after = support.halfway(self._lift_off), support.halfway(self.landing)
+        turning = smooth_turn(before.yaw_rad, after.yaw_rad, self.elapsed_s, self.end_s)
+        return Turning(turning.heading_rad, turning.rate_rad_s * self.rate)
 
-    def swing(self) -> tuple[int, PlanarPose, float] | None:
-        """Return side, pose and height of the sole in the air; to be asked once a tick."""
-        if self.elapsed_s <= self._shift_s:
+    def swing(self) -> Swing | None:
+        """Return where the sole in the air is to be; to be asked once a tick."""
+        p, in_air_s = self._gear.parameters, self.elapsed_s - self._shift_s
+        if in_air_s <= 0.0:
             return None
-        p = self._gear.parameters
-        arrival_s = self._shift_s + p.early_arrival * p.swing_s
-        passed_s = min(self._passed_s, (self.elapsed_s - self._shift_s) / self.rate)
-        remaining_s = (arrival_s - self.elapsed_s) / self.rate + passed_s
-        pose = self._foot.advance(self.landing, remaining_s, passed_s)
-        late_s = max(0.0, self.elapsed_s - self.end_s)
-        height_m = lift_m(p.swing_height_m, self.swing_phase) - p.reach_down_m_s * late_s
-        return self.side, pose, height_m
+        passed_s = min(self._passed_s, in_air_s / self.rate)
+        remaining_s = (p.early_arrival * p.swing_s - in_air_s) / self.rate + passed_s
+        foot = self._foot
+        foot.advance(self.landing, remaining_s, passed_s)
+        height_m, climb_m_s = self._lift.at(in_air_s)
+        motion = SoleMotion(
+            foot.pose, height_m, foot.velocity_m_s, climb_m_s * self.rate, foot.turn_rad_s
+        )
+        return Swing(self.side, motion)
 
     def _next_landing(self) -> PlanarPose:
         """Return where the foot lands by plan."""

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import math
 
 from humanoid_control.walking.dcm_plan import BalanceReference
+from humanoid_control.walking.footsteps import FootstepPlanner
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.planar import limited, PlanarPose, Point
-from humanoid_control.walking.sides import outwards
+from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.support_polygon import SupportPolygon
 
 _UNTOUCHED_M = 1e-6
@@ -35,8 +35,13 @@ class Adjustment:
 class StepAdjuster:
     """Moves and hurries landings."""
 
-    parameters: WalkParameters
+    planner: FootstepPlanner
     rate_1_s: float
+
+    @property
+    def parameters(self) -> WalkParameters:
+        """Return the gait."""
+        return self.planner.parameters
 
     def adjusted(
         self,
@@ -59,18 +64,11 @@ class StepAdjuster:
             growth = math.exp(self.rate_1_s * remaining_s / rate)
             wanted = nominal.moved(residual.at_landing(growth, self.parameters))
             place = support.local(wanted.position_m)
-            reached = self._reachable(place, side)
+            reached = self.planner.reachable(place, side)
             if self._is_near(place, reached) or not self._calls_for_hurry(residual):
                 break
         landing = PlanarPose(support.at(reached.real, reached.imag), nominal.yaw_rad)
         return Adjustment(landing, rate)
-
-    def _reachable(self, place: Point, side: int) -> Point:
-        """Return the place closest to one where a foot can go, seen from the support."""
-        p, inwards = self.parameters, -outwards(side)
-        width_m = limited(inwards * place.imag, p.least_width_m, p.most_width_m)
-        length_m = limited(place.real, -p.most_length_m, p.most_length_m)
-        return complex(length_m, inwards * width_m)
 
     def _is_near(self, wanted: Point, reached: Point) -> bool:
         """Tell whether little had to be cut."""

@@ -6,8 +6,8 @@ from __future__ import annotations
 import math
 
 from humanoid_control.backends import JointTargets
-from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import about_z
+from humanoid_control.dynamics.frames import Frame, Twist
+from humanoid_control.dynamics.rotations import about_z, skew
 from humanoid_control.walking.attitude import hip_efforts
 from humanoid_control.walking.base_estimate import base_on, sole_reading
 from humanoid_control.walking.com_observer import ComObserver
@@ -27,9 +27,10 @@ from humanoid_control.walking.pendulum import Motion, Pendulum
 from humanoid_control.walking.planar import Point
 from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
-from humanoid_control.walking.target_rates import TargetRates
+from humanoid_control.walking.target_acceleration import TargetAcceleration, within
+from humanoid_control.walking.turning import Turning
 from humanoid_control.walking.walking_robot import WalkingRobot
-from humanoid_control.walking.whole_body import WholeBody
+from humanoid_control.walking.whole_body import BaseMotion, WholeBody
 import numpy as np
 from numpy.typing import NDArray
 
@@ -59,7 +60,7 @@ class Walk:
             self._pendulum, parameters.reference_leak_1_s, parameters.reference_distance_m
         )
         self._whole_body = WholeBody(robot, home, parameters)
-        self._rates = TargetRates(parameters, len(robot.body.joints))
+        self._acceleration = TargetAcceleration(parameters)
         self._shares = (0.5, 0.5)
         self._zmp_m = self._footing.rest_point
         self._last_s = sensed.time_s
@@ -87,14 +88,16 @@ class Walk:
         self._shares, self._zmp_m = output.loads.shares, output.zmp_m
         wanted = self._reference.update(self.com, output.zmp_m, passed_s)
         self._footing.settle(1.0 - math.exp(-passed_s / self._parameters.settle_s))
-        positions = self._whole_body.targets(
-            self._wanted_base(wanted, output.heading_rad),
-            Frame(self.base.position_m, sensed.state.base_rotation),
+        joints = self._whole_body.motion(
+            self._wanted_base(wanted, output.turning),
+            self._measured_base(),
             self._footing,
             output.swing,
         )
-        self._rates.update(positions, passed_s)
-        return JointTargets(positions, self._rates.velocities_rad_s, self._efforts(output))
+        velocities = within(joints.velocities_rad_s, self._parameters.velocity_limit_rad_s)
+        accelerations = self._acceleration.update(velocities, passed_s)
+        efforts = self._efforts(output, accelerations)
+        return JointTargets(joints.positions_rad, velocities, efforts)
 
     def _estimate(self, passed_s: float) -> None:
         """Find base and centre of mass from the feet that carried weight until now."""
@@ -116,17 +119,31 @@ class Walk:
         )
         return GaitInput(passed_s, self.dcm_m, self._zmp_m, (left, right))
 
-    def _wanted_base(self, com: Motion, heading_rad: float) -> Frame:
+    def _measured_base(self) -> BaseMotion:
+        """Return the base as estimated."""
+        state = self.sensed.state
+        return BaseMotion(
+            Frame(self.base.position_m, state.base_rotation),
+            Twist(self.base.velocity_m_s, state.base_angular_velocity_rad_s),
+        )
+
+    def _wanted_base(self, com: Motion, turning: Turning) -> BaseMotion:
         """Return the base that is upright, faces a heading and has the centre of mass right."""
-        rotation = about_z(heading_rad)
-        point, state = self.com.position_m, self.sensed.state
+        state, point, speed = self.sensed.state, self.com.position_m, com.velocity_m_s
+        rotation = about_z(turning.heading_rad)
+        upright = rotation @ state.base_rotation.T
         from_base = np.array([point.real, point.imag, 0.0]) - self.base.position_m
         from_base[2] = state.com_m[2]
-        to_com = rotation @ (state.base_rotation.T @ from_base)
+        to_com = upright @ from_base
+        shifting = upright @ (
+            state.com_velocity_m_s - skew(state.base_angular_velocity_rad_s) @ state.com_m
+        )
         goal = np.array([com.position_m.real, com.position_m.imag, self._pendulum.height_m])
-        return Frame(goal - to_com, rotation)
+        turn = np.array([0.0, 0.0, turning.rate_rad_s])
+        velocity = np.array([speed.real, speed.imag, 0.0]) - shifting - skew(turn) @ to_com
+        return BaseMotion(Frame(goal - to_com, rotation), Twist(velocity, turn))
 
-    def _efforts(self, output: GaitOutput) -> Array:
+    def _efforts(self, output: GaitOutput, accelerations: Array) -> Array:
         """Return the efforts (n,) that carry the robot and keep it upright."""
         acceleration = self._pendulum.acceleration_m_s2(self.com.position_m, output.zmp_m)
         state = self.sensed.state
@@ -139,9 +156,8 @@ class Walk:
         )
         if len(output.sides) == 1:
             swinging = RIGHT if output.sides[0] == LEFT else LEFT
-            accelerations = self._rates.accelerations_rad_s2
             add_swing_efforts(self._robot, state, swinging, accelerations, efforts)
-        upright = hip_efforts(self._parameters, self.sensed.attitude, output.heading_rad)
+        upright = hip_efforts(self._parameters, self.sensed.attitude, output.turning.heading_rad)
         for side in SIDES:
             efforts[self._robot.legs[side].indices[:3]] += output.loads.shares[side] * upright
         return efforts

@@ -95,7 +95,7 @@ class Walker:
         """
         Return what the joints are to do until the next tick.
 
-        :raises DynamicsError: if the observation has the wrong lengths or is not finite
+        :raises WalkingError: if the observation has the wrong lengths or is not finite
         """
         last_s = self._walk.sensed.time_s if self._walk else None
         if self._targets and last_s is not None and observation.time_s <= last_s:

@@ -3,14 +3,18 @@
 
 from __future__ import annotations
 
-from humanoid_control.dynamics.frames import Frame
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.leg_ik import leg_posture
+from humanoid_control.dynamics.leg_rates import leg_rates
 from humanoid_control.dynamics.rotations import about_z
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.sides import LEFT, NAMES, RIGHT, SIDES
+from humanoid_control.walking.swing_foot import SoleMotion, Swing
 from humanoid_control.walking.walking_robot import WalkingRobot
 import numpy as np
 from numpy.typing import NDArray
@@ -18,56 +22,86 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
+@dataclass(frozen=True, eq=False)
+class BaseMotion:
+    """Where the base is in the odometry's frame and how it moves, measured or wanted."""
+
+    frame: Frame
+    twist: Twist
+
+
+@dataclass(frozen=True, eq=False)
+class JointMotion:
+    """Positions and velocities of all joints."""
+
+    positions_rad: Array
+    """(n,)"""
+    velocities_rad_s: Array
+    """(n,)"""
+
+
 class WholeBody:
-    """Computes the targets of all joints of a robot."""
+    """Computes the motion of all joints of a robot."""
 
     def __init__(self, robot: WalkingRobot, home: HomePosture, parameters: WalkParameters) -> None:
         """Find the joints."""
         self._robot = robot
         self._home = home
         self._shoulders = [robot.index(f'{name}_shoulder') for name in NAMES]
+        self._follow = parameters.swing_follow
         self._swing_rad_m = parameters.arm_swing / home.base_height_m
 
-    def targets(
-        self,
-        wanted: Frame,
-        measured: Frame,
-        footing: Footing,
-        swing: tuple[int, PlanarPose, float] | None,
-    ) -> Array:
+    def motion(
+        self, wanted: BaseMotion, measured: BaseMotion, footing: Footing, swing: Swing | None
+    ) -> JointMotion:
         """
-        Return the positions (n,) wanted.
+        Return how the joints are to move.
 
         Feet on the ground move the pelvis where it is wanted. A foot in the air is placed from
-        where the pelvis is, so that it lands where planned even if the pelvis is elsewhere.
+        where the pelvis is, so that it lands where planned even if the pelvis is elsewhere. Its
+        velocity follows that of the pelvis in part only: all of it would feed back any shaking.
         """
         positions: Array = self._home.positions_rad.copy()
+        joints = JointMotion(positions, np.zeros_like(positions))
+        soles = [SoleMotion(footing.pose(side), footing[side].lift_m) for side in SIDES]
+        bases = [wanted, wanted]
+        if swing:
+            soles[swing.side] = swing.sole
+            bases[swing.side] = BaseMotion(measured.frame, self._followed(wanted, measured))
         for side in SIDES:
-            if swing and swing[0] == side:
-                self._place(side, measured, swing[1], swing[2], positions)
-            else:
-                foothold = footing[side]
-                self._place(side, wanted, foothold.pose, foothold.lift_m, positions)
-        self._swing_arms(footing, swing, positions)
-        return positions
+            self._move_leg(side, bases[side], soles[side], joints)
+        self._swing_arms(soles, joints)
+        return joints
 
-    def _place(
-        self, side: int, base: Frame, sole: PlanarPose, height_m: float, positions: Array
+    def _followed(self, wanted: BaseMotion, measured: BaseMotion) -> Twist:
+        """Return the motion of the pelvis that a foot in the air makes up for."""
+        a, b = wanted.twist, measured.twist
+        return Twist(
+            a.linear_m_s + self._follow * (b.linear_m_s - a.linear_m_s),
+            a.angular_rad_s + self._follow * (b.angular_rad_s - a.angular_rad_s),
+        )
+
+    def _move_leg(
+        self, side: int, base: BaseMotion, sole: SoleMotion, joints: JointMotion
     ) -> None:
         """Set the joints of a leg so that its sole is level in a place."""
-        leg, point = self._robot.legs[side], sole.position_m
-        place = Frame(np.array([point.real, point.imag, height_m]), about_z(sole.yaw_rad))
-        posture = leg_posture(leg.geometry, place.seen_from(base))
-        positions[leg.indices] = posture.positions_rad
+        leg, point, speed = self._robot.legs[side], sole.pose.position_m, sole.velocity_m_s
+        place = np.array([point.real, point.imag, sole.height_m])
+        velocity = np.array([speed.real, speed.imag, sole.climb_m_s])
+        turn = np.array([0.0, 0.0, sole.turn_rad_s])
+        frame = Frame(place, about_z(sole.pose.yaw_rad)).seen_from(base.frame)
+        twist = Twist(velocity, turn).seen_from(base.frame, base.twist, place)
+        posture = leg_posture(leg.geometry, frame)
+        joints.positions_rad[leg.indices] = posture.positions_rad
+        joints.velocities_rad_s[leg.indices] = leg_rates(leg.geometry, posture, frame, twist)
 
-    def _swing_arms(
-        self, footing: Footing, swing: tuple[int, PlanarPose, float] | None, positions: Array
-    ) -> None:
+    def _swing_arms(self, soles: Sequence[SoleMotion], joints: JointMotion) -> None:
         """Let each arm go with the opposite foot, so that their turns about z cancel."""
-        feet = [footing.pose(side) for side in SIDES]
-        if swing:
-            feet[swing[0]] = swing[1]
-        middle = feet[LEFT].halfway(feet[RIGHT])
-        ahead_m = middle.local(feet[LEFT].position_m).real * 2.0
-        for side, direction in zip(SIDES, (1.0, -1.0)):
-            positions[self._shoulders[side]] += direction * self._swing_rad_m * ahead_m
+        left, right = soles[LEFT], soles[RIGHT]
+        middle = left.pose.halfway(right.pose)
+        ahead_m = 2.0 * middle.local(left.pose.position_m).real
+        speed_m_s = middle.seen(left.velocity_m_s - right.velocity_m_s).real
+        for side, direction in ((LEFT, 1.0), (RIGHT, -1.0)):
+            shoulder, gain = self._shoulders[side], direction * self._swing_rad_m
+            joints.positions_rad[shoulder] += gain * ahead_m
+            joints.velocities_rad_s[shoulder] = gain * speed_m_s

@@ -29,20 +29,25 @@ class CameraTopics:
         cameras: Mapping[str, str],
         model: mujoco.MjModel,
         parameters: CameraParameters,
+        prefix: str = '',
     ) -> None:
         """
         Announce the topics; raise SimulationError if the model has not the cameras.
 
-        `cameras` gives the name of the camera in the model by the namespace of its robot,
-        relative to the node: '' for a robot alone. At rate 0 there are no topics.
+        At rate 0 there are no topics.
+
+        :param cameras: the name of the camera in the model, by the namespace of its robot
+            relative to the node: '' for a robot alone
+        :param prefix: what the names of frames begin with
         """
         cameras = cameras if parameters.camera_rate_hz > 0.0 else {}
         width_px, height_px = parameters.camera_width_px, parameters.camera_height_px
         views = [CameraView(camera, width_px, height_px) for camera in cameras.values()]
         methods = methods_of(parameters.camera_renderer)
         self._renderer = Renderer(model, views, methods, node.get_logger())
+        frame = f'{prefix}{parameters.camera_frame}'
         self._publishers = [
-            CameraPublisher(node, _prefix(robot), pinhole_of(model, view), parameters.camera_frame)
+            CameraPublisher(node, _folder(robot), pinhole_of(model, view), frame)
             for robot, view in zip(cameras, views)
         ]
         self._shutter = Shutter(parameters.camera_rate_hz)
@@ -56,8 +61,8 @@ class CameraTopics:
         """
         Publish what was drawn; have the state drawn if it is time. Call it once a control period.
 
-        `now_s` is that of a clock that nobody sets; `time_ns`, the simulated time of the state,
-        stamps its pictures. The data is read only, and only here.
+        `now_s` is that of a clock that nobody sets, `time_ns` the simulated time of the state,
+        which is read here only.
         """
         pictures = self._renderer.poll(now_s)
         if pictures is not None:
@@ -76,7 +81,7 @@ class CameraTopics:
             self._renderer.need()
             if not self._renderer.can_draw:
                 return
-            self._renderer.request(data, time_ns, wanted, now_s)
+            self._renderer.request(data.qpos, time_ns, wanted, now_s)
         self._shutter.release(time_ns)
         stamp = stamp_of(time_ns)
         for publisher in self._publishers:
@@ -91,6 +96,6 @@ class CameraTopics:
             publisher.publish(wanted, color, depth, stamp)
 
 
-def _prefix(robot: str) -> str:
+def _folder(robot: str) -> str:
     """Return what comes before the names of the topics of a robot."""
     return f'{robot}/' if robot else ''

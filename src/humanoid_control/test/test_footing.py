@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check what the robot stands on, and how its feet share the weight."""
+
+from __future__ import annotations
+
+from humanoid_control.walking.foot_shape import FootShape
+from humanoid_control.walking.footing import Foothold, Footing, loads_for
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.planar import PlanarPose
+from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
+from humanoid_description.robot import Robot
+import numpy as np
+import pytest
+
+SHAPE = FootShape(0.115, -0.065, 0.043, -0.043, 0.015 - 0.005j)
+FEET = [Foothold(PlanarPose(0.02 + 0.09j, 0.2)), Foothold(PlanarPose(-0.05 - 0.1j, -0.1))]
+RANDOM = np.random.default_rng(5)
+
+
+def test_shape_is_that_of_the_model(robot: Robot) -> None:
+    """The area of the sole is the foot's box less the margins."""
+    shape = FootShape.of(robot, WalkParameters())
+    assert (shape.front_m, shape.back_m) == pytest.approx((0.115, -0.065))
+    assert (shape.outer_m, shape.inner_m) == pytest.approx((0.043, -0.043))
+
+
+def test_feet_mirror_each_other() -> None:
+    """The right foot's corners and load point are those of the left one beyond the x axis."""
+    pose = PlanarPose()
+    left = {point.conjugate() for point in SHAPE.corners(LEFT, pose)}
+    assert left == set(SHAPE.corners(RIGHT, pose))
+    assert SHAPE.load_point(RIGHT, pose) == SHAPE.load_point(LEFT, pose).conjugate()
+
+
+def test_one_foot_carries_all() -> None:
+    """On one foot all of the weight acts at the zero-moment point."""
+    loads = loads_for(Footing(SHAPE, FEET), (RIGHT,), 0.01 - 0.1j)
+    assert loads.shares == (0.0, 1.0)
+    assert loads.points_m[RIGHT] == 0.01 - 0.1j
+
+
+def test_loads_make_up_the_zero_moment_point() -> None:
+    """Wherever the point is between the feet, the loads' weighted mean is there."""
+    footing = Footing(SHAPE, FEET)
+    for _ in range(100):
+        corners = np.array(footing.polygon().corners)
+        zmp = complex(RANDOM.dirichlet(np.ones(len(corners))) @ corners)
+        loads = loads_for(footing, SIDES, zmp)
+        assert min(loads.shares) >= 0.0
+        assert sum(loads.shares) == pytest.approx(1.0)
+        mean = sum(share * point for share, point in zip(loads.shares, loads.points_m))
+        assert mean == pytest.approx(zmp)
+
+
+def test_a_new_foothold_moves_the_area() -> None:
+    """When a foot lands somewhere else, the area in which it carries goes with it."""
+    footing = Footing(SHAPE, FEET)
+    inside = footing.load_point(LEFT)
+    assert footing.polygon((LEFT,)).contains(inside)
+    footing.put(LEFT, Foothold(PlanarPose(1 + 1j)))
+    assert not footing.polygon((LEFT,)).contains(inside)
+    assert footing.polygon((LEFT,)).contains(footing.load_point(LEFT))
+
+
+def test_rest_is_between_the_feet() -> None:
+    """The weight rests half-way between the load points, inside the area of both feet."""
+    footing = Footing(SHAPE, FEET)
+    rest = (footing.load_point(LEFT) + footing.load_point(RIGHT)) / 2
+    assert footing.rest_point == rest
+    assert footing.polygon().contains(rest)
+    assert footing.middle.yaw_rad == pytest.approx(0.05)
+
+
+def test_lift_settles() -> None:
+    """A foot that landed too high is told to go down; where it stands does not change."""
+    footing = Footing(SHAPE, [Foothold(FEET[0].pose, 0.01), FEET[1]])
+    footing.settle(0.25)
+    assert footing[LEFT].lift_m == pytest.approx(0.0075)
+    assert footing[RIGHT].lift_m == 0.0
+    assert footing.pose(LEFT) == FEET[0].pose

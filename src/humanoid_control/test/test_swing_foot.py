@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check the way of the foot through the air."""
+
+from __future__ import annotations
+
+from humanoid_control.walking.planar import PlanarPose
+from humanoid_control.walking.swing_foot import Lift, SwingFoot
+import pytest
+
+LANDING = PlanarPose(0.3 + 0.1j, 0.4)
+DURATION_S = 0.4
+
+
+def flown(steps_s: list[float], landings: list[PlanarPose]) -> SwingFoot:
+    """Return the foot after steps of time, each with its landing."""
+    foot, left_s = SwingFoot(PlanarPose()), DURATION_S
+    for step_s, landing in zip(steps_s, landings):
+        foot.advance(landing, left_s, step_s)
+        left_s -= step_s
+    return foot
+
+
+@pytest.mark.parametrize('rate_hz', [50, 100, 200])
+def test_it_arrives_at_rest(rate_hz: int) -> None:
+    """At the time of arrival the foot is above its landing and does not move, at any rate."""
+    count = round(DURATION_S * rate_hz)
+    foot = flown([1 / rate_hz] * count, [LANDING] * count)
+    assert foot.pose.position_m == pytest.approx(LANDING.position_m, abs=1e-9)
+    assert foot.pose.yaw_rad == pytest.approx(LANDING.yaw_rad, abs=1e-9)
+    assert abs(foot.velocity_m_s) < 1e-6
+    assert abs(foot.turn_rad_s) < 1e-6
+
+
+@pytest.mark.parametrize('passed_s', [0.1, 0.2, 0.39])
+def test_one_long_step_is_many_short_ones(passed_s: float) -> None:
+    """A gap in the ticks does not change where the foot is."""
+    once = flown([passed_s], [LANDING])
+    often = flown([passed_s / 20] * 20, [LANDING] * 20)
+    assert once.pose.position_m == pytest.approx(often.pose.position_m, abs=1e-9)
+    assert once.velocity_m_s == pytest.approx(often.velocity_m_s, abs=1e-9)
+
+
+def test_a_landing_that_moves_is_reached() -> None:
+    """A foot whose landing moves on the way goes there without a jump of its velocity."""
+    moved = LANDING.moved(0.05 - 0.03j)
+    foot = flown([0.01] * 20, [LANDING] * 20)
+    speed = foot.velocity_m_s
+    foot.advance(moved, 0.2, 1e-6)
+    assert foot.velocity_m_s == pytest.approx(speed, abs=1e-4)
+    for tick in range(20):
+        foot.advance(moved, 0.2 - 0.01 * tick, 0.01)
+    assert foot.pose.position_m == pytest.approx(moved.position_m, abs=1e-9)
+
+
+def test_it_turns_the_short_way() -> None:
+    """From 3 rad to -3 rad it is 0.28 rad, not 6."""
+    foot = SwingFoot(PlanarPose(0j, 3.0))
+    foot.advance(PlanarPose(0j, -3.0), 0.4, 0.2)
+    assert 3.0 < foot.pose.yaw_rad < 3.3
+
+
+LIFT = Lift(0.05, 0.4, 0.2)
+
+
+def test_lift() -> None:
+    """The foot is on the ground at both ends, gently, and at its highest in the middle."""
+    for time_s in (-0.1, 0.0, 0.4):
+        assert LIFT.at(time_s) == pytest.approx((0.0, 0.0), abs=1e-12)
+    assert LIFT.at(0.2) == pytest.approx((0.05, 0.0))
+
+
+def test_climb_is_the_slope_of_the_height() -> None:
+    """The rate of climb is the derivative of the height."""
+    for time_s in (0.03, 0.15, 0.3, 0.45):
+        slope = (LIFT.at(time_s + 1e-6)[0] - LIFT.at(time_s - 1e-6)[0]) / 2e-6
+        assert LIFT.at(time_s)[1] == pytest.approx(slope, abs=1e-6)
+
+
+def test_late_ground_is_reached_for() -> None:
+    """After the planned landing the foot goes on down."""
+    assert LIFT.at(0.5) == pytest.approx((-0.02, -0.2))

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check the efforts that carry the robot, and the estimate of where it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from humanoid_control.dynamics import BodyState
+from humanoid_control.dynamics.rotations import from_rpy
+from humanoid_control.walking.attitude import Attitude, hip_efforts
+from humanoid_control.walking.base_estimate import base_on, sole_reading
+from humanoid_control.walking.feed_forward import (
+    add_swing_efforts,
+    carrying_efforts,
+    ground_force,
+)
+from humanoid_control.walking.foot_shape import FootShape
+from humanoid_control.walking.footing import Foothold, Footing, Loads, loads_for
+from humanoid_control.walking.home_posture import HomePosture
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.pendulum import GRAVITY_M_S2
+from humanoid_control.walking.sides import LEFT, SIDES
+from humanoid_control.walking.walking_robot import WalkingRobot
+from humanoid_description.drives import load_drives
+from humanoid_description.robot import Robot
+import numpy as np
+import pytest
+
+P = WalkParameters()
+
+
+@dataclass(frozen=True, eq=False)
+class Stance:
+    """A robot that stands at home."""
+
+    robot: WalkingRobot
+    home: HomePosture
+    state: BodyState
+    footing: Footing
+    loads: Loads
+
+    @property
+    def base_m(self) -> np.ndarray:
+        """Return where the base is."""
+        return np.array([0.0, 0.0, self.home.base_height_m])
+
+
+@pytest.fixture(name='stance', scope='module')
+def _stance(robot: Robot) -> Stance:
+    """Return a robot that stands at home, its base above the origin."""
+    drives = load_drives()
+    walking = WalkingRobot.of(robot, drives, tuple(drives))
+    home = HomePosture.of(walking, P)
+    still = np.zeros(len(drives))
+    state = walking.body.state(np.eye(3), np.zeros(3), home.positions_rad, still)
+    readings = [sole_reading(leg.sole, np.zeros(3), state, 0.5) for leg in walking.legs]
+    footing = Footing(FootShape.of(robot, P), [Foothold(reading.pose) for reading in readings])
+    return Stance(walking, home, state, footing, loads_for(footing, SIDES, footing.rest_point))
+
+
+def test_ground_carries_all(stance: Stance) -> None:
+    """At rest the ground's force below the centre of mass is all that the root needs."""
+    force = ground_force(stance.robot.body.mass_kg, 0j)
+    wrench = np.zeros(6)
+    for share, point in zip(stance.loads.shares, stance.loads.points_m):
+        place = np.array([point.real, point.imag, 0.0]) - stance.base_m
+        wrench += share * np.concatenate([force, np.cross(place, force)])
+    assert wrench == pytest.approx(stance.state.bias_wrench, abs=1e-4)
+
+
+def test_ankles_carry_the_load_before_them(stance: Stance) -> None:
+    """An ankle holds the ground's force at its lever, less the weight of the foot."""
+    force = ground_force(stance.robot.body.mass_kg, 0j)
+    efforts = carrying_efforts(stance.robot, stance.state, stance.base_m, stance.loads, force)
+    half_weight_n = stance.robot.body.mass_kg * GRAVITY_M_S2 / 2
+    foot_kg, foot_forward_m = 1.0, 0.025
+    expected = half_weight_n * P.zmp_forward_m - foot_kg * GRAVITY_M_S2 * foot_forward_m
+    for side in SIDES:
+        pitch = stance.robot.legs[side].indices[4]
+        assert efforts[pitch] == pytest.approx(expected, abs=1e-3)
+
+
+def test_efforts_mirror_each_other(stance: Stance) -> None:
+    """A robot that stands on both feet pushes alike with both legs."""
+    force = ground_force(stance.robot.body.mass_kg, 0j)
+    efforts = carrying_efforts(stance.robot, stance.state, stance.base_m, stance.loads, force)
+    left, right = (efforts[stance.robot.legs[side].indices] for side in SIDES)
+    assert left == pytest.approx(right * [-1, -1, 1, 1, 1, -1], abs=1e-6)
+
+
+def test_swing_leg_alone_gets_its_acceleration(stance: Stance) -> None:
+    """What accelerates a leg acts on its joints, in the direction of the acceleration."""
+    efforts = np.zeros(len(stance.home.positions_rad))
+    accelerations = np.ones_like(efforts)
+    add_swing_efforts(stance.robot, stance.state, LEFT, accelerations, efforts)
+    left, right = (stance.robot.legs[side].indices for side in SIDES)
+    assert efforts[left] @ accelerations[left] > 0.0
+    assert not efforts[right].any()
+
+
+@pytest.mark.parametrize('rpy', [(0.0, 0.0, 0.0), (0.05, -0.1, 0.4)])
+@pytest.mark.parametrize('shares', [(1.0, 0.0), (0.0, 1.0), (0.3, 0.7)])
+def test_base_is_above_feet_that_stand(
+    stance: Stance, rpy: tuple[float, float, float], shares: tuple[float, float]
+) -> None:
+    """The base is where it makes the loaded soles be where they landed, and moves with them."""
+    rates = np.array([0.1, 0.2, -0.3])
+    body = stance.robot.body
+    moving = np.linspace(-0.2, 0.2, len(stance.home.positions_rad))
+    state = body.state(from_rpy(*rpy), rates, stance.home.positions_rad, moving)
+    base = base_on(stance.footing, shares, stance.robot, state)
+    place, speed = np.zeros(3), np.zeros(3)
+    for share, leg, side in zip(shares, stance.robot.legs, SIDES):
+        point = stance.footing.pose(side).position_m
+        anchor = np.array([point.real, point.imag, 0.0])
+        place += share * (base.position_m + state.position_m(leg.sole) - anchor)
+        speed += share * (base.velocity_m_s + state.velocity_m_s(leg.sole))
+    assert place == pytest.approx(np.zeros(3), abs=1e-12)
+    assert speed == pytest.approx(np.zeros(3), abs=1e-12)
+
+
+def test_hips_turn_the_pelvis_back(stance: Stance) -> None:
+    """A pelvis that leans is pushed upright; a leg on the ground turns it the other way."""
+    upright = hip_efforts(P, Attitude(0.0, 0.0, 0.3, (0.0, 0.0, 0.0)), 0.3)
+    assert upright == pytest.approx(0.0)
+    leaning = hip_efforts(P, Attitude(0.02, -0.03, 0.4, (0.1, 0.0, 0.0)), 0.3)
+    yaw, roll, pitch = leaning
+    assert yaw > 0.0
+    assert roll > P.attitude_stiffness_nm_rad * 0.02
+    assert pitch < 0.0
+
+
+def test_force_accelerates(stance: Stance) -> None:
+    """The ground's force carries the weight and accelerates the centre of mass."""
+    assert ground_force(2.0, 0.5 - 1j) == pytest.approx([1.0, -2.0, 2.0 * GRAVITY_M_S2])
