@@ -23,7 +23,9 @@ class Attitude:
     rates_rad_s: tuple[float, float, float]
 
 
-def hip_efforts(parameters: WalkParameters, attitude: Attitude, heading_rad: float) -> Array:
+def hip_efforts(
+    parameters: WalkParameters, attitude: Attitude, heading_rad: float, turn_rad_s: float
+) -> Array:
     """Return efforts (3,) of hip yaw, roll and pitch of a leg that carries all of the weight."""
     stiffness, damping = (
         parameters.attitude_stiffness_nm_rad,
@@ -33,7 +35,7 @@ def hip_efforts(parameters: WalkParameters, attitude: Attitude, heading_rad: flo
     off_course_rad = wrap_angle(attitude.yaw_rad - heading_rad)
     return np.array(
         [
-            parameters.heading_share * (stiffness * off_course_rad + damping * yaw),
+            parameters.heading_share * (stiffness * off_course_rad + damping * (yaw - turn_rad_s)),
             stiffness * attitude.roll_rad + damping * roll,
             stiffness * attitude.pitch_rad + damping * pitch,
         ]

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from humanoid_control.walking.dcm_plan import BalanceReference
-from humanoid_control.walking.footing import Loads, loads_for
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.gear import GaitInput, Gear
 from humanoid_control.walking.phases import Phase, Standing
-from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.planar import Point
+from humanoid_control.walking.swing_foot import Swing
 from humanoid_control.walking.velocity_command import VelocityCommand
 
 
@@ -22,10 +22,10 @@ class GaitOutput:
     reference: BalanceReference
     zmp_m: Point
     """The zero-moment point with feedback, within the support polygon."""
-    loads: Loads
     heading_rad: float
-    swing: tuple[int, PlanarPose, float] | None
-    """Side, pose and height of the sole in the air."""
+    turn_rad_s: float
+    swing: Swing | None
+    """The sole in the air."""
     sides: tuple[int, ...]
     """The sides whose feet carry the robot."""
 
@@ -64,8 +64,8 @@ class Gait:
         return GaitOutput(
             reference,
             zmp,
-            loads_for(footing, phase.sides, zmp),
             phase.heading_rad,
+            phase.turn_rad_s,
             phase.swing(),
             phase.sides,
         )

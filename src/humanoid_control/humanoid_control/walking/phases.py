@@ -12,6 +12,7 @@ from humanoid_control.walking.gear import GaitInput, Gear
 from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
 from humanoid_control.walking.step import Step
+from humanoid_control.walking.swing_foot import Swing
 
 _SETTLED_S = 0.3
 """A robot that just begins to stand does not step against pushes yet."""
@@ -37,6 +38,10 @@ class Phase(Protocol):
         """Return where the pelvis is to face."""
 
     @property
+    def turn_rad_s(self) -> float:
+        """Return how fast that turns."""
+
+    @property
     def footsteps(self) -> Sequence[Footstep]:
         """Return the steps that are planned."""
 
@@ -46,8 +51,8 @@ class Phase(Protocol):
     def reference(self, now: GaitInput) -> BalanceReference:
         """Return where the divergent component and the zero-moment point should be now."""
 
-    def swing(self) -> tuple[int, PlanarPose, float] | None:
-        """Return side, pose and height of the sole in the air; to be asked once a tick."""
+    def swing(self) -> Swing | None:
+        """Return the sole in the air; to be asked once a tick."""
 
 
 class _OnBothFeet:
@@ -55,6 +60,7 @@ class _OnBothFeet:
 
     sides: tuple[int, ...] = SIDES
     footsteps: Sequence[Footstep] = ()
+    turn_rad_s = 0.0
 
     def __init__(self, gear: Gear) -> None:
         """Begin now."""
@@ -132,6 +138,11 @@ class Stepping:
         return self._step.heading_rad
 
     @property
+    def turn_rad_s(self) -> float:
+        """Return how fast that turns."""
+        return self._step.turn_rad_s
+
+    @property
     def footsteps(self) -> Sequence[Footstep]:
         """Return the steps that are planned."""
         return self._step.footsteps
@@ -154,8 +165,8 @@ class Stepping:
         """Return the way of the plan."""
         return self._step.reference(now)
 
-    def swing(self) -> tuple[int, PlanarPose, float] | None:
-        """Return where the foot in the air is to be."""
+    def swing(self) -> Swing | None:
+        """Return the sole in the air."""
         return self._step.swing()
 
     def _may_rest(self) -> bool:

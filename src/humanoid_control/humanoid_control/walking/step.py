@@ -11,7 +11,7 @@ from humanoid_control.walking.gear import GaitInput, Gear
 from humanoid_control.walking.planar import limited, PlanarPose, Point
 from humanoid_control.walking.sides import other, SIDES
 from humanoid_control.walking.step_adjustment import Residual
-from humanoid_control.walking.swing_foot import lift_m, SwingFoot
+from humanoid_control.walking.swing_foot import Lift, lift_at, Swing, SwingFoot
 
 _INSTANT_S = 1e-4
 """The plan is asked for a moment before the end of a step until the foot has landed."""
@@ -92,14 +92,33 @@ class Step:
     @property
     def heading_rad(self) -> float:
         """Return the mean heading of the feet on its way from lift-off to landing."""
-        support = self._gear.footing.pose(self.support)
-        before = support.halfway(self._lift_off).yaw_rad
-        turn_rad = wrap_angle(support.halfway(self.landing).yaw_rad - before)
-        share = min(1.0, self.elapsed_s / self.end_s)
-        return before + turn_rad * share**2 * (3.0 - 2.0 * share)
+        share = self._share
+        return self._heading_before_rad + self._turn_rad * share**2 * (3.0 - 2.0 * share)
 
-    def swing(self) -> tuple[int, PlanarPose, float] | None:
-        """Return side, pose and height of the sole in the air; to be asked once a tick."""
+    @property
+    def turn_rad_s(self) -> float:
+        """Return how fast the heading turns."""
+        share = self._share
+        return self._turn_rad * 6.0 * share * (1.0 - share) * self.rate / self.end_s
+
+    @property
+    def _share(self) -> float:
+        """Return which share of the step has passed."""
+        return min(1.0, self.elapsed_s / self.end_s)
+
+    @property
+    def _heading_before_rad(self) -> float:
+        """Return the mean heading of the feet at lift-off."""
+        return self._gear.footing.pose(self.support).halfway(self._lift_off).yaw_rad
+
+    @property
+    def _turn_rad(self) -> float:
+        """Return how far the mean heading of the feet turns in the step."""
+        after = self._gear.footing.pose(self.support).halfway(self.landing).yaw_rad
+        return wrap_angle(after - self._heading_before_rad)
+
+    def swing(self) -> Swing | None:
+        """Return the sole in the air; to be asked once a tick."""
         if self.elapsed_s <= self._shift_s:
             return None
         p = self._gear.parameters
@@ -107,9 +126,15 @@ class Step:
         passed_s = min(self._passed_s, (self.elapsed_s - self._shift_s) / self.rate)
         remaining_s = (arrival_s - self.elapsed_s) / self.rate + passed_s
         pose = self._foot.advance(self.landing, remaining_s, passed_s)
-        late_s = max(0.0, self.elapsed_s - self.end_s)
-        height_m = lift_m(p.swing_height_m, self.swing_phase) - p.reach_down_m_s * late_s
-        return self.side, pose, height_m
+        return Swing(self.side, pose, self._lift(), self._foot.velocity, self._foot.acceleration)
+
+    def _lift(self) -> Lift:
+        """Return how high the foot is to be: if the ground is late, it reaches down for it."""
+        p = self._gear.parameters
+        late_s = self.elapsed_s - self.end_s
+        if late_s > 0.0:
+            return Lift(-p.reach_down_m_s * late_s, -p.reach_down_m_s)
+        return lift_at(p.swing_height_m, self.swing_phase, self.rate / p.swing_s)
 
     def _next_landing(self) -> PlanarPose:
         """Return where the foot lands by plan."""

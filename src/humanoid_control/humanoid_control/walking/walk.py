@@ -3,33 +3,36 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 import math
 
 from humanoid_control.backends import JointTargets
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import about_z
+from humanoid_control.dynamics.rotations import about_z, skew
 from humanoid_control.walking.attitude import hip_efforts
 from humanoid_control.walking.base_estimate import base_on, sole_reading
 from humanoid_control.walking.com_observer import ComObserver
 from humanoid_control.walking.com_reference import ComReference
-from humanoid_control.walking.feed_forward import (
-    add_swing_efforts,
-    carrying_efforts,
-    ground_force,
-)
+from humanoid_control.walking.feed_forward import ground_efforts
 from humanoid_control.walking.foot_shape import FootShape
-from humanoid_control.walking.footing import Foothold, Footing
+from humanoid_control.walking.footing import Foothold, Footing, loads_for
 from humanoid_control.walking.gait import Gait, GaitOutput
 from humanoid_control.walking.gear import GaitInput, Gear
+from humanoid_control.walking.ground_reaction import GroundReaction
 from humanoid_control.walking.home_posture import HomePosture
+from humanoid_control.walking.joint_motion import JointMotion
+from humanoid_control.walking.leg_map import LegMap
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion, Pendulum
 from humanoid_control.walking.planar import Point
+from humanoid_control.walking.planned_acceleration import (
+    PlannedAcceleration,
+    whole_acceleration,
+)
 from humanoid_control.walking.senses import Sensed
-from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
-from humanoid_control.walking.target_rates import TargetRates
+from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.walking_robot import WalkingRobot
-from humanoid_control.walking.whole_body import WholeBody
+from humanoid_control.walking.whole_body import MovingBase, WholeBody
 import numpy as np
 from numpy.typing import NDArray
 
@@ -59,7 +62,6 @@ class Walk:
             self._pendulum, parameters.reference_leak_1_s, parameters.reference_distance_m
         )
         self._whole_body = WholeBody(robot, home, parameters)
-        self._rates = TargetRates(parameters, len(robot.body.joints))
         self._shares = (0.5, 0.5)
         self._zmp_m = self._footing.rest_point
         self._last_s = sensed.time_s
@@ -84,17 +86,15 @@ class Walk:
         self._last_s, self.sensed = sensed.time_s, sensed
         self._estimate(passed_s)
         output = self.output = self.gait.update(self._gait_input(passed_s))
-        self._shares, self._zmp_m = output.loads.shares, output.zmp_m
+        self._zmp_m = output.zmp_m
         wanted = self._reference.update(self.com, output.zmp_m, passed_s)
         self._footing.settle(1.0 - math.exp(-passed_s / self._parameters.settle_s))
-        positions = self._whole_body.targets(
-            self._wanted_base(wanted, output.heading_rad),
-            Frame(self.base.position_m, sensed.state.base_rotation),
-            self._footing,
-            output.swing,
+        maps = [LegMap.of(leg, sensed.state) for leg in self._robot.legs]
+        motion = self._whole_body.motion(
+            self._wanted_base(wanted, output), self._moving_base, self._footing, output.swing, maps
         )
-        self._rates.update(positions, passed_s)
-        return JointTargets(positions, self._rates.velocities_rad_s, self._efforts(output))
+        efforts = self._efforts(output, motion, maps)
+        return JointTargets(motion.positions_rad, motion.velocities_rad_s, efforts)
 
     def _estimate(self, passed_s: float) -> None:
         """Find base and centre of mass from the feet that carried weight until now."""
@@ -116,35 +116,60 @@ class Walk:
         )
         return GaitInput(passed_s, self.dcm_m, self._zmp_m, (left, right))
 
-    def _wanted_base(self, com: Motion, heading_rad: float) -> Frame:
-        """Return the base that is upright, faces a heading and has the centre of mass right."""
-        rotation = about_z(heading_rad)
-        point, state = self.com.position_m, self.sensed.state
+    @property
+    def _moving_base(self) -> MovingBase:
+        """Return the base as estimated."""
+        state = self.sensed.state
+        velocity = np.append(self.base.velocity_m_s, state.base_angular_velocity_rad_s)
+        return MovingBase(Frame(self.base.position_m, state.base_rotation), velocity)
+
+    def _wanted_base(self, com: Motion, output: GaitOutput) -> MovingBase:
+        """Return the base that is upright, faces the heading and has the centre of mass right."""
+        rotation, state = about_z(output.heading_rad), self.sensed.state
+        turned = rotation @ state.base_rotation.T
+        point = self.com.position_m
         from_base = np.array([point.real, point.imag, 0.0]) - self.base.position_m
         from_base[2] = state.com_m[2]
-        to_com = rotation @ (state.base_rotation.T @ from_base)
+        to_com = turned @ from_base
         goal = np.array([com.position_m.real, com.position_m.imag, self._pendulum.height_m])
-        return Frame(goal - to_com, rotation)
+        # The joints move the centre of mass within the base, whose own turning carries it.
+        turning = skew(state.base_angular_velocity_rad_s)
+        within = turned @ (state.com_velocity_m_s - turning @ state.com_m)
+        turn = np.array([0.0, 0.0, output.turn_rad_s])
+        speed = np.array([com.velocity_m_s.real, com.velocity_m_s.imag, 0.0])
+        velocity = speed - within - skew(turn) @ to_com
+        return MovingBase(Frame(goal - to_com, rotation), np.append(velocity, turn))
 
-    def _efforts(self, output: GaitOutput) -> Array:
-        """Return the efforts (n,) that carry the robot and keep it upright."""
-        acceleration = self._pendulum.acceleration_m_s2(self.com.position_m, output.zmp_m)
-        state = self.sensed.state
-        efforts = carrying_efforts(
-            self._robot,
-            state,
-            self.base.position_m,
-            output.loads,
-            ground_force(self._robot.body.mass_kg, acceleration),
+    def _efforts(self, output: GaitOutput, motion: JointMotion, maps: Sequence[LegMap]) -> Array:
+        """Return the efforts (n,) that move the robot as planned and keep it upright."""
+        state, p = self.sensed.state, self._parameters
+        base, joints = whole_acceleration(
+            state, maps, self._planned(output, motion), p.acceleration_limit_rad_s2
         )
-        if len(output.sides) == 1:
-            swinging = RIGHT if output.sides[0] == LEFT else LEFT
-            accelerations = self._rates.accelerations_rad_s2
-            add_swing_efforts(self._robot, state, swinging, accelerations, efforts)
-        upright = hip_efforts(self._parameters, self.sensed.attitude, output.heading_rad)
+        wrench, efforts = state.required(base, joints)
+        reaction = GroundReaction.of(wrench, self.base.position_m).within(
+            self._footing.polygon(output.sides), p.ground_turn_nm
+        )
+        loads = loads_for(self._footing, output.sides, reaction.point_m)
+        self._shares = loads.shares
+        efforts -= ground_efforts(self._robot, state, self.base.position_m, loads, reaction)
+        upright = hip_efforts(p, self.sensed.attitude, output.heading_rad, output.turn_rad_s)
         for side in SIDES:
-            efforts[self._robot.legs[side].indices[:3]] += output.loads.shares[side] * upright
+            efforts[self._robot.legs[side].indices[:3]] += loads.shares[side] * upright
         return efforts
+
+    def _planned(self, output: GaitOutput, motion: JointMotion) -> PlannedAcceleration:
+        """Return what is planned: a pendulum, upright, over feet that stand or swing."""
+        along = self._pendulum.acceleration_m_s2(self.com.position_m, output.zmp_m)
+        soles = [np.zeros(6), np.zeros(6)]
+        if output.swing:
+            soles[output.swing.side] = output.swing.acceleration6
+        return PlannedAcceleration(
+            np.array([along.real, along.imag, 0.0]),
+            np.zeros(3),
+            soles,
+            motion.accelerations_rad_s2,
+        )
 
 
 def _footing_below(
