@@ -49,7 +49,7 @@ SMALL_PAGES = {
 def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[World]:
     """Start the humanoid, which nobody shows."""
     with world(tmp_path_factory.mktemp('faults')) as made:
-        made.launch('humanoid_bringup', 'bringup.launch.py', 'gui:=false')
+        made.launch('humanoid_bringup', 'bringup.launch.py', 'backend:=mock', 'gui:=false')
         yield made
 
 

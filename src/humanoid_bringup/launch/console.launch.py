@@ -18,6 +18,7 @@ def generate_launch_description() -> LaunchDescription:
         'host': ParameterValue(LaunchConfiguration('host'), value_type=str),
         'port': ParameterValue(LaunchConfiguration('port'), value_type=int),
         'token': ParameterValue(LaunchConfiguration('token'), value_type=str),
+        'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool),
     }
     return LaunchDescription(
         [
@@ -36,11 +37,22 @@ def generate_launch_description() -> LaunchDescription:
                 default_value='',
                 description='What one must know to see the page; made up if others can reach it.',
             ),
+            DeclareLaunchArgument(
+                'prefix',
+                default_value='',
+                description='What the names of all links and joints begin with.',
+            ),
+            DeclareLaunchArgument(
+                'use_sim_time',
+                default_value='false',
+                choices=['true', 'false'],
+                description='Take the time from the topic /clock instead of the computer.',
+            ),
             Node(
                 package='rviz2',
                 executable='rviz2',
                 output='screen',
-                arguments=['-d', config],
+                arguments=['-d', config, '-f', [LaunchConfiguration('prefix'), 'odom']],
                 parameters=[page],
             ),
         ]

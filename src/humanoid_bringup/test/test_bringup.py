@@ -18,8 +18,10 @@ def test_arguments() -> None:
     """Every argument has a default and a description."""
     description = load_launch_file(LAUNCH_FILE)
     assert argument_defaults(description) == {
+        'backend': 'mujoco',
         'gui': 'true',
         'use_controller': 'true',
-        'use_sim_time': 'false',
+        'use_sim_time': 'auto',
+        'when_robot_ends': 'shutdown',
     }
     assert undescribed_arguments(description) == []

@@ -20,6 +20,7 @@ import pytest
 LAUNCH_FILE = Path(__file__).parents[1] / 'launch' / 'bringup.launch.py'
 
 ROBOT = "Robot 'humanoid'"
+MOCK = 'Mock robot started'
 REPORT = '[sensor_processor]: left_shoulder: '
 ALONE = 'Sensor Processor started'
 
@@ -27,8 +28,8 @@ ALONE = 'Sensor Processor started'
 @pytest.mark.rostest
 @parametrize('use_controller', ['true', 'false'])
 def generate_test_description(use_controller: str) -> LaunchDescription:
-    """Launch the humanoid, with or without its controller."""
-    return description_under_test(LAUNCH_FILE, use_controller=use_controller)
+    """Launch the humanoid without physics, with or without its controller."""
+    return description_under_test(LAUNCH_FILE, backend='mock', use_controller=use_controller)
 
 
 class TestRun(unittest.TestCase):
@@ -38,7 +39,7 @@ class TestRun(unittest.TestCase):
         """The processor reports what the controller sends, and runs without it, too."""
         proc_output.assertWaitFor(REPORT if use_controller == 'true' else ALONE, timeout=20)
         proc_output.assertWaitFor(ROBOT, process='robot_state_publisher', timeout=20)
-        proc_output.assertWaitFor(ROBOT, process='joint_state_publisher', timeout=20)
+        proc_output.assertWaitFor(MOCK, process='mock_robot', timeout=20)
 
 
 @post_shutdown_test()
@@ -46,9 +47,10 @@ class TestEnd(unittest.TestCase):
     """After Ctrl-C."""
 
     def test_processes(self, proc_info: ProcInfoHandler, use_controller: str) -> None:
-        """The controller was there only if it was wanted."""
+        """The controller was there only if it was wanted, and joints had one publisher."""
         controllers = [name for name in proc_info.process_names() if 'controller' in name]
         assert len(controllers) == (use_controller == 'true')
+        assert not [name for name in proc_info.process_names() if 'joint_state_pub' in name]
 
     def test_end(self, proc_info: ProcInfoHandler, proc_output: IoHandler) -> None:
         """All nodes end in order."""

@@ -12,16 +12,23 @@ from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.running import run_node
 from humanoid_control.backends.mock import MockBackend
 from humanoid_control.hosting.control_loop import ControlLoop
+from humanoid_control.hosting.diagnostics import HostDiagnostics
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
 from humanoid_control.hosting.pacing import RealTimePace
 from humanoid_control.hosting.parameters import HostParameters
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
+from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_description.drives import load_drives
 from humanoid_description.errors import DescriptionError
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot
 from rclpy.node import Node
+
+NO_TURN = (
+    'The mock robot does not turn: its inertial sensor is level and faces ahead for ever. It '
+    'walks straight on and sideways; to turn, use the simulator.'
+)
 
 
 class MockRobot(Node):
@@ -37,6 +44,7 @@ class MockRobot(Node):
         loop = ControlLoop(backend, {name: robot.control for name, robot in controls.items()})
         period_s, pace = backend.period_s, RealTimePace(backend.period_s)
         self._host = Host(self, loop, pace, period_s, self._robots.look, self._robots.tell)
+        self._diagnostics = HostDiagnostics(self, self._host, self._robots)
         self.get_logger().info(
             f'Mock robot started: {len(backend.joints)} joints at {1.0 / period_s:g} Hz, '
             'without physics'
@@ -53,12 +61,23 @@ class MockRobot(Node):
             raise NodeStartError(f'The mock robot has no model. {error}') from error
         drives, say = load_drives(scale, prefix), self.get_logger().error
         controls = {
-            name: WalkingRobotControl.of(model, drives, scale, time.monotonic, say)
+            name: WalkingRobotControl.of(model, drives, scale, time.monotonic, say, self._able)
             for name in parameters.robots
         }
-        home_rad = next(iter(controls.values())).home_rad
-        period_s = 1.0 / parameters.control_rate_hz
-        return controls, MockBackend(drives, parameters.robots, period_s, model.mass_kg, home_rad)
+        return controls, MockBackend(
+            drives,
+            parameters.robots,
+            1.0 / parameters.control_rate_hz,
+            model.mass_kg,
+            next(iter(controls.values())).home_rad,
+            self.get_clock().now().nanoseconds * 1e-9,
+        )
+
+    def _able(self, velocity: VelocityCommand) -> VelocityCommand:
+        """Leave out the turn, with a word on why, once."""
+        if velocity.turn_rad_s:
+            self.get_logger().warning(NO_TURN, once=True)
+        return VelocityCommand(velocity.forward_m_s, velocity.left_m_s)
 
     def _change(self, parameters: HostParameters) -> None:
         """Follow a change of the parameters."""

@@ -12,6 +12,7 @@ import pytest
 STARTED = {
     'joint_controller': 'Humanoid Joint Controller started (50 Hz)',
     'sensor_processor': 'Sensor Processor started',
+    'mock_robot': 'Mock robot started: 23 joints at 100 Hz',
 }
 
 

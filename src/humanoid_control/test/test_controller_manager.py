@@ -29,6 +29,7 @@ class Swinging:
     def __init__(self) -> None:
         """Begin without a fault."""
         self.fault = 0.0
+        self.at_rest = True
         self.starts = 0
 
     def start(self, observation: Observation, held: JointTargets) -> None:
@@ -50,7 +51,12 @@ class Robot:
         """Begin to walk."""
         self.walking, self.follower = Swinging(), Follower(JOINTS)
         modes = (
-            Mode('walking', self.walking, ('left_elbow', 'right_elbow')),
+            Mode(
+                'walking',
+                self.walking,
+                ('left_elbow', 'right_elbow'),
+                may_end=lambda: self.walking.at_rest,
+            ),
             hold_mode(JOINTS),
             follow_mode(JOINTS),
         )
@@ -144,6 +150,22 @@ def test_switch_to_rest(mode: str) -> None:
     assert told.positions_rad == pytest.approx(before, abs=0.03)
     assert not told.velocities_rad_s.any()
     assert robot.largest_step_rad() < 0.01 and robot.largest_jolt_rad_s() < 0.05
+
+
+def test_switch_waits_for_rest() -> None:
+    """A robot in the middle of a step comes to rest first, and may think better of it."""
+    robot = Robot()
+    robot.walking.at_rest = False
+    robot.run(10)
+    robot.manager.switch('hold')
+    robot.run(10)
+    assert robot.manager.mode == 'walking' and robot.manager.is_leaving
+    robot.manager.switch('walking')
+    assert not robot.manager.is_leaving
+    robot.manager.switch('hold')
+    robot.walking.at_rest = True
+    robot.run(1)
+    assert robot.manager.mode == 'hold' and not robot.manager.is_leaving
 
 
 def test_followed_joint_stays_where_it_was_left() -> None:

@@ -73,8 +73,8 @@ class IdealRobot:
         """Return a sole that is where it was told to be at the tick before."""
         swing = self.output.swing if self.output else None
         if swing and swing.side == side:
-            height_m = swing.lift.height_m
-            return SoleReading(swing.pose, max(0.0, height_m), 0.0 if height_m > 0.0 else 0.5)
+            height_m = max(0.0, swing.sole.height_m)
+            return SoleReading(swing.sole.pose, height_m, 0.0 if height_m else 0.5)
         return SoleReading(self.footing.pose(side), 0.0, 0.5)
 
 

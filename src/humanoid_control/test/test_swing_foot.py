@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from humanoid_control.walking.planar import PlanarPose
-from humanoid_control.walking.swing_foot import Lift, lift_at, Planar, Swing, SwingFoot
+from humanoid_control.walking.swing_foot import Lift, SoleMotion, SwingFoot
 import pytest
 
 LANDING = PlanarPose(0.3 + 0.1j, 0.4)
@@ -27,8 +27,8 @@ def test_it_arrives_at_rest(rate_hz: int) -> None:
     foot = flown([1 / rate_hz] * count, [LANDING] * count)
     assert foot.pose.position_m == pytest.approx(LANDING.position_m, abs=1e-9)
     assert foot.pose.yaw_rad == pytest.approx(LANDING.yaw_rad, abs=1e-9)
-    assert abs(foot.velocity.linear) < 1e-6
-    assert abs(foot.velocity.angular) < 1e-6
+    assert abs(foot.velocity_m_s) < 1e-6
+    assert abs(foot.turn_rad_s) < 1e-6
 
 
 @pytest.mark.parametrize('passed_s', [0.1, 0.2, 0.39])
@@ -37,17 +37,17 @@ def test_one_long_step_is_many_short_ones(passed_s: float) -> None:
     once = flown([passed_s], [LANDING])
     often = flown([passed_s / 20] * 20, [LANDING] * 20)
     assert once.pose.position_m == pytest.approx(often.pose.position_m, abs=1e-9)
-    assert once.velocity.linear == pytest.approx(often.velocity.linear, abs=1e-9)
+    assert once.velocity_m_s == pytest.approx(often.velocity_m_s, abs=1e-9)
 
 
 def test_a_landing_that_moves_is_reached() -> None:
-    """A foot whose landing moves on the way goes there without jumps on the way."""
+    """A foot whose landing moves on the way goes there without jumps."""
     moved = LANDING.moved(0.05 - 0.03j)
     foot = flown([0.01] * 20, [LANDING] * 20)
-    before = foot.velocity.linear, foot.acceleration.linear
+    speed_m_s, gain_m_s2 = foot.velocity_m_s, foot.acceleration_m_s2
     foot.advance(moved, 0.2, 1e-6)
-    assert foot.velocity.linear == pytest.approx(before[0], abs=1e-4)
-    assert foot.acceleration.linear == pytest.approx(before[1], abs=1e-3)
+    assert foot.velocity_m_s == pytest.approx(speed_m_s, abs=1e-4)
+    assert foot.acceleration_m_s2 == pytest.approx(gain_m_s2, abs=1e-2)
     for tick in range(20):
         foot.advance(moved, 0.2 - 0.01 * tick, 0.01)
     assert foot.pose.position_m == pytest.approx(moved.position_m, abs=1e-9)
@@ -64,42 +64,42 @@ def test_velocity_and_acceleration_are_derivatives() -> None:
     """What the foot says of its motion is what it does."""
     instant_s = 1e-6
     foot = flown([0.17], [LANDING])
-    pose, velocity, acceleration = foot.pose, foot.velocity, foot.acceleration
+    before = SwingFoot(**vars(foot))
     foot.advance(LANDING, DURATION_S - 0.17, instant_s)
-    moved_m = foot.pose.position_m - pose.position_m
-    assert moved_m / instant_s == pytest.approx(velocity.linear, abs=1e-4)
-    assert (foot.pose.yaw_rad - pose.yaw_rad) / instant_s == pytest.approx(
-        velocity.angular, abs=1e-4
-    )
-    gained_m_s = foot.velocity.linear - velocity.linear
-    assert gained_m_s / instant_s == pytest.approx(acceleration.linear, abs=1e-3)
-    turned_rad_s = foot.velocity.angular - velocity.angular
-    assert turned_rad_s / instant_s == pytest.approx(acceleration.angular, abs=1e-3)
+    moved_m = foot.pose.position_m - before.pose.position_m
+    turned_rad = foot.pose.yaw_rad - before.pose.yaw_rad
+    gained_m_s = foot.velocity_m_s - before.velocity_m_s
+    gained_rad_s = foot.turn_rad_s - before.turn_rad_s
+    assert moved_m / instant_s == pytest.approx(before.velocity_m_s, abs=1e-4)
+    assert turned_rad / instant_s == pytest.approx(before.turn_rad_s, abs=1e-4)
+    assert gained_m_s / instant_s == pytest.approx(before.acceleration_m_s2, abs=1e-3)
+    assert gained_rad_s / instant_s == pytest.approx(before.turn_rad_s2, abs=1e-3)
+
+
+def test_acceleration_of_the_sole() -> None:
+    """Six numbers say how the sole accelerates: along x, y, z, then about them."""
+    sole = SoleMotion(LANDING, acceleration_m_s2=2 - 1j, climb_m_s2=-0.5, turn_rad_s2=3.0)
+    assert sole.acceleration.tolist() == [2.0, -1.0, -0.5, 0.0, 0.0, 3.0]
+
+
+LIFT = Lift(0.05, 0.4, 0.2)
 
 
 def test_lift() -> None:
-    """The foot is on the ground at both ends, at its highest in the middle, and not below."""
-    for phase in (0.0, 1.0, 1.3):
-        assert lift_at(0.05, phase, 2.5) == Lift()
-    assert lift_at(0.05, 0.5, 2.5).height_m == pytest.approx(0.05)
-    assert 0.0 < lift_at(0.05, 0.01, 2.5).height_m < 1e-4
+    """The foot is on the ground at both ends, gently, and at its highest in the middle."""
+    for time_s in (-0.1, 0.0, 0.4):
+        assert LIFT.at(time_s)[:2] == pytest.approx((0.0, 0.0), abs=1e-12)
+    assert LIFT.at(0.2)[:2] == pytest.approx((0.05, 0.0))
 
 
-@pytest.mark.parametrize('phase', [0.1, 0.4, 0.8])
-def test_lift_rates_are_derivatives(phase: float) -> None:
-    """Speed and acceleration are those of a phase that goes on at its rate."""
-    rate_1_s, instant_s = 2.5, 1e-5
-    before, now, after = (
-        lift_at(0.05, phase + way * rate_1_s * instant_s, rate_1_s) for way in (-1, 0, 1)
-    )
-    speed = (after.height_m - before.height_m) / (2 * instant_s)
-    assert now.speed_m_s == pytest.approx(speed, abs=1e-6)
-    gain = (after.speed_m_s - before.speed_m_s) / (2 * instant_s)
-    assert now.acceleration_m_s2 == pytest.approx(gain, abs=1e-6)
+@pytest.mark.parametrize('order', [0, 1])
+def test_climb_is_the_slope_of_the_height(order: int) -> None:
+    """The rate of climb is the derivative of the height, and has one itself."""
+    for time_s in (0.03, 0.15, 0.3, 0.45):
+        slope = (LIFT.at(time_s + 1e-6)[order] - LIFT.at(time_s - 1e-6)[order]) / 2e-6
+        assert LIFT.at(time_s)[order + 1] == pytest.approx(slope, abs=1e-6)
 
 
-def test_spatial_motion() -> None:
-    """Six numbers say how the sole moves: along x, y, z, then about them."""
-    swing = Swing(0, LANDING, Lift(0.02, 0.3, -1.0), Planar(0.5 + 0.1j, 0.2), Planar(2 - 1j, 3.0))
-    assert swing.velocity6.tolist() == [0.5, 0.1, 0.3, 0.0, 0.0, 0.2]
-    assert swing.acceleration6.tolist() == [2.0, -1.0, -1.0, 0.0, 0.0, 3.0]
+def test_late_ground_is_reached_for() -> None:
+    """After the planned landing the foot goes on down."""
+    assert LIFT.at(0.5) == pytest.approx((-0.02, -0.2, 0.0))

@@ -17,6 +17,7 @@ from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import GRAVITY_M_S2
 from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.turning import Turning
 from humanoid_control.walking.walking_robot import WalkingRobot
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
@@ -115,9 +116,9 @@ def test_base_is_above_feet_that_stand(
 
 def test_hips_turn_the_pelvis_back(stance: Stance) -> None:
     """A pelvis that leans is pushed upright; a leg on the ground turns it the other way."""
-    upright = hip_efforts(P, Attitude(0.0, 0.0, 0.3, (0.0, 0.0, 0.2)), 0.3, 0.2)
+    upright = hip_efforts(P, Attitude(0.0, 0.0, 0.3, (0.0, 0.0, 0.2)), Turning(0.3, 0.2))
     assert upright == pytest.approx(0.0)
-    leaning = hip_efforts(P, Attitude(0.02, -0.03, 0.4, (0.1, 0.0, 0.0)), 0.3, 0.0)
+    leaning = hip_efforts(P, Attitude(0.02, -0.03, 0.4, (0.1, 0.0, 0.0)), Turning(0.3))
     yaw, roll, pitch = leaning
     assert yaw > 0.0
     assert roll > P.attitude_stiffness_nm_rad * 0.02

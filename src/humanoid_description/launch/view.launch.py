@@ -4,9 +4,10 @@
 from __future__ import annotations
 
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
 from launch.conditions import IfCondition, UnlessCondition
-from launch.substitutions import Command, LaunchConfiguration, PathJoinSubstitution
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
@@ -18,13 +19,10 @@ SOURCES = {'source_list': ['joint_commands']}
 def generate_launch_description() -> LaunchDescription:
     """Describe the nodes."""
     share = FindPackageShare('humanoid_description')
-    model = PathJoinSubstitution([share, 'urdf', 'humanoid.urdf.xacro'])
+    model = PathJoinSubstitution([share, 'launch', 'description.launch.py'])
     view = PathJoinSubstitution([share, 'config', 'robot_view.rviz'])
     gui, prefix = LaunchConfiguration('gui'), LaunchConfiguration('prefix')
-    urdf = ['xacro "', model, '"']
-    for argument in ('scale', 'prefix', 'upper_body_only'):
-        urdf += [f' {argument}:=', LaunchConfiguration(argument)]
-    description = {'robot_description': ParameterValue(Command(urdf), value_type=str)}
+    forwarded = ('scale', 'prefix', 'upper_body_only', 'use_sim_time')
     time = {'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)}
     return LaunchDescription(
         [
@@ -54,10 +52,9 @@ def generate_launch_description() -> LaunchDescription:
                 choices=['true', 'false'],
                 description='Take the time from the topic /clock instead of the computer.',
             ),
-            Node(
-                package='robot_state_publisher',
-                executable='robot_state_publisher',
-                parameters=[description, time],
+            IncludeLaunchDescription(
+                PythonLaunchDescriptionSource(model),
+                launch_arguments=[(name, LaunchConfiguration(name)) for name in forwarded],
             ),
             Node(
                 package='joint_state_publisher',

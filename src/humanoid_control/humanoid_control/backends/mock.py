@@ -29,10 +29,16 @@ class MockBackend:
         period_s: float = 0.01,
         mass_kg: float = 0.0,
         home_rad: Mapping[str, float] = {},
+        start_s: float = 0.0,
     ) -> None:
-        """Put the robots there; joints without a home position begin at zero, or next to it."""
+        """
+        Put the robots there.
+
+        :param home_rad: where joints begin; those that are not named, at zero or next to it
+        :param start_s: the time at which they begin
+        """
         self._robots, self._joints = tuple(robots), tuple(drives)
-        self._period_s = period_s
+        self._period_s, self._start_s = period_s, start_s
         self._weight_n = mass_kg * GRAVITY_M_S2
         home = np.array([home_rad.get(joint, 0.0) for joint in self._joints])
         self._banks = {robot: ServoBank(drives, home) for robot in robots}
@@ -80,7 +86,7 @@ class MockBackend:
 
     def _observed(self, bank: ServoBank) -> Observation:
         return Observation(
-            time_s=self._steps * self._period_s,
+            time_s=self._start_s + self._steps * self._period_s,
             positions_rad=bank.positions_rad.copy(),
             velocities_rad_s=bank.velocities_rad_s.copy(),
             efforts_nm=bank.efforts_nm.copy(),

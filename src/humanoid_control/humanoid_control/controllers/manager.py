@@ -54,19 +54,23 @@ class ControllerManager:
         return self._mode.name
 
     @property
+    def is_leaving(self) -> bool:
+        """Tell whether another mode waits for the present one to come to rest."""
+        return self._next is not self._mode
+
+    @property
     def modes(self) -> tuple[str, ...]:
         """Return the names of all modes."""
         return tuple(self._modes)
 
     def switch(self, mode: str) -> None:
-        """Go over to another mode, smoothly."""
+        """Go over to another mode, as soon as the present one can be left, and smoothly."""
         if mode not in self._modes:
             known = ', '.join(self._modes)
             raise CommandError(
                 f"There is no mode '{mode}'. {did_you_mean(mode, self._modes)} It has: {known}."
             )
-        if mode != self.mode:
-            self._enter(self._modes[mode])
+        self._next = self._modes[mode]
 
     def reset(self) -> None:
         """Begin anew with the next observation, from where the joints are then."""
@@ -81,9 +85,14 @@ class ControllerManager:
         """Return the name of the controller that moves a joint."""
         return self._name_of(self._owners[self.joints.index(joint)])
 
+    def lent(self) -> dict[str, str]:
+        """Return the joints that belong to guests now, with the names of these."""
+        places = np.flatnonzero(self._owners != _MODE)
+        return {self.joints[place]: self._name_of(self._owners[place]) for place in places}
+
     def check(self, guest: Guest, places: Indices) -> None:
         """Refuse that a guest moves joints which belong to the mode or to a guest before it."""
-        for place in places[~self._lent[places]]:
+        for place in places[~self._may_lend[places]]:
             raise CommandError(self._not_lent(self.joints[place]))
         rank = self._guests.index(guest)
         owners = self._owners[places]
@@ -97,6 +106,8 @@ class ControllerManager:
     def update(self, observation: Observation) -> JointTargets:
         """Return the targets of all joints for the coming period."""
         now_s = observation.time_s
+        if self.is_leaving and self._mode.may_end():
+            self._enter(self._next)
         last = self._last or _at_rest(observation)
         elapsed_s = now_s - self._last_s if self._last else 0.0
         held = _continued(last, elapsed_s)
@@ -116,8 +127,8 @@ class ControllerManager:
                 f"The controller of mode '{mode.name}' must claim all joints of the robot, in "
                 f'the order {self.joints}, but claims {mode.controller.joints}.'
             )
-        self._mode, self._entered = mode, True
-        self._lent = np.isin(self.joints, mode.lends)
+        self._mode, self._next, self._entered = mode, mode, True
+        self._may_lend = np.isin(self.joints, mode.lends)
         for guest in self._guests:
             guest.cancel()
 
@@ -135,7 +146,7 @@ class ControllerManager:
         """Return who owns each joint, (n,): the rank of a guest, or _MODE."""
         owners = np.full(len(self.joints), _MODE)
         for rank in reversed(range(len(self._guests))):
-            owners[self._guests[rank].wanted(now_s) & self._lent] = rank
+            owners[self._guests[rank].wanted(now_s) & self._may_lend] = rank
         return owners
 
     def _news(self, owners: Owners) -> Mask:

@@ -15,18 +15,25 @@ def _nothing(joints: Mask, held: JointTargets) -> None:
     """Take joints back without more ado."""
 
 
+def _always() -> bool:
+    """Tell that a mode can be left at any time."""
+    return True
+
+
 @dataclass(frozen=True)
 class Mode:
     """
     A controller of all joints, and the joints that it lends.
 
-    `take_back` is told which joints come back, (n,) true, and what they were told last.
+    `take_back` is told which joints come back, (n,) true, and what they were told last. The mode
+    can be left when `may_end` says so.
     """
 
     name: str
     controller: Controller
     lends: tuple[str, ...]
     take_back: Callable[[Mask, JointTargets], None] = _nothing
+    may_end: Callable[[], bool] = _always
 
 
 def hold_mode(joints: Sequence[str]) -> Mode:

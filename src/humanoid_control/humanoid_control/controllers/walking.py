@@ -11,6 +11,8 @@ from humanoid_control.walking.walker import Walker
 LENT = ('head_', 'shoulder', 'elbow', 'wrist', 'gripper')
 """A joint whose name contains one of these is not needed to walk."""
 
+MOVING = ('walk', 'stop')
+
 
 class WalkingController:
     """Walks, or stands when its velocity is zero."""
@@ -30,6 +32,11 @@ class WalkingController:
         """Return the targets for the coming period."""
         return self.walker.update(observation)
 
+    def is_at_rest(self) -> bool:
+        """Tell whether the robot can be held as it is: in the middle of a step it would fall."""
+        status = self.walker.status
+        return status is None or status.phase not in MOVING
+
     def drive(self, velocity: VelocityCommand) -> None:
         """Walk at a velocity."""
         self.walker.command(velocity)
@@ -38,4 +45,4 @@ class WalkingController:
 def walking_mode(controller: WalkingController) -> Mode:
     """Return the mode in which the robot walks; legs and waist are not lent."""
     lent = tuple(joint for joint in controller.joints if any(part in joint for part in LENT))
-    return Mode(controller.name, controller, lent)
+    return Mode(controller.name, controller, lent, may_end=controller.is_at_rest)

@@ -18,5 +18,7 @@ class Every:
         """Tell whether it is time; times that were missed are left out."""
         if now_s < self._next_s - _ROUNDING_S:
             return False
-        self._next_s = max(self._next_s + self._period_s, now_s + self._period_s / 2.0)
+        self._next_s += self._period_s
+        if self._next_s <= now_s:
+            self._next_s = now_s + self._period_s
         return True

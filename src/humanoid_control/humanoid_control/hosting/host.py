@@ -8,6 +8,7 @@ import time
 
 from humanoid_control.backends import Observation
 from humanoid_control.hosting.control_loop import ControlLoop
+from humanoid_control.hosting.load import Load
 from humanoid_control.hosting.pacing import Pace
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
@@ -46,6 +47,7 @@ class Host:
         self._loop, self._pace, self._look, self._tell = loop, pace, look, tell
         self._early_s = _EARLY * interval_s
         self._paused = False
+        self.load = Load(time.monotonic())
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = node.create_timer(interval_s or _AT_ONCE_S, self._run, clock=steady)
 
@@ -85,5 +87,6 @@ class Host:
         end_s = now_s + SLICE_S
         while now_s < end_s and self._pace.wait_s(now_s) <= self._early_s:
             self.tick()
-            now_s = time.monotonic()
+            before_s, now_s = now_s, time.monotonic()
+            self.load.add(now_s - before_s)
             self._pace.ticked(now_s)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from humanoid_control.backends import Observation
 from humanoid_control.hosting.parameters import HostParameters
@@ -11,6 +12,17 @@ from humanoid_control.hosting.robot_inputs import RobotInputs
 from humanoid_control.hosting.robot_outputs import RobotOutputs
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from rclpy.node import Node
+
+
+@dataclass(frozen=True)
+class RobotHealth:
+    """How a robot is, for diagnostics."""
+
+    mode: str
+    walk: str
+    holds_because: str
+    lent: Mapping[str, str]
+    """The joints that belong to others than the mode, and these."""
 
 
 class HostedRobots:
@@ -22,9 +34,10 @@ class HostedRobots:
         """Make the topics."""
         self._robots = dict(robots)
         timeout_s = parameters.heartbeat_timeout_s
-        self._inputs = [
-            RobotInputs(node, name, robot.control, timeout_s) for name, robot in robots.items()
-        ]
+        self._inputs = {
+            name: RobotInputs(node, name, robot.control, timeout_s)
+            for name, robot in robots.items()
+        }
         self._outputs = {
             name: RobotOutputs(node, name, robot, parameters) for name, robot in robots.items()
         }
@@ -34,17 +47,31 @@ class HostedRobots:
         """Go over to another mode, other rates and another patience."""
         for robot in self._robots.values():
             robot.control.manager.switch(parameters.mode)
-        for inputs in self._inputs:
+        for inputs in self._inputs.values():
             inputs.stop.guard.heartbeat_timeout_s = parameters.heartbeat_timeout_s
         for outputs in self._outputs.values():
             outputs.change(parameters)
 
     def look(self) -> None:
         """Hear of a stop, before each tick."""
-        for inputs in self._inputs:
+        for inputs in self._inputs.values():
             inputs.look()
 
     def tell(self, observations: Mapping[str, Observation]) -> None:
         """Publish what is due, after each tick."""
         for name, outputs in self._outputs.items():
             outputs.publish(observations[name])
+
+    def health(self) -> dict[str, RobotHealth]:
+        """Return how each robot is."""
+        return {name: self._health_of(name) for name in self._robots}
+
+    def _health_of(self, name: str) -> RobotHealth:
+        robot = self._robots[name]
+        manager, status = robot.control.manager, robot.walker.status
+        return RobotHealth(
+            mode=manager.mode,
+            walk='' if status is None else status.phase,
+            holds_because=self._inputs[name].stop.guard.reason,
+            lent=manager.lent(),
+        )

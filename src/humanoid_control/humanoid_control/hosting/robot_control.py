@@ -92,8 +92,9 @@ class RobotControl:
     def update(self, observation: Observation) -> JointTargets:
         """Return the targets of all joints for the coming period."""
         if self._drive is not None:
-            now_s = observation.time_s
-            self._drive(STANDING if self.must_hold else self._velocity.at(now_s))
+            velocity = self._velocity.at(observation.time_s)
+            must_stand = self.must_hold or self.manager.is_leaving
+            self._drive(STANDING if must_stand else velocity)
         return self.manager.update(observation)
 
     def reset(self) -> None:

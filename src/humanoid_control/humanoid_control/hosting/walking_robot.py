@@ -12,6 +12,7 @@ from humanoid_control.controllers.walking import walking_mode, WalkingController
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.limits import JointLimits
 from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_control.walking.walker import Walker
 from humanoid_description.drives import Drive
 from humanoid_description.robot import Robot
@@ -37,6 +38,7 @@ class WalkingRobotControl:
         scale: float = 1.0,
         clock: Clock | None = None,
         say: Callable[[str], None] = lambda sentence: None,
+        able: Callable[[VelocityCommand], VelocityCommand] = lambda velocity: velocity,
     ) -> WalkingRobotControl:
         """
         Return the control of a robot that begins in the mode `walking`.
@@ -44,11 +46,15 @@ class WalkingRobotControl:
         :param drives: of all joints, in the order of observations and targets
         :param clock: the computer's, by which commands time out beside the robot's own time
         :param say: gets a sentence when a controller is at fault
+        :param able: makes of a velocity that is wanted what the robot can do, within the gait
         """
         joints = tuple(drives)
         walker = Walker.of(robot, drives, joints, WalkParameters().scaled(scale))
         walking = WalkingController(walker)
         modes = (walking_mode(walking), follow_mode(joints), hold_mode(joints))
         limits = JointLimits.of(drives, joints)
-        control = RobotControl(joints, limits, modes, walking.drive, clock, say)
-        return cls(walker, control)
+
+        def drive(velocity: VelocityCommand) -> None:
+            walking.drive(able(velocity))
+
+        return cls(walker, RobotControl(joints, limits, modes, drive, clock, say))

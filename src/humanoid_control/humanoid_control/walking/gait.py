@@ -12,6 +12,7 @@ from humanoid_control.walking.gear import GaitInput, Gear
 from humanoid_control.walking.phases import Phase, Standing
 from humanoid_control.walking.planar import Point
 from humanoid_control.walking.swing_foot import Swing
+from humanoid_control.walking.turning import Turning
 from humanoid_control.walking.velocity_command import VelocityCommand
 
 
@@ -22,10 +23,9 @@ class GaitOutput:
     reference: BalanceReference
     zmp_m: Point
     """The zero-moment point with feedback, within the support polygon."""
-    heading_rad: float
-    turn_rad_s: float
+    turning: Turning
+    """Where the pelvis is to face."""
     swing: Swing | None
-    """The sole in the air."""
     sides: tuple[int, ...]
     """The sides whose feet carry the robot."""
 
@@ -64,8 +64,7 @@ class Gait:
         return GaitOutput(
             reference,
             zmp,
-            phase.heading_rad,
-            phase.turn_rad_s,
+            phase.turning,
             phase.swing(),
             phase.sides,
         )

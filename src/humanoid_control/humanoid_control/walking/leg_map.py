@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the joints of a leg do for a motion of its sole."""
+"""How the joints of a leg accelerate for an acceleration of its sole."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ _DAMPING = 0.01
 @dataclass(frozen=True, eq=False)
 class LegMap:
     """
-    The map from motions of sole and base to those of the leg's joints, in a posture.
+    The map from accelerations of sole and base to those of the leg's joints.
 
-    Velocities and accelerations are (6,): linear, then angular, in the axes of the world.
+    Those of sole and base are (6,): linear, then angular, in the axes of the world.
     """
 
     indices: NDArray[np.intp]
     inverse: Array
     """(6, 6)"""
     carry: Array
-    """(6, 6) how the sole moves with the base"""
+    """(6, 6) how the sole goes with the base"""
     drift: Array
     """(6,) the acceleration of the sole while base and joints do not accelerate"""
 
@@ -45,11 +45,6 @@ class LegMap:
         # singularity robustness, ASME Journal of Dynamic Systems 108, 1986).
         inverse = np.linalg.solve(own.T @ own + damping, own.T)
         return cls(leg.indices, inverse, carry, state.drift(leg.sole))
-
-    def rates(self, sole: Array, base: Array) -> Array:
-        """Return how fast the joints turn (6,) for velocities of sole and base."""
-        rates: Array = self.inverse @ (sole - self.carry @ base)
-        return rates
 
     def accelerations(self, sole: Array, base: Array) -> Array:
         """Return how the joints accelerate (6,) for accelerations of sole and base."""

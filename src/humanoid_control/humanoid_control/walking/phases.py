@@ -13,6 +13,7 @@ from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
 from humanoid_control.walking.step import Step
 from humanoid_control.walking.swing_foot import Swing
+from humanoid_control.walking.turning import Turning
 
 _SETTLED_S = 0.3
 """A robot that just begins to stand does not step against pushes yet."""
@@ -34,12 +35,8 @@ class Phase(Protocol):
         """Return the sides whose feet carry the robot."""
 
     @property
-    def heading_rad(self) -> float:
+    def turning(self) -> Turning:
         """Return where the pelvis is to face."""
-
-    @property
-    def turn_rad_s(self) -> float:
-        """Return how fast that turns."""
 
     @property
     def footsteps(self) -> Sequence[Footstep]:
@@ -52,7 +49,7 @@ class Phase(Protocol):
         """Return where the divergent component and the zero-moment point should be now."""
 
     def swing(self) -> Swing | None:
-        """Return the sole in the air; to be asked once a tick."""
+        """Return where the sole in the air is to be, if one is; to be asked once a tick."""
 
 
 class _OnBothFeet:
@@ -60,7 +57,6 @@ class _OnBothFeet:
 
     sides: tuple[int, ...] = SIDES
     footsteps: Sequence[Footstep] = ()
-    turn_rad_s = 0.0
 
     def __init__(self, gear: Gear) -> None:
         """Begin now."""
@@ -68,12 +64,13 @@ class _OnBothFeet:
         self._elapsed_s = 0.0
 
     @property
-    def heading_rad(self) -> float:
+    def turning(self) -> Turning:
         """Return the mean heading of the feet."""
-        return self._gear.footing.middle.yaw_rad
+        return Turning(self._gear.footing.middle.yaw_rad)
 
-    def swing(self) -> None:
+    def swing(self) -> Swing | None:
         """Return that no foot swings."""
+        return None
 
 
 class Standing(_OnBothFeet):
@@ -109,7 +106,8 @@ class Standing(_OnBothFeet):
 
     def _off_balance(self, dcm: Point) -> Point:
         """Return how far the divergent component is from rest, ahead and to the left."""
-        return PlanarPose(self._gear.footing.rest_point, self.heading_rad).local(dcm)
+        feet = self._gear.footing
+        return PlanarPose(feet.rest_point, feet.middle.yaw_rad).local(dcm)
 
     def _is_pushed(self, off: Point) -> bool:
         """Tell whether the robot has to step to stay upright."""
@@ -133,14 +131,9 @@ class Stepping:
         return self._step.sides
 
     @property
-    def heading_rad(self) -> float:
+    def turning(self) -> Turning:
         """Return where the pelvis is to face."""
-        return self._step.heading_rad
-
-    @property
-    def turn_rad_s(self) -> float:
-        """Return how fast that turns."""
-        return self._step.turn_rad_s
+        return self._step.turning
 
     @property
     def footsteps(self) -> Sequence[Footstep]:
@@ -166,7 +159,7 @@ class Stepping:
         return self._step.reference(now)
 
     def swing(self) -> Swing | None:
-        """Return the sole in the air."""
+        """Return where the foot in the air is to be."""
         return self._step.swing()
 
     def _may_rest(self) -> bool:

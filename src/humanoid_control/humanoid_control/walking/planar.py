@@ -45,7 +45,11 @@ class PlanarPose:
 
     def local(self, point: Point) -> Point:
         """Return how far before (real) and to the left (imaginary) of the pose a point lies."""
-        return (point - self.position_m) * cmath.rect(1.0, -self.yaw_rad)
+        return self.seen(point - self.position_m)
+
+    def seen(self, vector: Point) -> Point:
+        """Return how far ahead (real) and to the left (imaginary) a vector points."""
+        return vector * cmath.rect(1.0, -self.yaw_rad)
 
     def halfway(self, other: PlanarPose) -> PlanarPose:
         """Return the pose in the middle between two."""

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from humanoid_control.dynamics.rotations import wrap_angle
 from humanoid_control.walking.dcm_plan import BalanceReference, DcmPlan
 from humanoid_control.walking.footing import Foothold
 from humanoid_control.walking.footsteps import Footstep
@@ -11,7 +10,8 @@ from humanoid_control.walking.gear import GaitInput, Gear
 from humanoid_control.walking.planar import limited, PlanarPose, Point
 from humanoid_control.walking.sides import other, SIDES
 from humanoid_control.walking.step_adjustment import Residual
-from humanoid_control.walking.swing_foot import Lift, lift_at, Swing, SwingFoot
+from humanoid_control.walking.swing_foot import Lift, SoleMotion, Swing, SwingFoot
+from humanoid_control.walking.turning import smooth_turn, Turning
 
 _INSTANT_S = 1e-4
 """The plan is asked for a moment before the end of a step until the foot has landed."""
@@ -33,6 +33,8 @@ class Step:
         self.error_m = 0.0
         self._lift_off = gear.footing.pose(self.side)
         self._foot = SwingFoot(self._lift_off)
+        p = gear.parameters
+        self._lift = Lift(p.swing_height_m, p.swing_s, p.reach_down_m_s)
         self._nominal = self._next_landing()
         self._planned_for = gear.is_stopping
         self._nominal_plan = self._planned(self._nominal)
@@ -90,51 +92,34 @@ class Step:
         return reference
 
     @property
-    def heading_rad(self) -> float:
+    def turning(self) -> Turning:
         """Return the mean heading of the feet on its way from lift-off to landing."""
-        share = self._share
-        return self._heading_before_rad + self._turn_rad * share**2 * (3.0 - 2.0 * share)
-
-    @property
-    def turn_rad_s(self) -> float:
-        """Return how fast the heading turns."""
-        share = self._share
-        return self._turn_rad * 6.0 * share * (1.0 - share) * self.rate / self.end_s
-
-    @property
-    def _share(self) -> float:
-        """Return which share of the step has passed."""
-        return min(1.0, self.elapsed_s / self.end_s)
-
-    @property
-    def _heading_before_rad(self) -> float:
-        """Return the mean heading of the feet at lift-off."""
-        return self._gear.footing.pose(self.support).halfway(self._lift_off).yaw_rad
-
-    @property
-    def _turn_rad(self) -> float:
-        """Return how far the mean heading of the feet turns in the step."""
-        after = self._gear.footing.pose(self.support).halfway(self.landing).yaw_rad
-        return wrap_angle(after - self._heading_before_rad)
+        support = self._gear.footing.pose(self.support)
+        before, after = support.halfway(self._lift_off), support.halfway(self.landing)
+        turning = smooth_turn(before.yaw_rad, after.yaw_rad, self.elapsed_s, self.end_s)
+        return Turning(turning.heading_rad, turning.rate_rad_s * self.rate)
 
     def swing(self) -> Swing | None:
-        """Return the sole in the air; to be asked once a tick."""
-        if self.elapsed_s <= self._shift_s:
+        """Return where the sole in the air is to be; to be asked once a tick."""
+        p, in_air_s = self._gear.parameters, self.elapsed_s - self._shift_s
+        if in_air_s <= 0.0:
             return None
-        p = self._gear.parameters
-        arrival_s = self._shift_s + p.early_arrival * p.swing_s
-        passed_s = min(self._passed_s, (self.elapsed_s - self._shift_s) / self.rate)
-        remaining_s = (arrival_s - self.elapsed_s) / self.rate + passed_s
-        pose = self._foot.advance(self.landing, remaining_s, passed_s)
-        return Swing(self.side, pose, self._lift(), self._foot.velocity, self._foot.acceleration)
-
-    def _lift(self) -> Lift:
-        """Return how high the foot is to be: if the ground is late, it reaches down for it."""
-        p = self._gear.parameters
-        late_s = self.elapsed_s - self.end_s
-        if late_s > 0.0:
-            return Lift(-p.reach_down_m_s * late_s, -p.reach_down_m_s)
-        return lift_at(p.swing_height_m, self.swing_phase, self.rate / p.swing_s)
+        passed_s = min(self._passed_s, in_air_s / self.rate)
+        remaining_s = (p.early_arrival * p.swing_s - in_air_s) / self.rate + passed_s
+        foot = self._foot
+        foot.advance(self.landing, remaining_s, passed_s)
+        height_m, climb_m_s, climb_m_s2 = self._lift.at(in_air_s)
+        motion = SoleMotion(
+            foot.pose,
+            height_m,
+            foot.velocity_m_s,
+            climb_m_s * self.rate,
+            foot.turn_rad_s,
+            foot.acceleration_m_s2,
+            climb_m_s2 * self.rate**2,
+            foot.turn_rad_s2,
+        )
+        return Swing(self.side, motion)
 
     def _next_landing(self) -> PlanarPose:
         """Return where the foot lands by plan."""

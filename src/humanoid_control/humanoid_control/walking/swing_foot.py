@@ -15,41 +15,31 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Planar:
-    """A velocity or acceleration in the plane, and of the turn about the vertical."""
+class SoleMotion:
+    """Where a sole is to be, level, and how it is to move."""
 
-    linear: Point = 0j
-    angular: float = 0.0
-
-
-@dataclass(frozen=True)
-class Lift:
-    """How high something is, how fast it rises, and how that changes."""
-
+    pose: PlanarPose
     height_m: float = 0.0
-    speed_m_s: float = 0.0
-    acceleration_m_s2: float = 0.0
+    velocity_m_s: Point = 0j
+    climb_m_s: float = 0.0
+    turn_rad_s: float = 0.0
+    acceleration_m_s2: Point = 0j
+    climb_m_s2: float = 0.0
+    turn_rad_s2: float = 0.0
+
+    @property
+    def acceleration(self) -> Array:
+        """Return how it accelerates, (6,): linear in m/s2, then angular in rad/s2."""
+        along = self.acceleration_m_s2
+        return np.array([along.real, along.imag, self.climb_m_s2, 0.0, 0.0, self.turn_rad_s2])
 
 
 @dataclass(frozen=True)
 class Swing:
-    """A sole in the air at a moment."""
+    """The sole that is in the air."""
 
     side: int
-    pose: PlanarPose
-    lift: Lift
-    velocity: Planar = Planar()
-    acceleration: Planar = Planar()
-
-    @property
-    def velocity6(self) -> Array:
-        """Return the velocity (6,): linear in m/s, then angular in rad/s."""
-        return _spatial(self.velocity, self.lift.speed_m_s)
-
-    @property
-    def acceleration6(self) -> Array:
-        """Return the acceleration (6,): linear in m/s2, then angular in rad/s2."""
-        return _spatial(self.acceleration, self.lift.acceleration_m_s2)
+    sole: SoleMotion
 
 
 @dataclass
@@ -62,38 +52,49 @@ class SwingFoot:
     """
 
     pose: PlanarPose
-    velocity: Planar = Planar()
-    acceleration: Planar = Planar()
+    velocity_m_s: Point = 0j
+    turn_rad_s: float = 0.0
+    acceleration_m_s2: Point = 0j
+    turn_rad_s2: float = 0.0
 
-    def advance(self, landing: PlanarPose, remaining_s: float, passed_s: float) -> PlanarPose:
+    def advance(self, landing: PlanarPose, remaining_s: float, passed_s: float) -> None:
         """Let time pass; `remaining_s` is the time from its begin to the arrival."""
         if remaining_s <= passed_s:
-            self.pose, self.velocity, self.acceleration = landing, Planar(), Planar()
-            return landing
+            self.pose = landing
+            self.velocity_m_s = self.acceleration_m_s2 = 0j
+            self.turn_rad_s = self.turn_rad_s2 = 0.0
+            return
         way_m = landing.position_m - self.pose.position_m
         way_rad = wrap_angle(landing.yaw_rad - self.pose.yaw_rad)
-        moved_m, speed_m_s, gain_m_s2 = _quintic(
-            (way_m, self.velocity.linear, self.acceleration.linear), remaining_s, passed_s
+        moved_m, self.velocity_m_s, self.acceleration_m_s2 = _quintic(
+            (way_m, self.velocity_m_s, self.acceleration_m_s2), remaining_s, passed_s
         )
-        turned, turning, turn_gain = _quintic(
-            (way_rad, self.velocity.angular, self.acceleration.angular), remaining_s, passed_s
+        turned, turn_rad_s, turn_rad_s2 = _quintic(
+            (way_rad, self.turn_rad_s, self.turn_rad_s2), remaining_s, passed_s
         )
-        self.velocity = Planar(speed_m_s, turning.real)
-        self.acceleration = Planar(gain_m_s2, turn_gain.real)
+        self.turn_rad_s, self.turn_rad_s2 = turn_rad_s.real, turn_rad_s2.real
         self.pose = PlanarPose(self.pose.position_m + moved_m, self.pose.yaw_rad + turned.real)
-        return self.pose
 
 
-def lift_at(height_m: float, phase: float, phase_rate_1_s: float) -> Lift:
-    """Return how high the foot is at a phase from 0 to 1; it leaves and lands gently."""
-    if not 0.0 < phase < 1.0:
-        return Lift()
-    turn, turn_rate = math.pi * phase, math.pi * phase_rate_1_s
-    return Lift(
-        height_m * math.sin(turn) ** 2,
-        height_m * turn_rate * math.sin(2.0 * turn),
-        2.0 * height_m * turn_rate**2 * math.cos(2.0 * turn),
-    )
+@dataclass(frozen=True)
+class Lift:
+    """How a foot goes up and down: it leaves and lands gently, and reaches for late ground."""
+
+    height_m: float
+    duration_s: float
+    reach_m_s: float
+
+    def at(self, time_s: float) -> tuple[float, float, float]:
+        """Return height, rate of climb and its rate at a time since lift-off."""
+        if time_s > self.duration_s:
+            return -self.reach_m_s * (time_s - self.duration_s), -self.reach_m_s, 0.0
+        rate_1_s = math.pi / self.duration_s
+        phase, speed_m_s = rate_1_s * max(0.0, time_s), self.height_m * rate_1_s
+        return (
+            self.height_m * math.sin(phase) ** 2,
+            speed_m_s * math.sin(2 * phase),
+            2 * speed_m_s * rate_1_s * math.cos(2 * phase),
+        )
 
 
 def _quintic(
@@ -111,8 +112,3 @@ def _quintic(
         (v + u * (a + u * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5)))) / duration,
         (a + u * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5))) / duration**2,
     )
-
-
-def _spatial(planar: Planar, upwards: float) -> Array:
-    """Return linear and angular parts (6,)."""
-    return np.array([planar.linear.real, planar.linear.imag, upwards, 0.0, 0.0, planar.angular])

@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import math
 
 from humanoid_control.backends import JointTargets
-from humanoid_control.dynamics.frames import Frame
+from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.rotations import about_z, skew
 from humanoid_control.walking.attitude import hip_efforts
 from humanoid_control.walking.base_estimate import base_on, sole_reading
@@ -20,7 +19,6 @@ from humanoid_control.walking.gait import Gait, GaitOutput
 from humanoid_control.walking.gear import GaitInput, Gear
 from humanoid_control.walking.ground_reaction import GroundReaction
 from humanoid_control.walking.home_posture import HomePosture
-from humanoid_control.walking.joint_motion import JointMotion
 from humanoid_control.walking.leg_map import LegMap
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion, Pendulum
@@ -31,8 +29,9 @@ from humanoid_control.walking.planned_acceleration import (
 )
 from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.turning import Turning
 from humanoid_control.walking.walking_robot import WalkingRobot
-from humanoid_control.walking.whole_body import MovingBase, WholeBody
+from humanoid_control.walking.whole_body import BaseMotion, JointMotion, WholeBody
 import numpy as np
 from numpy.typing import NDArray
 
@@ -89,12 +88,15 @@ class Walk:
         self._zmp_m = output.zmp_m
         wanted = self._reference.update(self.com, output.zmp_m, passed_s)
         self._footing.settle(1.0 - math.exp(-passed_s / self._parameters.settle_s))
-        maps = [LegMap.of(leg, sensed.state) for leg in self._robot.legs]
-        motion = self._whole_body.motion(
-            self._wanted_base(wanted, output), self._moving_base, self._footing, output.swing, maps
+        joints = self._whole_body.motion(
+            self._wanted_base(wanted, output.turning),
+            self._measured_base(),
+            self._footing,
+            output.swing,
         )
-        efforts = self._efforts(output, motion, maps)
-        return JointTargets(motion.positions_rad, motion.velocities_rad_s, efforts)
+        limit = self._parameters.velocity_limit_rad_s
+        velocities = np.clip(joints.velocities_rad_s, -limit, limit)
+        return JointTargets(joints.positions_rad, velocities, self._efforts(output, joints))
 
     def _estimate(self, passed_s: float) -> None:
         """Find base and centre of mass from the feet that carried weight until now."""
@@ -116,33 +118,34 @@ class Walk:
         )
         return GaitInput(passed_s, self.dcm_m, self._zmp_m, (left, right))
 
-    @property
-    def _moving_base(self) -> MovingBase:
+    def _measured_base(self) -> BaseMotion:
         """Return the base as estimated."""
         state = self.sensed.state
-        velocity = np.append(self.base.velocity_m_s, state.base_angular_velocity_rad_s)
-        return MovingBase(Frame(self.base.position_m, state.base_rotation), velocity)
+        return BaseMotion(
+            Frame(self.base.position_m, state.base_rotation),
+            Twist(self.base.velocity_m_s, state.base_angular_velocity_rad_s),
+        )
 
-    def _wanted_base(self, com: Motion, output: GaitOutput) -> MovingBase:
-        """Return the base that is upright, faces the heading and has the centre of mass right."""
-        rotation, state = about_z(output.heading_rad), self.sensed.state
-        turned = rotation @ state.base_rotation.T
-        point = self.com.position_m
+    def _wanted_base(self, com: Motion, turning: Turning) -> BaseMotion:
+        """Return the base that is upright, faces a heading and has the centre of mass right."""
+        state, point, speed = self.sensed.state, self.com.position_m, com.velocity_m_s
+        rotation = about_z(turning.heading_rad)
+        upright = rotation @ state.base_rotation.T
         from_base = np.array([point.real, point.imag, 0.0]) - self.base.position_m
         from_base[2] = state.com_m[2]
-        to_com = turned @ from_base
+        to_com = upright @ from_base
+        shifting = upright @ (
+            state.com_velocity_m_s - skew(state.base_angular_velocity_rad_s) @ state.com_m
+        )
         goal = np.array([com.position_m.real, com.position_m.imag, self._pendulum.height_m])
-        # The joints move the centre of mass within the base, whose own turning carries it.
-        turning = skew(state.base_angular_velocity_rad_s)
-        within = turned @ (state.com_velocity_m_s - turning @ state.com_m)
-        turn = np.array([0.0, 0.0, output.turn_rad_s])
-        speed = np.array([com.velocity_m_s.real, com.velocity_m_s.imag, 0.0])
-        velocity = speed - within - skew(turn) @ to_com
-        return MovingBase(Frame(goal - to_com, rotation), np.append(velocity, turn))
+        turn = np.array([0.0, 0.0, turning.rate_rad_s])
+        velocity = np.array([speed.real, speed.imag, 0.0]) - shifting - skew(turn) @ to_com
+        return BaseMotion(Frame(goal - to_com, rotation), Twist(velocity, turn))
 
-    def _efforts(self, output: GaitOutput, motion: JointMotion, maps: Sequence[LegMap]) -> Array:
+    def _efforts(self, output: GaitOutput, motion: JointMotion) -> Array:
         """Return the efforts (n,) that move the robot as planned and keep it upright."""
         state, p = self.sensed.state, self._parameters
+        maps = [LegMap.of(leg, state) for leg in self._robot.legs]
         base, joints = whole_acceleration(
             state, maps, self._planned(output, motion), p.acceleration_limit_rad_s2
         )
@@ -153,7 +156,7 @@ class Walk:
         loads = loads_for(self._footing, output.sides, reaction.point_m)
         self._shares = loads.shares
         efforts -= ground_efforts(self._robot, state, self.base.position_m, loads, reaction)
-        upright = hip_efforts(p, self.sensed.attitude, output.heading_rad, output.turn_rad_s)
+        upright = hip_efforts(p, self.sensed.attitude, output.turning)
         for side in SIDES:
             efforts[self._robot.legs[side].indices[:3]] += loads.shares[side] * upright
         return efforts
@@ -163,7 +166,7 @@ class Walk:
         along = self._pendulum.acceleration_m_s2(self.com.position_m, output.zmp_m)
         soles = [np.zeros(6), np.zeros(6)]
         if output.swing:
-            soles[output.swing.side] = output.swing.acceleration6
+            soles[output.swing.side] = output.swing.sole.acceleration
         return PlannedAcceleration(
             np.array([along.real, along.imag, 0.0]),
             np.zeros(3),

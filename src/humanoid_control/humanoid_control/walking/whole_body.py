@@ -3,35 +3,43 @@
 
 from __future__ import annotations
 
-import cmath
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from humanoid_control.dynamics.frames import Frame
+from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.leg_ik import leg_posture
+from humanoid_control.dynamics.leg_rates import leg_rates
 from humanoid_control.dynamics.rotations import about_z
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.home_posture import HomePosture
-from humanoid_control.walking.joint_motion import JointMotion
-from humanoid_control.walking.leg_map import LegMap
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.planar import dot, PlanarPose
-from humanoid_control.walking.sides import LEFT, NAMES, outwards, RIGHT, SIDES
-from humanoid_control.walking.swing_foot import Swing
+from humanoid_control.walking.sides import LEFT, NAMES, RIGHT, SIDES
+from humanoid_control.walking.swing_foot import SoleMotion, Swing
 from humanoid_control.walking.walking_robot import WalkingRobot
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-_STILL: Array = np.zeros(6)
 
 
 @dataclass(frozen=True, eq=False)
-class MovingBase:
-    """Where the base is, and its velocity (6,): linear, then angular, in the world's axes."""
+class BaseMotion:
+    """Where the base is in the odometry's frame and how it moves, measured or wanted."""
 
     frame: Frame
-    velocity: Array
+    twist: Twist
+
+
+@dataclass(frozen=True, eq=False)
+class JointMotion:
+    """Positions, velocities and accelerations of all joints."""
+
+    positions_rad: Array
+    """(n,)"""
+    velocities_rad_s: Array
+    """(n,)"""
+    accelerations_rad_s2: Array
+    """(n,); those of the legs are zero here: they follow from the soles"""
 
 
 class WholeBody:
@@ -43,15 +51,9 @@ class WholeBody:
         self._home = home
         self._shoulders = [robot.index(f'{name}_shoulder') for name in NAMES]
         self._swing_rad_m = parameters.arm_swing / home.base_height_m
-        self._limit_rad_s = parameters.velocity_limit_rad_s
 
     def motion(
-        self,
-        wanted: MovingBase,
-        measured: MovingBase,
-        footing: Footing,
-        swing: Swing | None,
-        maps: Sequence[LegMap],
+        self, wanted: BaseMotion, measured: BaseMotion, footing: Footing, swing: Swing | None
     ) -> JointMotion:
         """
         Return how the joints are to move.
@@ -59,43 +61,41 @@ class WholeBody:
         Feet on the ground move the pelvis where it is wanted. A foot in the air is placed from
         where the pelvis is, so that it lands where planned even if the pelvis is elsewhere.
         """
-        still = np.zeros(len(self._home.positions_rad))
-        motion = JointMotion(self._home.positions_rad.copy(), still, still.copy())
-        for side, leg in zip(SIDES, maps):
-            if swing and swing.side == side:
-                height_m = swing.lift.height_m
-                self._place(side, measured.frame, swing.pose, height_m, motion.positions_rad)
-                rates = leg.rates(swing.velocity6, measured.velocity)
-            else:
-                foothold, at = footing[side], motion.positions_rad
-                self._place(side, wanted.frame, foothold.pose, foothold.lift_m, at)
-                rates = leg.rates(_STILL, wanted.velocity)
-            limit = self._limit_rad_s
-            motion.velocities_rad_s[leg.indices] = np.clip(rates, -limit, limit)
-        self._swing_arms(footing, swing, motion)
-        return motion
+        positions: Array = self._home.positions_rad.copy()
+        joints = JointMotion(positions, np.zeros_like(positions), np.zeros_like(positions))
+        soles = [SoleMotion(footing.pose(side), footing[side].lift_m) for side in SIDES]
+        bases = [wanted, wanted]
+        if swing:
+            soles[swing.side] = swing.sole
+            bases[swing.side] = measured
+        for side in SIDES:
+            self._move_leg(side, bases[side], soles[side], joints)
+        self._swing_arms(soles, joints)
+        return joints
 
-    def _place(
-        self, side: int, base: Frame, sole: PlanarPose, height_m: float, positions: Array
+    def _move_leg(
+        self, side: int, base: BaseMotion, sole: SoleMotion, joints: JointMotion
     ) -> None:
         """Set the joints of a leg so that its sole is level in a place."""
-        leg, point = self._robot.legs[side], sole.position_m
-        place = Frame(np.array([point.real, point.imag, height_m]), about_z(sole.yaw_rad))
-        posture = leg_posture(leg.geometry, place.seen_from(base))
-        positions[leg.indices] = posture.positions_rad
+        leg, point, speed = self._robot.legs[side], sole.pose.position_m, sole.velocity_m_s
+        place = np.array([point.real, point.imag, sole.height_m])
+        velocity = np.array([speed.real, speed.imag, sole.climb_m_s])
+        turn = np.array([0.0, 0.0, sole.turn_rad_s])
+        frame = Frame(place, about_z(sole.pose.yaw_rad)).seen_from(base.frame)
+        twist = Twist(velocity, turn).seen_from(base.frame, base.twist, place)
+        posture = leg_posture(leg.geometry, frame)
+        joints.positions_rad[leg.indices] = posture.positions_rad
+        joints.velocities_rad_s[leg.indices] = leg_rates(leg.geometry, posture, frame, twist)
 
-    def _swing_arms(self, footing: Footing, swing: Swing | None, motion: JointMotion) -> None:
+    def _swing_arms(self, soles: Sequence[SoleMotion], joints: JointMotion) -> None:
         """Let each arm go with the opposite foot, so that their turns about z cancel."""
-        feet = [footing.pose(side) for side in SIDES]
-        speed, gain = 0j, 0j
-        if swing:
-            feet[swing.side] = swing.pose
-            sign = outwards(swing.side)
-            speed, gain = sign * swing.velocity.linear, sign * swing.acceleration.linear
-        middle = feet[LEFT].halfway(feet[RIGHT])
-        ahead = cmath.rect(self._swing_rad_m, middle.yaw_rad)
-        way = feet[LEFT].position_m - feet[RIGHT].position_m
-        for shoulder, direction in zip(self._shoulders, (1.0, -1.0)):
-            motion.positions_rad[shoulder] += direction * dot(way, ahead)
-            motion.velocities_rad_s[shoulder] = direction * dot(speed, ahead)
-            motion.accelerations_rad_s2[shoulder] = direction * dot(gain, ahead)
+        left, right = soles[LEFT], soles[RIGHT]
+        middle = left.pose.halfway(right.pose)
+        ahead_m = 2.0 * middle.local(left.pose.position_m).real
+        speed_m_s = middle.seen(left.velocity_m_s - right.velocity_m_s).real
+        gain_m_s2 = middle.seen(left.acceleration_m_s2 - right.acceleration_m_s2).real
+        for side, direction in ((LEFT, 1.0), (RIGHT, -1.0)):
+            shoulder, gain = self._shoulders[side], direction * self._swing_rad_m
+            joints.positions_rad[shoulder] += gain * ahead_m
+            joints.velocities_rad_s[shoulder] = gain * speed_m_s
+            joints.accelerations_rad_s2[shoulder] = gain * gain_m_s2

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Notice that the robot itself is gone: the simulator, or the mock robot."""
+
+from __future__ import annotations
+
+from typing import Optional
+
+from launch import Action, LaunchContext
+from launch.actions import LogInfo, Shutdown
+from launch.event_handlers import OnProcessExit
+from launch.events.process import ProcessExited
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+ROBOTS = ('simulator', 'mock_robot')
+"""The executables that are the robot to all other nodes."""
+
+
+def watch_robot(argument: str) -> OnProcessExit:
+    """Say when the robot ends; if the launch argument is `shutdown`, end all else as well."""
+
+    def react(event: ProcessExited, context: LaunchContext) -> Optional[list[Action]]:
+        if context.is_shutdown:
+            return None
+        ends_all = LaunchConfiguration(argument).perform(context) == 'shutdown'
+        sentence = obituary(event.process_name, event.returncode, ends_all, argument)
+        said = LogInfo(msg=sentence)
+        return [said, Shutdown(reason=f'{event.process_name} has ended')] if ends_all else [said]
+
+    return OnProcessExit(target_action=_is_robot, on_exit=react)
+
+
+def obituary(process: str, status: int, ends_all: bool, argument: str) -> str:
+    """Return what is said of a robot that has ended."""
+    cause = f'was killed by signal {-status}' if status < 0 else f'has ended with status {status}'
+    follows = (
+        f"everything else ends, too. To let it go on, pass '{argument}:=stay'."
+        if ends_all
+        else 'the other nodes go on without it, until Ctrl-C.'
+    )
+    return f'The robot is gone: {process} {cause}, and {follows}'
+
+
+def _is_robot(action: Action) -> bool:
+    """Tell whether an action is the process that is the robot."""
+    return isinstance(action, Node) and action.node_executable in ROBOTS

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say how the robots of a node are, and how busy it is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import time
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from humanoid_common.qos import STATE
+from humanoid_control.hosting.host import Host
+from humanoid_control.hosting.hosted_robots import HostedRobots, RobotHealth
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+
+PERIOD_S = 1.0
+
+
+class HostDiagnostics:
+    """The topic `diagnostics`: one status of the control loop, and one of each robot."""
+
+    def __init__(self, node: Node, host: Host, robots: HostedRobots) -> None:
+        """Begin to publish, once a second."""
+        self._node, self._host, self._robots = node, host, robots
+        self._name = node.get_fully_qualified_name().lstrip('/')
+        self._publisher = node.create_publisher(DiagnosticArray, 'diagnostics', STATE)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(PERIOD_S, self._publish, clock=steady)
+
+    def _publish(self) -> None:
+        """Publish all statuses."""
+        robots = [self._robot(*entry) for entry in self._robots.health().items()]
+        message = DiagnosticArray(status=[self._loop(), *robots])
+        message.header.stamp = self._node.get_clock().now().to_msg()
+        self._publisher.publish(message)
+
+    def _loop(self) -> DiagnosticStatus:
+        """Return the status of the control loop."""
+        load = self._host.load.report(time.monotonic())
+        return self._status(
+            'control loop',
+            DiagnosticStatus.OK,
+            'paused' if self._host.paused else 'runs',
+            {
+                'ticks': f'{load.ticks}',
+                'mean of a tick': f'{load.mean_ms:.2f} ms',
+                'longest tick': f'{load.worst_ms:.2f} ms',
+                'busy': f'{100.0 * load.share:.0f} %',
+            },
+        )
+
+    def _robot(self, robot: str, health: RobotHealth) -> DiagnosticStatus:
+        """Return the status of a robot."""
+        stopped = health.holds_because
+        return self._status(
+            robot or 'robot',
+            DiagnosticStatus.WARN if stopped else DiagnosticStatus.OK,
+            f'holds still: {stopped}' if stopped else health.mode,
+            {'mode': health.mode, 'walk': health.walk, **health.lent},
+        )
+
+    def _status(
+        self, part: str, level: bytes, message: str, values: Mapping[str, str]
+    ) -> DiagnosticStatus:
+        return DiagnosticStatus(
+            name=f'{self._name}: {part}',
+            hardware_id='',
+            level=level,
+            message=message,
+            values=[KeyValue(key=key, value=value) for key, value in values.items()],
+        )

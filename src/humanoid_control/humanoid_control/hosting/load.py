@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How busy the ticks keep the computer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class LoadReport:
+    """The ticks of some time."""
+
+    ticks: int
+    mean_ms: float
+    worst_ms: float
+    share: float
+    """Of the time, how much the ticks took."""
+
+
+class Load:
+    """Measures how long ticks take."""
+
+    def __init__(self, now_s: float) -> None:
+        """Begin without a tick."""
+        self._since_s = now_s
+        self._took_s: list[float] = []
+
+    def add(self, took_s: float) -> None:
+        """Take note of a tick."""
+        self._took_s.append(took_s)
+
+    def report(self, now_s: float) -> LoadReport:
+        """Return what was measured since the last report, and begin anew."""
+        passed_s, took_s = now_s - self._since_s, self._took_s
+        self._since_s, self._took_s = now_s, []
+        busy_s = sum(took_s)
+        return LoadReport(
+            len(took_s),
+            1e3 * busy_s / max(len(took_s), 1),
+            1e3 * max(took_s, default=0.0),
+            busy_s / passed_s if passed_s > 0.0 else 0.0,
+        )

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check the small parts of a host."""
+
+from __future__ import annotations
+
+from humanoid_common.parameters import build, ParameterError
+from humanoid_control.hosting.every import Every
+from humanoid_control.hosting.load import Load
+from humanoid_control.hosting.pacing import RealTimePace
+from humanoid_control.hosting.parameters import HostParameters
+from humanoid_control.hosting.refusals import Refusals
+import pytest
+
+
+def test_every() -> None:
+    """A rate is kept on the average, also when it does not divide that of the ticks."""
+    due = Every(30.0)
+    assert sum(due.is_due(tick * 0.01) for tick in range(1000)) == pytest.approx(300, abs=2)
+    slow = Every(50.0)
+    assert [slow.is_due(tick * 0.01) for tick in range(4)] == [True, False, True, False]
+
+
+def test_every_tick_at_most() -> None:
+    """What is missed is left out: once a tick is the most."""
+    due = Every(100.0)
+    assert due.is_due(0.0) and due.is_due(1.0) and not due.is_due(1.001)
+
+
+def test_never() -> None:
+    """A rate of zero is never due."""
+    assert not Every(0.0).is_due(5.0)
+
+
+def test_pace() -> None:
+    """Late ticks are made up for, but not those of long ago."""
+    pace = RealTimePace(0.01)
+    pace.restart(10.0)
+    assert pace.wait_s(10.0) == 0.0
+    pace.ticked(10.0)
+    assert pace.wait_s(10.0) == pytest.approx(0.01)
+    ticks = 0
+    while pace.wait_s(15.0) == 0.0:
+        pace.ticked(15.0)
+        ticks += 1
+    assert ticks in (10, 11)
+
+
+def test_refusals() -> None:
+    """A sentence is said once, and again when it was not heard for a while."""
+    said: list[str] = []
+    clock = [0.0]
+    refusals = Refusals(said.append, lambda: clock[0])
+    for now_s in (0.0, 0.02, 4.0, 8.0):
+        clock[0] = now_s
+        refusals.add('no')
+    refusals.add('never')
+    assert said == ['no', 'never']
+    clock[0] = 20.0
+    refusals.add('no')
+    assert said == ['no', 'never', 'no']
+
+
+def test_many_different_refusals() -> None:
+    """However many sentences there are, they are all said."""
+    said: list[str] = []
+    refusals = Refusals(said.append, lambda: 0.0)
+    for number in range(250):
+        refusals.add(f'{number}')
+    assert len(said) == 250
+
+
+def test_load() -> None:
+    """The load is the share of the time that ticks take."""
+    load = Load(100.0)
+    for took_s in (0.01, 0.03):
+        load.add(took_s)
+    report = load.report(101.0)
+    assert (report.ticks, report.mean_ms, report.worst_ms) == (2, pytest.approx(20.0), 30.0)
+    assert report.share == pytest.approx(0.04)
+    assert load.report(102.0).ticks == 0
+
+
+@pytest.mark.parametrize(
+    ('robots', 'reason'),
+    [
+        (['', 'robot1'], "contains '', which is no namespace"),
+        (['2nd'], "contains '2nd'"),
+        (['a/b'], "contains 'a/b'"),
+        (['robot1', 'robot1'], "names 'robot1' more than once"),
+    ],
+)
+def test_bad_names(robots: list[str], reason: str) -> None:
+    """Names of robots that make no namespaces are refused."""
+    with pytest.raises(ParameterError) as refusal:
+        build(HostParameters, {'robots': robots})
+    assert reason in str(refusal.value)
