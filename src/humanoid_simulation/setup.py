@@ -29,6 +29,7 @@ setup(
     license='Apache-2.0',
     entry_points={
         'console_scripts': [
+            'simulator = humanoid_simulation.simulator:main',
             'push_test = humanoid_simulation.examples.push_test:main',
             'walk_square = humanoid_simulation.examples.walk_square:main',
         ],

@@ -13,10 +13,9 @@ from statistics import median
 import time
 from typing import TypeVar
 
-from humanoid_control.walking import VelocityCommand, Walker, WalkParameters
-from humanoid_description.loading import load_robot
-from humanoid_simulation.backend import BackendSettings, MujocoBackend
-from humanoid_simulation.model import humanoid
+from humanoid_control.walking import VelocityCommand
+from humanoid_simulation.backend import BackendSettings
+from humanoid_simulation.testing.lockstep_robot import LockstepRobot
 from simulator_run import Share, simulator_share
 
 T = TypeVar('T')
@@ -59,29 +58,26 @@ class TickCosts:
     """A robot that walks without ROS, and the CPU time of the parts of its ticks."""
 
     def __init__(self) -> None:
-        """Let it stand for a while."""
-        description = humanoid()
-        self._backend = MujocoBackend(description)
-        robot = load_robot(description.urdf, 'the humanoid')
-        joints, parameters = self._backend.joints, WalkParameters()
-        self._walker = Walker.of(robot, description.drives, joints, parameters)
+        """Let it stand for a while, and begin to walk."""
+        robot = LockstepRobot()
+        self._backend, self._control = robot.backend, robot.walking.control
         self._spent_s: dict[str, float] = {}
-        self._go(SETTLE_TICKS)
-        self._walker.command(VelocityCommand(FORWARD_M_S))
-        self._go(SETTLE_TICKS)
+        self._go(SETTLE_TICKS, 0.0)
+        self._go(SETTLE_TICKS, FORWARD_M_S)
 
     def means_us(self) -> dict[str, float]:
         """Walk, and return the mean time of each part."""
         self._spent_s = {}
-        self._go(TICKS)
+        self._go(TICKS, FORWARD_M_S)
         return {name: spent_s / TICKS * 1e6 for name, spent_s in self._spent_s.items()}
 
-    def _go(self, ticks: int) -> None:
+    def _go(self, ticks: int, forward_m_s: float) -> None:
         """Observe, decide and step, many times."""
-        backend, walker = self._backend, self._walker
+        backend, control = self._backend, self._control
         for _ in range(ticks):
+            control.walk(VelocityCommand(forward_m_s))
             observation = self._timed('observe', lambda: backend.observe()[''])
-            targets = self._timed('walk', lambda: walker.update(observation))  # noqa: B023
+            targets = self._timed('control', lambda: control.update(observation))  # noqa: B023
             self._timed('step', lambda: backend.step({'': targets}))  # noqa: B023
 
     def _timed(self, name: str, action: Callable[[], T]) -> T:

@@ -3,22 +3,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 import math
 
-from humanoid_control.walking import VelocityCommand, Walker, WalkParameters
-from humanoid_description.loading import load_robot
-from humanoid_simulation.backend import BackendSettings, MujocoBackend
+from humanoid_control.walking import VelocityCommand
+from humanoid_simulation.backend import BackendSettings
 from humanoid_simulation.backend.noise import REALISTIC
-from humanoid_simulation.examples.fall_watch import FallWatch, tilt_rad
-from humanoid_simulation.model import humanoid, Physics
+from humanoid_simulation.disturbances import DropOuts
+from humanoid_simulation.model import Physics
 from humanoid_simulation.scene import Scene
 from humanoid_simulation.scene.scene import Floor
+from humanoid_simulation.testing.lockstep_robot import LockstepRobot
 import numpy as np
 
 MASS_LINK = 'torso'
 SETTLE_S = 1.0
-PUSH_S = 0.1
+WAY_S = 0.5
+LONGEST_STALL_TICKS = 10
 EXTRAPOLATION_S = 0.1
 
 
@@ -89,85 +90,56 @@ class SoakRun:
     """A robot that walks in a world of its own, without ROS."""
 
     def __init__(self, conditions: Conditions, push_ns: float, drop_outs: float) -> None:
-        """Make the world; `drop_outs` is the share of the ticks at which the controller stalls."""
-        self._conditions, self._push_ns, self._drop_outs = conditions, push_ns, drop_outs
-        description = humanoid()
-        physics = Physics(mass_factors={MASS_LINK: conditions.mass_factor})
+        """Make the world; `drop_outs` is the chance at a tick that control begins to stall."""
+        self._conditions, self._push_ns = conditions, push_ns
         settings = BackendSettings(
-            physics,
+            Physics(mass_factors={MASS_LINK: conditions.mass_factor}),
             noise=REALISTIC,
             seed=conditions.seed,
             latency_periods=conditions.latency_periods,
             extrapolation_s=EXTRAPOLATION_S,
         )
-        scene = replace(Scene(), floor=Floor(friction=conditions.friction))
-        self._backend = MujocoBackend(description, scene, settings=settings)
-        robot, joints = load_robot(description.urdf, 'the humanoid'), self._backend.joints
-        self._walker = Walker.of(robot, description.drives, joints, WalkParameters())
+        scene = Scene(floor=Floor(friction=conditions.friction))
+        stalls = np.random.default_rng([conditions.seed, 3])
+        misses = DropOuts(stalls, drop_outs, LONGEST_STALL_TICKS).misses
+        self._robot = LockstepRobot(settings, scene, misses)
         self._random = np.random.default_rng([conditions.seed, 2])
-        self._fall_watch = FallWatch()
-        self._stalled_ticks = 0
         self._distance_m = 0.0
-        self._place = self._look()[0]
 
     def run(self, duration_s: float) -> SoakResult:
         """Walk until the time is over or the robot falls."""
-        segment = Segment(VelocityCommand(), SETTLE_S, math.inf, 0j)
-        fell = self._walk(segment, duration_s)
-        while not fell and self._backend.time_s < duration_s - self._backend.period_s:
+        backend = self._robot.backend
+        segment = Segment(VelocityCommand(), SETTLE_S, 0.0, 0j)
+        stands = self._obey(segment, duration_s)
+        while stands and backend.time_s < duration_s - backend.period_s:
             segment = drawn_segment(self._random, self._push_ns)
-            fell = self._walk(segment, duration_s)
-        status = self._walker.status
+            stands = self._obey(segment, duration_s - backend.time_s)
+        status = self._robot.walking.walker.status
+        phase = status.phase if status else ''
         return SoakResult(
-            self._conditions,
-            self._backend.time_s,
-            fell,
-            self._distance_m,
-            segment,
-            status.phase if status else '',
+            self._conditions, backend.time_s, not stands, self._distance_m, segment, phase
         )
 
-    def _walk(self, segment: Segment, until_s: float) -> bool:
-        """Obey a command, until a time at most; return whether the robot fell."""
-        self._walker.command(segment.command)
-        period_s, left_s = self._backend.period_s, until_s - self._backend.time_s
-        push_tick = segment.push_after_s / period_s
-        for tick in range(round(min(segment.duration_s, left_s) / period_s)):
-            if tick <= push_tick < tick + 1:
-                force_n = segment.impulse_ns / PUSH_S
-                self._backend.apply_wrench('base_link', (force_n.real, force_n.imag, 0.0))
-            self._tick()
-            if not self._stands():
-                return True
-        return False
-
-    def _tick(self) -> None:
-        """Observe, decide and go on, unless the controller stalls."""
-        if self._stalls():
-            self._backend.step({})
-            return
-        observation = self._backend.observe()['']
-        self._backend.step({'': self._walker.update(observation)})
-
-    def _stalls(self) -> bool:
-        """Tell whether a tick is missed; a stall lasts up to 100 ms."""
-        if self._stalled_ticks == 0 and self._random.random() < self._drop_outs:
-            self._stalled_ticks = int(self._random.integers(1, 11))
-        if self._stalled_ticks == 0:
+    def _obey(self, segment: Segment, at_most_s: float) -> bool:
+        """Obey a command; return whether the robot is on its feet at the end."""
+        robot, command = self._robot, segment.command
+        robot.drive(command.forward_m_s, command.left_m_s, command.turn_rad_s)
+        duration_s = min(segment.duration_s, at_most_s)
+        before_s = min(segment.push_after_s, duration_s)
+        if not self._walk(before_s):
             return False
-        self._stalled_ticks -= 1
+        if segment.impulse_ns:
+            robot.push(segment.impulse_ns / abs(segment.impulse_ns), abs(segment.impulse_ns))
+        return self._walk(duration_s - before_s)
+
+    def _walk(self, duration_s: float) -> bool:
+        """Let time pass, and add to the way, half a second after the other."""
+        left_s = duration_s
+        while left_s > 0.0:
+            place = self._robot.pose.position_m
+            stands = self._robot.wait(min(left_s, WAY_S))
+            self._distance_m += abs(self._robot.pose.position_m - place)
+            if not stands:
+                return False
+            left_s -= WAY_S
         return True
-
-    def _stands(self) -> bool:
-        """Tell whether the robot is on its feet, and add to its way."""
-        place, height_m, lean_rad = self._look()
-        self._distance_m += abs(place - self._place)
-        self._place = place
-        return self._fall_watch.stands(height_m, lean_rad)
-
-    def _look(self) -> tuple[complex, float, float]:
-        """Return where the base really is, how high, and how much it leans."""
-        state = self._backend.ground_truth()
-        x, y, height_m = state.position_m.tolist()
-        w, *vector = state.orientation.tolist()
-        return complex(x, y), height_m, tilt_rad(*vector, w)

@@ -30,6 +30,11 @@ class Pacer:
         """Return how fast the time of the world is to pass."""
         return self._factor
 
+    @property
+    def interval_s(self) -> float:
+        """Return the real time between two periods; zero is as little as possible."""
+        return self._period_s / self._factor if self._factor else 0.0
+
     def change(self, factor: float, now_s: float) -> None:
         """Change how fast the time of the world is to pass."""
         self._factor = _checked(factor)

@@ -9,6 +9,8 @@ from humanoid_control.backends import Array
 import mujoco
 import numpy as np
 
+_UP: Array = np.array([0.0, 0.0, 1.0])
+
 
 def from_rpy(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Array:
     """Return the rotation that rolls, then pitches, then yaws, about fixed axes, as in a URDF."""
@@ -37,6 +39,13 @@ def rotated(vector: Array, rotation: Array) -> Array:
     result = np.empty(3)
     mujoco.mju_rotVecQuat(result, vector, rotation)
     return result
+
+
+def heading_rad(rotation: Array) -> float:
+    """Return where a body looks along the ground, or where its top points if it lies."""
+    forward, up = rotated(np.array([1.0, 0.0, 0.0]), rotation), rotated(_UP, rotation)
+    ahead = forward if abs(forward[2]) < 0.7 else -up * np.sign(forward[2])
+    return math.atan2(ahead[1], ahead[0])
 
 
 def inverse(rotation: Array) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from humanoid_simulation.backend import EntityState, MujocoBackend
 from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.model import Placement
 from humanoid_simulation.rotations import from_rpy
 from humanoid_simulation.scene import Scene, Thing
 import numpy as np
@@ -152,3 +153,44 @@ def test_a_snapshot_is_a_copy(world: MujocoBackend) -> None:
 def test_the_camera_of_a_robot_is_in_the_model(world: MujocoBackend) -> None:
     """Its name leads to it."""
     assert world.model.camera(world.camera()).fovy[0] == 60.0
+
+
+def test_bodies_are_found_by_entity_and_link(world: MujocoBackend) -> None:
+    """An empty entity is the robot alone, an empty link its base; a thing is its own body."""
+    assert world.body('') == world.body('robot') == 'base_link'
+    assert world.body('', 'torso') == 'torso'
+    assert world.body('ball') == 'ball'
+    with pytest.raises(SimulationError, match="Did you mean 'ball'"):
+        world.body('bal')
+
+
+def test_the_links_of_a_robot_are_its_own(make_backend) -> None:
+    """Those of the other robot and things are not among them."""
+    backend = make_backend(scene=SCENE, placements=[Placement('a'), Placement('b', y_m=1.0)])
+    links = backend.links('b')
+    assert 'b/base_link' in links
+    assert 'b/left_foot' in links
+    assert all(link.startswith('b/') for link in links)
+    assert backend.body('b', 'torso') == 'b/torso'
+    assert backend.body('b') == 'b/base_link'
+
+
+@pytest.mark.parametrize(
+    ('keyframe', 'turn_rad', 'heading_rad'),
+    [('lying_on_back', 0.5, 0.5), ('lying_on_face', -1.0, -1.0), ('home', 2.0, 2.0)],
+)
+def test_a_fallen_robot_is_put_onto_its_feet(
+    make_backend, keyframe: str, turn_rad: float, heading_rad: float
+) -> None:
+    """It stands where it lay, upright and at rest, and stays so."""
+    backend = make_backend(placements=[Placement(x_m=1.0, yaw_rad=turn_rad)])
+    backend.reset(keyframe)
+    run(backend, 0.5)
+    lay = backend.ground_truth().position_m
+    backend.stand_up()
+    stands = backend.ground_truth()
+    assert stands.position_m[:2] == pytest.approx(lay[:2])
+    assert not stands.linear_velocity_m_s.any()
+    assert stands.orientation == pytest.approx(from_rpy(0.0, 0.0, heading_rad), abs=0.02)
+    run(backend, 1.0)
+    assert backend.ground_truth().position_m[2] > 0.68

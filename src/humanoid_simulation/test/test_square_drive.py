@@ -54,7 +54,7 @@ def test_the_square_lies_to_the_left() -> None:
 
 def test_a_veering_robot_is_kept_on_the_line() -> None:
     """A drift to the side and a slow turn are corrected."""
-    veer = VelocityCommand(0.0, 0.02, -0.05)
+    veer = VelocityCommand(0.0, 0.02, -0.03)
     end, corners = walk(SquareDrive(START, SquarePlan()), START, veer=veer)
     assert max(corner.error_m for corner in corners) < 0.08
     assert abs(end.position_m - START.position_m) < 0.08

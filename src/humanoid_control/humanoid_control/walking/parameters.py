@@ -140,6 +140,24 @@ class WalkParameters:
     settle_s: float = _time(0.06)
     """The time constant in which a foot that landed too high or low is brought to the ground."""
 
+    # Falls.
+    fall_tilt_rad: float = 0.6
+    """A robot that leans more than this falls ..."""
+    fall_foresight_s: float = _time(0.2)
+    """... or one that will so soon."""
+    fall_height: float = 0.7
+    """So does one whose base is lower than this share of its height when it stands."""
+    upright_tilt_rad: float = 0.3
+    """A robot that leans less, its legs below it, is held by somebody and can stand up."""
+    collapse_s: float = _time(1.5)
+    """How long a fall is made soft; then the joints are loose."""
+    collapse_stiffness: float = 0.15
+    """The share of their stiffness with which the joints pull meanwhile."""
+    stand_up_s: float = _time(1.5)
+    """How long the joints take to the posture of standing."""
+    standing_load: float = 0.6
+    """The share of the weight on the soles at which a robot that has stood up walks again."""
+
     # Joints.
     velocity_limit_rad_s: float = _rate(12.0)
     acceleration_limit_rad_s2: float = _growing(-1.0, 250.0)

@@ -9,7 +9,7 @@ from humanoid_control.backends import JointTargets
 from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.rotations import about_z, skew
 from humanoid_control.walking.attitude import hip_efforts
-from humanoid_control.walking.base_estimate import base_on, sole_reading
+from humanoid_control.walking.base_estimate import base_on, BaseEstimate, sole_reading
 from humanoid_control.walking.com_observer import ComObserver
 from humanoid_control.walking.com_reference import ComReference
 from humanoid_control.walking.feed_forward import ground_efforts
@@ -97,6 +97,11 @@ class Walk:
         limit = self._parameters.velocity_limit_rad_s
         velocities = np.clip(joints.velocities_rad_s, -limit, limit)
         return JointTargets(joints.positions_rad, velocities, self._efforts(output, joints))
+
+    def lie(self, sensed: Sensed) -> None:
+        """Note that the robot does not walk now: it is where it was last, turned as it is."""
+        self._last_s, self.sensed = sensed.time_s, sensed
+        self.base = BaseEstimate(self.base.position_m, np.zeros(3))
 
     def _estimate(self, passed_s: float) -> None:
         """Find base and centre of mass from the feet that carried weight until now."""

@@ -86,7 +86,7 @@ class MujocoBackend:
         description = description or humanoid()
         self._settings = settings
         self._keyframes = load_keyframes() if keyframes is None else keyframes
-        self._joints = tuple(description.drives)
+        self._joints, self._base = tuple(description.drives), description.base
         mujoco.set_mju_user_warning(_ignore)
         self._model = build_world(description, scene, placements, settings.physics)
         self._data = mujoco.MjData(self._model)
@@ -127,6 +127,11 @@ class MujocoBackend:
     def model(self) -> Any:
         """Return the compiled model, for those who draw the world."""
         return self._model
+
+    @property
+    def data(self) -> Any:
+        """Return the state of the world, to be read by those who draw it."""
+        return self._data
 
     @property
     def entities(self) -> tuple[str, ...]:
@@ -210,6 +215,12 @@ class MujocoBackend:
             )
         )
 
+    def stand_up(self, robot: str = '') -> None:
+        """Put a robot onto its feet, at rest, where it is and looking where it looks."""
+        fallen, home = named('robot', robot, self._robots), self._keyframes['home']
+        fallen.put(home, fallen.posture(home), fallen.here)
+        self._look_again()
+
     def contacts(self) -> Iterator[Contact]:
         """Yield what touches what, as of the last physics step."""
         return contacts_in(self._model, self._data, self._body_names)
@@ -217,6 +228,24 @@ class MujocoBackend:
     def snapshot(self) -> Snapshot:
         """Return a copy of the state."""
         return Snapshot(self.time_s, self._data.qpos.copy(), self._data.qvel.copy())
+
+    def entity(self, name: str) -> str:
+        """Return the entity that is meant: an empty name means the robot, if it is alone."""
+        return name or ALONE
+
+    def body(self, entity: str, link: str = '') -> str:
+        """Return the body of an entity: a link of a robot, by default its base, or a thing."""
+        known = {**self._robots, **dict.fromkeys(self.entities)}
+        named('entity that can be moved', entity, known)
+        robot = '' if entity == ALONE and '' in self._robots else entity
+        if robot not in self._robots:
+            return '/'.join(filter(None, (entity, link)))
+        return '/'.join(filter(None, (robot, link or self._base)))
+
+    def links(self, robot: str = '') -> list[str]:
+        """Return what the links of a robot are called among the bodies."""
+        base = self._model.body_rootid[self._robots[robot].base]
+        return [self._body_names[i] for i in self._bodies if self._model.body_rootid[i] == base]
 
     def camera(self, robot: str = '') -> str:
         """Return what the camera of a robot is called in the model."""

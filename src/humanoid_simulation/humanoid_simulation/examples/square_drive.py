@@ -12,9 +12,7 @@ from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
 CORNERS = 4
 _GAIN_1_S = 1.0
-"""How fast an error of position is to vanish."""
-_TURN_GAIN_1_S = 2.0
-"""How fast an error of heading is to vanish."""
+"""How fast an error of position or heading is to vanish."""
 _SLOWEST_SHARE = 0.3
 """What is left of the speed just before a corner."""
 
@@ -101,7 +99,7 @@ class SquareDrive:
     def _towards(self, yaw_rad: float, pose: PlanarPose) -> float:
         """Return the turn towards a heading."""
         most = self._plan.turn_rad_s
-        return limited(_TURN_GAIN_1_S * wrap_angle(yaw_rad - pose.yaw_rad), -most, most)
+        return limited(_GAIN_1_S * wrap_angle(yaw_rad - pose.yaw_rad), -most, most)
 
 
 def _side(start: PlanarPose, length_m: float, number: int) -> PlanarPose:

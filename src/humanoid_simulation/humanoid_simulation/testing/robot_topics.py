@@ -31,6 +31,8 @@ class RobotTopics:
     def __init__(self, node: Node, simulator: str) -> None:
         """Take part; the names are in the namespace of the node."""
         self.velocity: VelocityCommand | None = None
+        self.sent = 0
+        """How many velocities were sent."""
         self.time_s = -math.inf
         self.pose = PlanarPose()
         self.odometry = PlanarPose()
@@ -52,12 +54,14 @@ class RobotTopics:
     def is_complete(self) -> bool:
         """Tell whether the simulator is there with all that a test uses."""
         clients = (self.pause, self.steps, self.reset, self.push)
-        return math.isfinite(self.time_s) and all(each.service_is_ready() for each in clients)
+        is_heard = self._publisher.get_subscription_count() > 0
+        return is_heard and all(each.service_is_ready() for each in clients)
 
     def send(self) -> None:
         """Send the velocity, if there is one."""
         if self.velocity is not None:
             self._publisher.publish(twist_message(self.velocity))
+            self.sent += 1
 
     def drive(self, velocity: VelocityCommand | None) -> None:
         """Send a velocity from now on; None lets the others drive."""

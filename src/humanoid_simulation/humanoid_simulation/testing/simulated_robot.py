@@ -32,14 +32,20 @@ class SimulatedRobot:
     """A robot in a simulator that runs, which is to stay on its feet in all that a test does."""
 
     def __init__(
-        self, ros: RosSandbox, namespace: str = '', simulator: str = '/simulator'
+        self,
+        ros: RosSandbox,
+        namespace: str = '',
+        simulator: str = '/simulator',
+        runs: bool = True,
     ) -> None:
-        """Wait for the robot."""
+        """Wait for the robot, and for its time unless it does not run yet."""
         self._ros = ros
         self._namespace = namespace
         node = ros.start(lambda **options: Node('robot_watcher', namespace=namespace, **options))
         self.topics = RobotTopics(node, simulator)
         ros.wait_until(lambda: self.topics.is_complete, PATIENCE_S, 'the simulator')
+        if runs:
+            ros.wait_until(lambda: self.topics.time_s > 0.0, PATIENCE_S, 'ground truth')
         self._fall_watch = FallWatch()
 
     @property
@@ -93,6 +99,20 @@ class SimulatedRobot:
     def step(self, steps: int) -> None:
         """Let a paused simulation go on by some steps of physics."""
         self._ask(self.topics.steps, StepSimulation.Request(steps=steps))
+
+    def hear_of(self, time_s: float) -> None:
+        """Wait until ground truth of a time has come, which the simulator has reached."""
+        self._spin(lambda: self.topics.time_s > time_s - 1e-6, 0.0)
+
+    def step_commanded(self, steps: int) -> None:
+        """
+        The same, with a velocity that has certainly come just before.
+
+        What a paused simulation does in fewer steps than the velocity lasts is the same each time.
+        """
+        sent = self.topics.sent
+        self._ros.wait_until(lambda: self.topics.sent > sent + 1, PATIENCE_S, 'a velocity')
+        self.step(steps)
 
     def _ask(self, client: Client, request: Any) -> None:
         """Send a request, and expect that it is granted."""

@@ -20,5 +20,5 @@ def simulated_robot(**parameters: str) -> Iterator[SimulatedRobot]:
     settings = [text for name, value in values.items() for text in ('-p', f'{name}:={value}')]
     command = module_command('humanoid_simulation.simulator', '--ros-args', *settings)
     with ros_sandbox() as ros, running_program(command) as program:
-        program.wait_for_output('started', timeout_s=60.0)
-        yield SimulatedRobot(ros)
+        program.wait_for_output('Simulator started', timeout_s=60.0)
+        yield SimulatedRobot(ros, runs=values.get('start_paused') != 'true')

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Turn messages into what the simulator takes, and the other way round."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from builtin_interfaces.msg import Duration
+from geometry_msgs.msg import Point, Vector3
+from humanoid_control.backends import Array
+from humanoid_interfaces.msg import Contact as ContactMessage
+from humanoid_interfaces.srv import SetEntityState
+from humanoid_simulation.backend import Contact, EntityState
+import numpy as np
+
+
+def entity_state(request: SetEntityState.Request) -> EntityState:
+    """Return the state that a request asks for."""
+    pose, twist = request.pose, request.twist
+    q = pose.orientation
+    return EntityState(
+        vector(pose.position),
+        np.array([q.w, q.x, q.y, q.z]),
+        vector(twist.linear),
+        vector(twist.angular),
+    )
+
+
+def contact_message(contact: Contact) -> ContactMessage:
+    """Return the message of a contact."""
+    x, y, z = contact.position_m.tolist()
+    return ContactMessage(
+        body1=contact.body1,
+        body2=contact.body2,
+        position=Point(x=x, y=y, z=z),
+        normal=_vector_message(contact.normal),
+        force=_vector_message(contact.force_n),
+    )
+
+
+def vector(message: Any) -> Array:
+    """Return the three numbers of a point or vector."""
+    return np.array([message.x, message.y, message.z])
+
+
+def seconds(duration: Duration) -> float:
+    """Return a duration in seconds."""
+    return float(duration.sec + duration.nanosec * 1e-9)
+
+
+def _vector_message(values: Array) -> Vector3:
+    """Return the message of a vector."""
+    x, y, z = values.tolist()
+    return Vector3(x=x, y=y, z=z)

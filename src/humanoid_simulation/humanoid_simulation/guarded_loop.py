@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Keep a simulator alive when its physics is at an end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from humanoid_control.backends import Backend, Observation
+from humanoid_control.hosting.control_loop import Brain, ControlLoop
+from humanoid_simulation.errors import SimulationError
+
+
+class GuardedLoop(ControlLoop):
+    """A control loop that stands still after an error, until it is reset."""
+
+    def __init__(
+        self, backend: Backend, brains: Mapping[str, Brain], say: Callable[[str], None]
+    ) -> None:
+        """Take what is run, and who is told of an error."""
+        super().__init__(backend, brains)
+        self._say = say
+        self._has_failed = False
+
+    @property
+    def has_failed(self) -> bool:
+        """Tell whether nothing goes on before a reset."""
+        return self._has_failed
+
+    def tick(self) -> Mapping[str, Observation]:
+        """Let a period pass, if that is possible; return what was observed before it."""
+        if not self._has_failed:
+            try:
+                return super().tick()
+            except SimulationError as error:
+                self._has_failed = True
+                self._say(str(error))
+        return self.backend.observe()
+
+    def reset(self, keyframe: str = 'home') -> None:
+        """Put all robots where they began, in a posture that has a name; time goes on."""
+        super().reset(keyframe)
+        self._has_failed = False

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The parameters of how far sensors are off."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from humanoid_common.parameters import parameter
+from humanoid_simulation.backend.noise import REALISTIC, SensorNoise
+
+
+def _deviation(default: float, of_what: str) -> float:
+    """Declare a standard deviation."""
+    return parameter(
+        default,
+        f'Standard deviation of {of_what}, at sensor_noise 1.',
+        at_least=0.0,
+        at_most=1000.0,
+        read_only=True,
+    )
+
+
+@dataclass(frozen=True)
+class NoiseParameters:
+    """How far sensors are off."""
+
+    sensor_noise: float = parameter(
+        0.0,
+        'What all noise of sensors is multiplied by: 0 is none, 1 is what the others say.',
+        at_least=0.0,
+        at_most=100.0,
+        read_only=True,
+    )
+    seed: int = parameter(0, 'Of the noise.', at_least=0, at_most=2**31 - 1, read_only=True)
+    joint_position_noise_rad: float = _deviation(REALISTIC.position_rad, 'joint positions')
+    joint_velocity_noise_rad_s: float = _deviation(REALISTIC.velocity_rad_s, 'joint velocities')
+    joint_effort_noise_nm: float = _deviation(REALISTIC.effort_nm, 'joint efforts')
+    imu_tilt_noise_rad: float = _deviation(REALISTIC.tilt_rad, 'the orientation, about each axis')
+    imu_rate_noise_rad_s: float = _deviation(
+        REALISTIC.angular_velocity_rad_s, 'angular velocities'
+    )
+    imu_rate_bias_rad_s: float = _deviation(
+        REALISTIC.angular_velocity_bias_rad_s, 'the constant error of angular velocities'
+    )
+    imu_acceleration_noise_m_s2: float = _deviation(REALISTIC.acceleration_m_s2, 'accelerations')
+    imu_acceleration_bias_m_s2: float = _deviation(
+        REALISTIC.acceleration_bias_m_s2, 'the constant error of accelerations'
+    )
+    foot_force_noise_n: float = _deviation(REALISTIC.foot_force_n, 'the forces on the feet')
+    foot_torque_noise_nm: float = _deviation(REALISTIC.foot_torque_nm, 'the torques on the feet')
+
+    @property
+    def noise(self) -> SensorNoise:
+        """Return the noise that the parameters describe."""
+        return SensorNoise(
+            position_rad=self.joint_position_noise_rad,
+            velocity_rad_s=self.joint_velocity_noise_rad_s,
+            effort_nm=self.joint_effort_noise_nm,
+            tilt_rad=self.imu_tilt_noise_rad,
+            angular_velocity_rad_s=self.imu_rate_noise_rad_s,
+            acceleration_m_s2=self.imu_acceleration_noise_m_s2,
+            foot_force_n=self.foot_force_noise_n,
+            foot_torque_nm=self.foot_torque_noise_nm,
+            angular_velocity_bias_rad_s=self.imu_rate_bias_rad_s,
+            acceleration_bias_m_s2=self.imu_acceleration_bias_m_s2,
+        ).scaled(self.sensor_noise)

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Make the world and the control of its robots, as parameters say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+import math
+import time
+
+from humanoid_control.hosting.walking_robot import WalkingRobotControl
+from humanoid_description.loading import load_robot
+from humanoid_simulation.backend import BackendSettings, MujocoBackend
+from humanoid_simulation.keyframes import Keyframe, load_keyframes
+from humanoid_simulation.model import humanoid, Physics, Placement, RobotDescription
+from humanoid_simulation.scene import load_scene
+from humanoid_simulation.simulator_parameters import SimulatorParameters
+
+
+@dataclass(frozen=True, eq=False)
+class SimulatedRobots:
+    """A world, and what decides what each of its robots does."""
+
+    backend: MujocoBackend
+    controls: dict[str, WalkingRobotControl]
+
+
+def simulated_robots(
+    parameters: SimulatorParameters, say: Callable[[str], None]
+) -> SimulatedRobots:
+    """
+    Return robots that stand in a scene, ready to walk.
+
+    :param say: gets a sentence when a controller is at fault
+    """
+    description = humanoid(parameters.scale, parameters.prefix)
+    model = load_robot(description.urdf, 'the humanoid')
+    controls = {
+        name: WalkingRobotControl.of(
+            model, description.drives, parameters.scale, time.monotonic, say
+        )
+        for name in parameters.robots
+    }
+    return SimulatedRobots(_backend(parameters, description, controls), controls)
+
+
+def _backend(
+    parameters: SimulatorParameters,
+    description: RobotDescription,
+    controls: dict[str, WalkingRobotControl],
+) -> MujocoBackend:
+    """Return the world; home is where walking begins."""
+    home = next(iter(controls.values())).home_rad
+    unprefixed = {name.removeprefix(description.prefix): at for name, at in home.items()}
+    return MujocoBackend(
+        description,
+        load_scene(parameters.scene),
+        _placements(parameters),
+        _settings(parameters),
+        load_keyframes() | {'home': Keyframe(unprefixed)},
+    )
+
+
+def _settings(parameters: SimulatorParameters) -> BackendSettings:
+    """Return how the world is computed."""
+    return BackendSettings(
+        Physics(1.0 / parameters.physics_rate_hz, parameters.self_collision),
+        parameters.steps_per_period,
+        parameters.noise,
+        parameters.seed,
+        parameters.latency_periods,
+        parameters.extrapolation_s,
+    )
+
+
+def _placements(parameters: SimulatorParameters) -> list[Placement]:
+    """Return where the robots begin: one to the left of the other."""
+    yaw_rad = parameters.start_yaw_rad
+    return [
+        Placement(
+            name,
+            parameters.start_x_m - number * parameters.spacing_m * math.sin(yaw_rad),
+            parameters.start_y_m + number * parameters.spacing_m * math.cos(yaw_rad),
+            yaw_rad=yaw_rad,
+        )
+        for number, name in enumerate(parameters.robots)
+    ]

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run robots in a simulated world."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import sys
+import time
+from typing import Any
+
+from humanoid_common.errors import NodeStartError
+from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.running import run_node
+from humanoid_control.backends import Observation
+from humanoid_control.hosting.host import Host
+from humanoid_control.hosting.hosted_robots import HostedRobots
+from humanoid_description.errors import DescriptionError
+from humanoid_simulation.camera.topics import CameraTopics
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.guarded_loop import GuardedLoop
+from humanoid_simulation.pacing import Pacer
+from humanoid_simulation.simulated_robots import simulated_robots, SimulatedRobots
+from humanoid_simulation.simulator_parameters import SimulatorParameters
+from humanoid_simulation.simulator_services import SimulatorServices
+from humanoid_simulation.topics.real_time_factor import RealTimeFactorTopic
+from humanoid_simulation.topics.world import WorldTopics
+from rclpy.node import Node
+
+
+class Simulator(Node):
+    """Hosts a world with robots and their controllers, in lockstep."""
+
+    def __init__(self, **options: Any) -> None:
+        """Start to run."""
+        super().__init__('simulator', **options)
+        self._settings = NodeParameters(self, SimulatorParameters, self._change)
+        parameters = self._settings.current
+        simulated = self._build(parameters)
+        self._backend = backend = simulated.backend
+        self._robots = HostedRobots(self, simulated.controls, parameters)
+        self._world = WorldTopics(self, backend, parameters)
+        self._cameras = CameraTopics(
+            self,
+            {name: backend.camera(name) for name in backend.robots},
+            backend.model,
+            parameters,
+        )
+        brains = {name: robot.control for name, robot in simulated.controls.items()}
+        loop = GuardedLoop(backend, brains, self._fail)
+        self._pacer = Pacer(backend.period_s, parameters.real_time_factor, time.monotonic())
+        self._host = Host(
+            self, loop, self._pacer, self._pacer.interval_s, self._robots.look, self._tell
+        )
+        self._host.pause(parameters.start_paused)
+        self._control = SimulatorServices(
+            self, backend, loop, self._host, simulated.controls, parameters.steps_per_period
+        )
+        self._factor_topic = RealTimeFactorTopic(self, self._pacer)
+        self.get_logger().info(_greeting(simulated, parameters))
+
+    def destroy_node(self) -> None:
+        """End, together with the process that draws."""
+        self._cameras.close()
+        super().destroy_node()
+
+    def _build(self, parameters: SimulatorParameters) -> SimulatedRobots:
+        """Return the world, or say why there is none."""
+        try:
+            return simulated_robots(parameters, self.get_logger().error)
+        except (DescriptionError, SimulationError) as error:
+            raise NodeStartError(f'The simulator cannot start. {error}') from error
+
+    def _tell(self, observations: Mapping[str, Observation]) -> None:
+        """Publish what is due after a period."""
+        self._world.tell(observations)
+        self._robots.tell(observations)
+        time_ns = round(self._backend.time_s * 1e9)
+        self._cameras.tick(time.monotonic(), time_ns, self._backend.data)
+
+    def _fail(self, sentence: str) -> None:
+        """Stand still after an error of the physics."""
+        self.get_logger().error(sentence)
+        self._host.pause(True)
+
+    def _change(self, parameters: SimulatorParameters) -> None:
+        """Follow a change of the parameters."""
+        self._robots.change(parameters)
+        self._world.change(parameters)
+        if parameters.real_time_factor != self._pacer.factor:
+            self._pacer.change(parameters.real_time_factor, time.monotonic())
+            self._host.change(self._pacer.interval_s)
+
+
+def _greeting(simulated: SimulatedRobots, parameters: SimulatorParameters) -> str:
+    """Say what runs."""
+    robots = ', '.join(simulated.backend.robots) or 'one robot'
+    factor = parameters.real_time_factor
+    pace = f'at {factor:g} times real time' if factor else 'as fast as possible'
+    return (
+        f"Simulator started: {robots} in the scene '{parameters.scene}', physics at "
+        f'{parameters.physics_rate_hz:g} Hz, control at {parameters.control_rate_hz:g} Hz, {pace}'
+    )
+
+
+def main() -> int:
+    """Run the node."""
+    return run_node(Simulator)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The services by which one controls a world and its time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+import math
+from typing import Any
+
+from humanoid_control.hosting.host import Host
+from humanoid_control.hosting.topics.filling import topic
+from humanoid_control.hosting.walking_robot import WalkingRobotControl
+from humanoid_interfaces.srv import (
+    ApplyWrench,
+    ResetSimulation,
+    SetEntityState,
+    StepSimulation,
+)
+from humanoid_simulation.backend import MujocoBackend
+from humanoid_simulation.conversions import entity_state, seconds, vector
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.guarded_loop import GuardedLoop
+from rclpy.node import Node
+from std_srvs.srv import SetBool, Trigger
+
+MOST_STEPS = 100_000
+"""Of one call: while it lasts, the simulator hears nothing."""
+
+
+class SimulatorServices:
+    """Pause, step, reset, put somewhere, push, and help up."""
+
+    def __init__(
+        self,
+        node: Node,
+        backend: MujocoBackend,
+        loop: GuardedLoop,
+        host: Host,
+        controls: Mapping[str, WalkingRobotControl],
+        steps_per_period: int,
+    ) -> None:
+        """Offer the services."""
+        self._backend, self._loop, self._host = backend, loop, host
+        self._controls, self._steps_per_period = controls, steps_per_period
+        for kind, name, do in (
+            (SetBool, '~/set_pause', self._set_pause),
+            (StepSimulation, '~/step_simulation', self._step),
+            (ResetSimulation, '~/reset_simulation', self._reset),
+            (SetEntityState, '~/set_entity_state', self._put),
+            (ApplyWrench, '~/apply_wrench', self._push),
+        ):
+            node.create_service(kind, name, partial(_answer, do))
+        for robot in backend.robots:
+            stand_up = partial(_answer, partial(self._stand_up, robot))
+            node.create_service(Trigger, topic(robot, 'stand_up'), stand_up)
+
+    def _set_pause(self, request: SetBool.Request) -> str:
+        """Stop the time, or let it go on."""
+        if self._loop.has_failed and not request.data:
+            raise SimulationError('The physics has failed; reset the simulation first.')
+        self._host.pause(request.data)
+        return 'The simulation is paused.' if request.data else 'The simulation runs.'
+
+    def _step(self, request: StepSimulation.Request) -> str:
+        """Let a paused simulation go on by whole control periods."""
+        if not self._host.paused:
+            raise SimulationError('The simulation runs. Pause it before you step it.')
+        if not 1 <= request.steps <= MOST_STEPS:
+            raise SimulationError(
+                f'A call cannot do {request.steps} steps. Give 1 to {MOST_STEPS}.'
+            )
+        periods = math.ceil(request.steps / self._steps_per_period)
+        for _ in range(periods):
+            self._host.tick()
+        if self._loop.has_failed:
+            raise SimulationError('The physics has failed meanwhile; see the log.')
+        return f'{periods * self._steps_per_period} steps of physics: {periods} control periods.'
+
+    def _reset(self, request: ResetSimulation.Request) -> str:
+        """Put all where it began; what had failed runs again."""
+        had_failed = self._loop.has_failed
+        keyframe = request.keyframe or 'home'
+        self._host.reset(keyframe)
+        if had_failed:
+            self._host.pause(False)
+        return f"Robots and things are where they began; the keyframe is '{keyframe}'."
+
+    def _put(self, request: SetEntityState.Request) -> str:
+        """Put a robot or a thing somewhere."""
+        self._backend.set_entity_state(self._backend.entity(request.entity), entity_state(request))
+        return 'Done.'
+
+    def _push(self, request: ApplyWrench.Request) -> str:
+        """Push a robot or a thing."""
+        self._backend.apply_wrench(
+            self._backend.body(request.entity, request.body),
+            vector(request.wrench.force),
+            vector(request.wrench.torque),
+            seconds(request.duration),
+            vector(request.point),
+        )
+        return 'The push begins.'
+
+    def _stand_up(self, robot: str, request: Trigger.Request) -> str:
+        """Put a robot onto its feet, where it is."""
+        self._backend.stand_up(robot)
+        self._controls[robot].control.reset()
+        return 'The robot was put onto its feet.'
+
+
+def _answer(do: Callable[[Any], str], request: Any, response: Any) -> Any:
+    """Answer a request: whether it was done, and if not, why."""
+    try:
+        response.message, response.success = do(request), True
+    except SimulationError as error:
+        response.message, response.success = str(error), False
+    return response

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A robot that walks in a world of its own, tick by tick and without ROS: the same each time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from humanoid_control.dynamics.rotations import from_quaternion, yaw_of
+from humanoid_control.hosting.walking_robot import WalkingRobotControl
+from humanoid_control.walking import PlanarPose, VelocityCommand
+from humanoid_description.loading import load_robot
+from humanoid_simulation.backend import BackendSettings, EntityState, MujocoBackend
+from humanoid_simulation.examples.fall_watch import FallWatch, tilt_rad
+from humanoid_simulation.model import humanoid
+from humanoid_simulation.scene import Scene
+
+PUSH_S = 0.1
+"""How long a push lasts."""
+
+
+def never() -> bool:
+    """Miss no tick."""
+    return False
+
+
+class LockstepRobot:
+    """Backend and control in lockstep; at a tick that control misses, the drives go on alone."""
+
+    def __init__(
+        self,
+        settings: BackendSettings = BackendSettings(),
+        scene: Scene = Scene(),
+        misses: Callable[[], bool] = never,
+    ) -> None:
+        """Put the robot into a scene; `misses` tells at each tick whether control misses it."""
+        description = humanoid()
+        self.backend = MujocoBackend(description, scene, settings=settings)
+        robot = load_robot(description.urdf, 'the humanoid')
+        self.walking = WalkingRobotControl.of(robot, description.drives)
+        self._velocity = VelocityCommand()
+        self._misses = misses
+        self._fall_watch = FallWatch()
+
+    @property
+    def truth(self) -> EntityState:
+        """Return where the base really is, and how it moves."""
+        return self.backend.ground_truth()
+
+    @property
+    def pose(self) -> PlanarPose:
+        """Return where on the ground the base really is."""
+        truth = self.truth
+        x, y, _ = truth.position_m.tolist()
+        return PlanarPose(complex(x, y), yaw_of(from_quaternion(truth.orientation)))
+
+    @property
+    def stands(self) -> bool:
+        """Tell whether it has not fallen; to be asked once while it surely stands."""
+        truth = self.truth
+        w, x, y, z = truth.orientation.tolist()
+        return self._fall_watch.stands(float(truth.position_m[2]), tilt_rad(x, y, z, w))
+
+    def drive(self, forward: float = 0.0, left: float = 0.0, turn: float = 0.0) -> None:
+        """Walk at a velocity from now on, in m/s and rad/s; without arguments, stand."""
+        self._velocity = VelocityCommand(forward, left, turn)
+
+    def push(self, direction: complex, impulse_ns: float) -> None:
+        """Push the base in a direction of the world, a unit vector of the ground plane."""
+        force_n = direction * impulse_ns / PUSH_S
+        self.backend.apply_wrench(
+            'base_link', (force_n.real, force_n.imag, 0.0), duration_s=PUSH_S
+        )
+
+    def wait(self, duration_s: float) -> bool:
+        """Let time pass; return whether the robot is on its feet, as soon as it is not."""
+        for _ in range(round(duration_s / self.backend.period_s)):
+            self.tick()
+            if not self.stands:
+                return False
+        return True
+
+    def tick(self) -> None:
+        """Let a period pass."""
+        if self._misses():
+            self.backend.step({})
+        else:
+            control = self.walking.control
+            control.walk(self._velocity)
+            self.backend.step({'': control.update(self.backend.observe()[''])})
+
+    def reset(self, keyframe: str = 'home') -> None:
+        """Put the robot where it began."""
+        self.backend.reset(keyframe)
+        self.walking.control.reset()

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tell the time of the world."""
+
+from __future__ import annotations
+
+from humanoid_common.qos import STATE
+from humanoid_control.hosting.topics.filling import fill_stamp
+from rclpy.node import Node
+from rosgraph_msgs.msg import Clock
+
+
+class ClockTopic:
+    """The topic `/clock`, the same in all namespaces; its time never goes back."""
+
+    def __init__(self, node: Node) -> None:
+        """Prepare the message."""
+        self._message = Clock()
+        self._publisher = node.create_publisher(Clock, '/clock', STATE)
+
+    def publish(self, time_s: float) -> None:
+        """Tell the time."""
+        fill_stamp(self._message.clock, time_s)
+        self._publisher.publish(self._message)

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say what touches a robot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from humanoid_common.qos import SENSOR
+from humanoid_control.hosting.topics.filling import fill_stamp, topic
+from humanoid_interfaces.msg import Contacts
+from humanoid_simulation.backend import Contact
+from humanoid_simulation.conversions import contact_message
+from humanoid_simulation.topics.ground_truth import WORLD
+from rclpy.node import Node
+
+
+class ContactsTopic:
+    """The topic `contacts`, in world axes."""
+
+    def __init__(self, node: Node, robot: str, links: Iterable[str]) -> None:
+        """Take the names of the robot's links in the world."""
+        self._links = frozenset(links)
+        self._publisher = node.create_publisher(Contacts, topic(robot, 'contacts'), SENSOR)
+
+    @property
+    def is_wanted(self) -> bool:
+        """Tell whether anybody listens."""
+        return bool(self._publisher.get_subscription_count())
+
+    def publish(self, time_s: float, contacts: Iterable[Contact]) -> None:
+        """Say which of the contacts of a world are those of the robot."""
+        message = Contacts()
+        message.header.frame_id = WORLD
+        fill_stamp(message.header.stamp, time_s)
+        message.contacts = [
+            contact_message(contact)
+            for contact in contacts
+            if contact.body1 in self._links or contact.body2 in self._links
+        ]
+        self._publisher.publish(message)

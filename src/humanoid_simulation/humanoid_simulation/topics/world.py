@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All that the simulator tells of its world, each at its own rate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from humanoid_control.backends import Observation
+from humanoid_control.hosting.every import Every
+from humanoid_simulation.backend import MujocoBackend
+from humanoid_simulation.simulator_parameters import SimulatorParameters
+from humanoid_simulation.topics.clock import ClockTopic
+from humanoid_simulation.topics.contacts import ContactsTopic
+from humanoid_simulation.topics.ground_truth import GroundTruthTopic
+from humanoid_simulation.topics.wrenches import WrenchTopics
+from rclpy.node import Node
+
+
+class WorldTopics:
+    """Publishes the time, and of each robot the truth, contacts and wrenches."""
+
+    def __init__(
+        self, node: Node, backend: MujocoBackend, parameters: SimulatorParameters
+    ) -> None:
+        """Prepare all topics."""
+        robots, prefix = backend.robots, parameters.prefix
+        self._backend = backend
+        self._clock = ClockTopic(node)
+        self._truths = {name: GroundTruthTopic(node, name, prefix) for name in robots}
+        self._wrenches = {name: WrenchTopics(node, name, prefix) for name in robots}
+        self._contacts = [ContactsTopic(node, name, backend.links(name)) for name in robots]
+        self.change(parameters)
+
+    def change(self, parameters: SimulatorParameters) -> None:
+        """Publish at other rates."""
+        self._clock_due = Every(parameters.clock_rate_hz)
+        self._truth_due = Every(parameters.ground_truth_rate_hz)
+        self._wrenches_due = Every(parameters.wrench_rate_hz)
+        self._contacts_due = Every(parameters.contacts_rate_hz)
+
+    def tell(self, observations: Mapping[str, Observation]) -> None:
+        """Publish what is due after a period; it began with observations."""
+        now_s = self._backend.time_s
+        if self._clock_due.is_due(now_s):
+            self._clock.publish(now_s)
+        if self._truth_due.is_due(now_s):
+            for name, truth in self._truths.items():
+                truth.publish(now_s, self._backend.ground_truth(name))
+        if self._wrenches_due.is_due(now_s):
+            for name, wrenches in self._wrenches.items():
+                wrenches.publish(observations[name])
+        if self._contacts_due.is_due(now_s):
+            self._publish_contacts(now_s)
+
+    def _publish_contacts(self, now_s: float) -> None:
+        """Say what touches the robots, to those who listen."""
+        wanted = [topic for topic in self._contacts if topic.is_wanted]
+        if wanted:
+            contacts = list(self._backend.contacts())
+            for topic in wanted:
+                topic.publish(now_s, contacts)
