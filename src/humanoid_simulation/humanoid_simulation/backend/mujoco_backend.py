@@ -10,6 +10,7 @@ from typing import Any
 from humanoid_control.backends import Array, JointTargets, Observation
 from humanoid_simulation.backend.contacts import Contact, contacts_in
 from humanoid_simulation.backend.entities import Entities, EntityState
+from humanoid_simulation.backend.hoisting import Hoists
 from humanoid_simulation.backend.noise import SensorNoise
 from humanoid_simulation.backend.robot import SimulatedRobot
 from humanoid_simulation.backend.snapshot import Snapshot
@@ -99,9 +100,14 @@ class MujocoBackend:
         }
         self._entities = Entities(self._model, self._data, self._floating_joints(scene))
         self._wrenches = Wrenches(self._model, self._data)
+        self._hoists = Hoists(self._model, self._data, self._wrenches)
         self._body_names = [self._public(self._model.body(i).name) for i in self._bodies]
         self._periods = 0
         self.reset()
+        self._standing_m = {
+            place.robot: float(self.ground_truth(place.robot).position_m[2]) - place.z_m
+            for place in placements
+        }
 
     @property
     def robots(self) -> tuple[str, ...]:
@@ -152,6 +158,7 @@ class MujocoBackend:
             named('robot', name, self._robots).check(wanted)
         for name, robot in self._robots.items():
             robot.command(targets.get(name))
+        self._hoists.act(self.period_s)
         self._wrenches.act(self.period_s)
         mujoco.mj_step(self._model, self._data, self._settings.steps_per_period)
         self._periods += 1
@@ -165,6 +172,7 @@ class MujocoBackend:
         mujoco.mj_resetData(self._model, self._data)
         self._data.time = self.time_s
         self._wrenches.clear()
+        self._hoists.clear()
         for name, robot in self._robots.items():
             robot.put(posture, positions[name])
         self._look_again()
@@ -215,11 +223,14 @@ class MujocoBackend:
             )
         )
 
-    def stand_up(self, robot: str = '') -> None:
-        """Put a robot onto its feet, at rest, where it is and looking where it looks."""
-        fallen, home = named('robot', robot, self._robots), self._keyframes['home']
-        fallen.put(home, fallen.posture(home), fallen.here)
-        self._look_again()
+    def hoist(self, robot: str = '') -> None:
+        """Begin to lift a robot onto its feet, as if by a rope and by hand, where it is."""
+        fallen = named('robot', robot, self._robots)
+        self._hoists.begin(fallen.base, self._standing_m[robot], lambda: self.ground_truth(robot))
+
+    def is_hoisted(self, robot: str = '') -> bool:
+        """Tell whether a robot is still being lifted onto its feet."""
+        return self._hoists.is_lifting(named('robot', robot, self._robots).base)
 
     def contacts(self) -> Iterator[Contact]:
         """Yield what touches what, as of the last physics step."""
