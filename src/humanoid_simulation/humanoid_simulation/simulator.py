@@ -12,6 +12,7 @@ from humanoid_common.errors import NodeStartError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.running import run_node
 from humanoid_control.backends import Observation
+from humanoid_control.hosting.diagnostics import HostDiagnostics
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
 from humanoid_description.errors import DescriptionError
@@ -56,6 +57,7 @@ class Simulator(Node):
             self, backend, loop, self._host, simulated.controls, parameters.steps_per_period
         )
         self._factor_topic = RealTimeFactorTopic(self, self._pacer)
+        self._diagnostics = HostDiagnostics(self, self._host, self._robots)
         self.get_logger().info(_greeting(simulated, parameters))
 
     def destroy_node(self) -> None:

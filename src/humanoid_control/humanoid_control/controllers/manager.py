@@ -79,6 +79,7 @@ class ControllerManager:
         self._last: JointTargets | None = None
         self._last_s = 0.0
         self._owners: Owners = np.full(len(self.joints), _MODE)
+        self._active: dict[int, Mask] = {}
         self._entered = True
 
     def owner(self, joint: str) -> str:
@@ -140,6 +141,9 @@ class ControllerManager:
             return None
         self._start(owners, news, observation, held)
         self._owners, self._entered = owners, False
+        self._active = {
+            rank: owners == rank for rank in range(len(self._guests)) if (owners == rank).any()
+        }
         return news
 
     def _owners_at(self, now_s: float) -> Owners:
@@ -175,10 +179,8 @@ class ControllerManager:
     def _wished(self, observation: Observation, held: JointTargets) -> JointTargets:
         """Return what the owners ask for, together."""
         wished = self._mode.controller.update(observation)
-        for rank in np.unique(self._owners):
-            if rank != _MODE:
-                asked = self._guests[rank].update(observation)
-                wished = _merged(wished, asked, self._owners == rank)
+        for rank, joints in self._active.items():
+            wished = _merged(wished, self._guests[rank].update(observation), joints)
         return wished if _is_finite(wished) else self._repaired(wished, held)
 
     def _repaired(self, wished: JointTargets, held: JointTargets) -> JointTargets:
