@@ -35,9 +35,7 @@ def generate_test_description(use_controller: str, backend: str) -> LaunchDescri
 class TestRun(unittest.TestCase):
     """While it runs."""
 
-    def test_output(
-        self, proc_output: ActiveIoHandler, use_controller: str, backend: str
-    ) -> None:
+    def test_output(self, proc_output: ActiveIoHandler, use_controller: str, backend: str) -> None:
         """The processor reports what the controller sends, and runs without it, too."""
         proc_output.assertWaitFor(REPORT if use_controller == 'true' else ALONE, timeout=20)
         proc_output.assertWaitFor(ROBOT, process='robot_state_publisher', timeout=20)
