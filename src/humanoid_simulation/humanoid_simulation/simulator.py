@@ -45,7 +45,9 @@ class Simulator(Node):
             {name: backend.camera(name) for name in backend.robots},
             backend.model,
             parameters,
+            parameters.prefix,
         )
+        self._see()
         brains = {name: robot.control for name, robot in simulated.controls.items()}
         loop = GuardedLoop(backend, brains, self._fail)
         self._pacer = Pacer(backend.period_s, parameters.real_time_factor, time.monotonic())
@@ -59,6 +61,11 @@ class Simulator(Node):
         self._factor_topic = RealTimeFactorTopic(self, self._pacer)
         self._diagnostics = HostDiagnostics(self, self._host, self._robots)
         self.get_logger().info(_greeting(simulated, parameters))
+
+    @property
+    def camera_process_id(self) -> int | None:
+        """Return the number of the process that draws what the cameras see, if it runs."""
+        return self._cameras.process_id
 
     def destroy_node(self) -> None:
         """End, together with the process that draws."""
@@ -78,6 +85,10 @@ class Simulator(Node):
             return
         self._world.tell(observations)
         self._robots.tell(observations)
+        self._see()
+
+    def _see(self) -> None:
+        """Let the cameras see the world as it is."""
         time_ns = round(self._backend.time_s * 1e9)
         self._cameras.tick(time.monotonic(), time_ns, self._backend.data)
 

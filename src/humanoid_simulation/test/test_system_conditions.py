@@ -32,7 +32,8 @@ def test_ten_milliseconds_of_latency() -> None:
 
 def end_of_walk() -> PlanarPose:
     """Walk for some steps from the very beginning; return where that ended."""
-    with simulated_robot(start_paused='true', sensor_noise='1.0', seed='7') as robot:
+    conditions = {'start_paused': 'true', 'sensor_noise': '1.0', 'seed': '7'}
+    with simulated_robot(ground_truth_rate_hz='100.0', **conditions) as robot:
         robot.drive(0.25, turn=0.2)
         for _ in range(CALLS):
             robot.step_commanded(STEPS)
