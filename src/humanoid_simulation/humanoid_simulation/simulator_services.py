@@ -103,10 +103,9 @@ class SimulatorServices:
         return 'The push begins.'
 
     def _stand_up(self, robot: str, request: Trigger.Request) -> str:
-        """Put a robot onto its feet, where it is."""
-        self._backend.stand_up(robot)
-        self._controls[robot].control.reset()
-        return 'The robot was put onto its feet.'
+        """Lift a robot onto its feet; its walker takes over when it stands."""
+        self._backend.hoist(robot)
+        return 'The robot is being put onto its feet.'
 
 
 def _answer(do: Callable[[Any], str], request: Any, response: Any) -> Any:

@@ -9,6 +9,7 @@ from typing import Any
 from humanoid_control.backends import Array, JointTargets, Observation
 from humanoid_simulation.backend.contacts import Contact, contacts_in
 from humanoid_simulation.backend.entities import Entities, EntityState
+from humanoid_simulation.backend.hoisting import Hoists
 from humanoid_simulation.backend.names import ALONE, Names
 from humanoid_simulation.backend.robot import SimulatedRobot
 from humanoid_simulation.backend.settings import BackendSettings
@@ -61,8 +62,13 @@ class MujocoBackend:
         self._names = Names(self._model, scene, self.robots, description.base)
         self._entities = Entities(self._model, self._data, self._names.floating)
         self._wrenches = Wrenches(self._model, self._data)
+        self._hoists = Hoists(self._model, self._data, self._wrenches)
         self._periods = 0
         self.reset()
+        self._standing_m = {
+            place.robot: float(self.ground_truth(place.robot).position_m[2]) - place.z_m
+            for place in placements
+        }
 
     @property
     def robots(self) -> tuple[str, ...]:
@@ -113,6 +119,7 @@ class MujocoBackend:
             named('robot', name, self._robots).check(wanted)
         for name, robot in self._robots.items():
             robot.command(targets.get(name))
+        self._hoists.act(self.period_s)
         self._wrenches.act(self.period_s)
         before = self.snapshot()
         mujoco.mj_step(self._model, self._data, self._settings.steps_per_period)
@@ -126,6 +133,7 @@ class MujocoBackend:
         positions = {name: robot.posture(posture) for name, robot in self._robots.items()}
         mujoco.mj_resetData(self._model, self._data)
         self._wrenches.clear()
+        self._hoists.clear()
         for name, robot in self._robots.items():
             robot.put(posture, positions[name])
         self._look_again()
@@ -173,11 +181,14 @@ class MujocoBackend:
             )
         )
 
-    def stand_up(self, robot: str = '') -> None:
-        """Put a robot onto its feet, at rest, where it is and looking where it looks."""
-        fallen, home = named('robot', robot, self._robots), self._keyframes['home']
-        fallen.put(home, fallen.posture(home), fallen.here)
-        self._look_again()
+    def hoist(self, robot: str = '') -> None:
+        """Begin to lift a robot onto its feet, as if by a rope and by hand, where it is."""
+        fallen = named('robot', robot, self._robots)
+        self._hoists.begin(fallen.base, self._standing_m[robot], lambda: self.ground_truth(robot))
+
+    def is_hoisted(self, robot: str = '') -> bool:
+        """Tell whether a robot is still being lifted onto its feet."""
+        return self._hoists.is_lifting(named('robot', robot, self._robots).base)
 
     def contacts(self) -> Iterator[Contact]:
         """Yield what touches what, as of the last physics step."""
