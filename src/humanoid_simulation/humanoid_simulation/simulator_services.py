@@ -88,7 +88,7 @@ class SimulatorServices:
 
     def _put(self, request: SetEntityState.Request) -> str:
         """Put a robot or a thing somewhere."""
-        self._backend.set_entity_state(self._backend.entity(request.entity), entity_state(request))
+        self._backend.set_entity_state(request.entity, entity_state(request))
         return 'Done.'
 
     def _push(self, request: ApplyWrench.Request) -> str:

@@ -13,6 +13,7 @@ from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_simulation.camera.parameters import CameraParameters
 from humanoid_simulation.camera.topics import CameraTopics
 from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.testing.camera_studio import ball_address
 from humanoid_simulation.testing.camera_world import world
 import numpy as np
 import pytest
@@ -54,10 +55,23 @@ class Set:
 
         self._ros.wait_until(is_so, 60.0, what)
 
+    def wait_until(self, predicate: Callable[[], bool], what: str) -> None:
+        """Wait, in a pause, until the predicate holds."""
+        self._ros.wait_until(predicate, 60.0, what)
+
+    def rest(self, duration_s: float) -> None:
+        """Let the node do what it does in a pause."""
+        end_s = time.monotonic() + duration_s
+        self.wait_until(lambda: time.monotonic() > end_s, 'time to pass')
+
     def tick(self) -> None:
         """Tick once."""
         self._ticks += 1
         self.topics.tick(time.monotonic(), self.time_ns, self._data)
+
+    def move_ball(self) -> None:
+        """Put the ball elsewhere."""
+        self._data.qpos[ball_address(self._model) + 2] += 0.2
 
     @property
     def time_ns(self) -> int:
@@ -136,6 +150,31 @@ def test_nothing_is_drawn_for_nobody(make_set: MakeSet) -> None:
     one.tick_until(lambda: len(infos) >= 3, 'descriptions')
     assert one.topics.process_id is None
     assert stamp_ns(infos[2]) - stamp_ns(infos[1]) == 100_000_000
+
+
+def test_pause(make_set: MakeSet) -> None:
+    """In a pause, new subscribers get a picture of the state, and all one of what was moved."""
+    one = make_set({'': 'eye'})
+    for _ in range(15):
+        one.tick()
+    first = one.collect(Image, 'camera/image_raw')
+    one.wait_until(lambda: bool(first), 'a picture')
+    second = one.collect(Image, 'camera/image_raw')
+    one.wait_until(lambda: bool(second), 'a picture for the other one')
+    assert stamp_ns(first[0]) == stamp_ns(second[0]) == one.time_ns
+    one.move_ball()
+    one.wait_until(lambda: second[-1].data != first[0].data, 'a picture of what was moved')
+
+
+def test_nothing_is_drawn_twice(make_set: MakeSet) -> None:
+    """In a pause in which nothing changes, no more pictures come."""
+    one = make_set({'': 'eye'})
+    images = one.collect(Image, 'camera/image_raw')
+    one.tick_until(lambda: bool(images), 'a picture')
+    one.rest(2.0)
+    count = len(images)
+    one.rest(0.5)
+    assert len(images) == count
 
 
 def test_two_robots(make_set: MakeSet) -> None:

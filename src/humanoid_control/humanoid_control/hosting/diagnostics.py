@@ -10,6 +10,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from humanoid_common.qos import STATE
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots, RobotHealth
+from humanoid_control.hosting.topics.filling import fill_stamp
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
@@ -17,11 +18,11 @@ PERIOD_S = 1.0
 
 
 class HostDiagnostics:
-    """The topic `diagnostics`: one status of the control loop, and one of each robot."""
+    """The topic `diagnostics`, in the robots' time: the control loop, and each robot."""
 
     def __init__(self, node: Node, host: Host, robots: HostedRobots) -> None:
         """Begin to publish, once a second."""
-        self._node, self._host, self._robots = node, host, robots
+        self._host, self._robots = host, robots
         self._name = node.get_fully_qualified_name().lstrip('/')
         self._publisher = node.create_publisher(DiagnosticArray, 'diagnostics', STATE)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -31,7 +32,7 @@ class HostDiagnostics:
         """Publish all statuses."""
         robots = [self._robot(*entry) for entry in self._robots.health().items()]
         message = DiagnosticArray(status=[self._loop(), *robots])
-        message.header.stamp = self._node.get_clock().now().to_msg()
+        fill_stamp(message.header.stamp, self._robots.time_s)
         self._publisher.publish(message)
 
     def _loop(self) -> DiagnosticStatus:

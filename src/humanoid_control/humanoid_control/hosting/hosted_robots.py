@@ -33,6 +33,7 @@ class HostedRobots:
     ) -> None:
         """Make the topics."""
         self._robots = dict(robots)
+        self.time_s = 0.0
         timeout_s = parameters.heartbeat_timeout_s
         self._inputs = {
             name: RobotInputs(node, name, robot.control, timeout_s)
@@ -61,6 +62,7 @@ class HostedRobots:
         """Publish what is due, after each tick."""
         for name, outputs in self._outputs.items():
             outputs.publish(observations[name])
+            self.time_s = observations[name].time_s
 
     def health(self) -> dict[str, RobotHealth]:
         """Return how each robot is."""

@@ -43,6 +43,11 @@ class CameraPublisher:
             depth=self._depth.get_subscription_count() > 0,
         )
 
+    @property
+    def subscribers(self) -> int:
+        """Return how many subscribers the pictures have."""
+        return sum(each.get_subscription_count() for each in (self._color, self._depth))
+
     def publish(self, wanted: Wanted, color: Color, depth: Depth, stamp: Time) -> None:
         """Publish the pictures that were wanted, all with the same time."""
         if wanted.color:
