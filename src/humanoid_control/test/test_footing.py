@@ -20,8 +20,8 @@ RANDOM = np.random.default_rng(5)
 def test_shape_is_that_of_the_model(robot: Robot) -> None:
     """The area of the sole is the foot's box less the margins."""
     shape = FootShape.of(robot, WalkParameters())
-    assert (shape.front_m, shape.back_m) == pytest.approx((0.115, -0.065))
-    assert (shape.outer_m, shape.inner_m) == pytest.approx((0.043, -0.043))
+    assert (shape.front_m, shape.back_m) == pytest.approx((0.125, -0.075))
+    assert (shape.outer_m, shape.inner_m) == pytest.approx((0.047, -0.047))
 
 
 def test_feet_mirror_each_other() -> None:

@@ -105,7 +105,7 @@ def test_walk_and_stop(command: VelocityCommand) -> None:
     way = robot.go(command, time_s)
     assert way.yaw_rad == pytest.approx(command.turn_rad_s * time_s, rel=0.2, abs=0.02)
     straight_m = abs(command.linear_m_s) * time_s
-    assert abs(way.position_m) == pytest.approx(straight_m, rel=0.2, abs=0.02)
+    assert abs(way.position_m) == pytest.approx(straight_m, rel=0.2, abs=0.04)
     assert max(robot.errors_m) < 0.04
     robot.go(STANDING, 5.0)
     assert robot.phases[-1] == 'stand'

@@ -110,15 +110,30 @@ class BodyState:
         That is with all accelerations zero: neither the joints nor the root accelerate, and
         nothing touches the robot.
         """
-        n = len(self.model.joints)
-        powers = (self._screws * self._forces[1:]).reshape(n, 16)
-        return powers @ np.ones(16)
+        return self._efforts(self._forces)
 
     @cached_property
     def bias_wrench(self) -> Array:
         """Return what holds the root meanwhile: force (N) and torque (Nm) at its origin, (6,)."""
-        total = self._forces[0]
-        return np.concatenate([total[:3, 3], _axial(total)])
+        return _wrench(self._forces[0])
+
+    def required(self, base: Array, joints_rad_s2: Array) -> tuple[Array, Array]:
+        """
+        Return what accelerates the robot: the wrench (6,) on its root, and the efforts (n,).
+
+        This is inverse dynamics, with the armature. The wrench is force and torque at the origin
+        of the root; without accelerations the answer is the bias.
+
+        :param base: linear (m/s2) and angular (rad/s2) acceleration of the root, (6,)
+        :param joints_rad_s2: accelerations of the joints, (n,)
+        """
+        n = len(self.model.joints)
+        own = (self._screws * joints_rad_s2[:, None, None]).reshape(n, 16)
+        added: Array = (self.model.tree.moves @ own).reshape(n + 1, 4, 4)
+        root = (base[3:] @ _SKEW).reshape(4, 4)
+        root[:3, 3] = base[:3]
+        forces = self._hanging((self._accelerations + added + root) @ self._inertias)
+        return _wrench(forces[0]), self._efforts(forces) + self.model.armature_kgm2 * joints_rad_s2
 
     def jacobian(self, link: str, point_m: Array | None = None) -> Array:
         """
@@ -145,17 +160,51 @@ class BodyState:
         jacobian[:, 6:] = self._poses[1:, :3, 2].T * self.model.tree.moves[self._mount(link).body]
         return jacobian
 
-    def efforts_of_force_nm(self, link: str, point_m: Array, force_n: Array) -> Array:
+    @cached_property
+    def com_jacobian(self) -> Array:
+        """Return the Jacobian (3, 6 + n) of the velocity of the centre of mass."""
+        n = len(self.model.joints)
+        jacobian = np.empty((3, 6 + n))
+        jacobian[:, :3] = np.eye(3)
+        jacobian[:, 3:6] = -skew(self.com_m)
+        momenta = self._screws[:, :3] @ self._composites[1:, :, 3:]
+        np.divide(momenta[:, :, 0].T, self.model.mass_kg, out=jacobian[:, 6:])
+        return jacobian
+
+    @cached_property
+    def com_drift_m_s2(self) -> Array:
+        """Return the acceleration (3,) of the centre of mass while no joint accelerates."""
+        drift: Array = self._forces[0, :3, 3] / self.model.mass_kg
+        drift[2] -= self.model.gravity_m_s2
+        return drift
+
+    def drift(self, link: str) -> Array:
+        """
+        Return the acceleration (6,) of a link while neither the root nor the joints accelerate.
+
+        Linear (m/s2) of its origin, then angular (rad/s2): what their Jacobians leave out.
+        """
+        mount = self._mount(link)
+        acceleration = self._accelerations[mount.body]
+        linear: Array = acceleration[:3] @ self._point(mount, None)
+        linear[2] -= self.model.gravity_m_s2
+        return np.concatenate([linear, 0.5 * _axial(acceleration)])
+
+    def efforts_of_force_nm(
+        self, link: str, point_m: Array, force_n: Array, torque_nm: Array | None = None
+    ) -> Array:
         """
         Return the efforts (n,) that a force (3,) on a point (3,) of a link has at the joints.
 
         It is the Jacobian's transpose times the force, without the Jacobian. To stand on the
-        point, joints exert the bias less this.
+        point, joints exert the bias less this. A torque (3,) on the link is added if given.
         """
         mount = self._mount(link)
         point = self._point(mount, point_m)
         wrench = np.zeros((4, 4))
         np.multiply(force_n[:, None], point, out=wrench[:3])
+        if torque_nm is not None:
+            wrench[:3, :3] += 0.5 * skew(torque_nm)
         efforts: Array = self._screws.reshape(-1, 16) @ wrench.ravel()
         efforts *= self.model.tree.moves[mount.body]
         return efforts
@@ -253,10 +302,20 @@ class BodyState:
         momentum: Array = (self._twists @ self._inertias).sum(axis=0)
         return momentum
 
+    def _efforts(self, forces: Array) -> Array:
+        """Return the efforts (n,) of joints for forces (n + 1, 4, 4) on all that they carry."""
+        powers = (self._screws * forces[1:]).reshape(-1, 16)
+        return powers @ np.ones(16)
+
     def _hanging(self, values: Array) -> Array:
         """Return the sums over the bodies and all that hangs from each."""
         sums: Array = self.model.tree.carries @ values.reshape(-1, 16)
         return sums.reshape(-1, 4, 4)
+
+
+def _wrench(forces: Array) -> Array:
+    """Return force and torque (6,) of forces (4, 4)."""
+    return np.concatenate([forces[:3, 3], _axial(forces)])
 
 
 def _axial(moments: Array) -> Array:

@@ -41,7 +41,7 @@ class WalkParameters:
     """
 
     # Rhythm.
-    swing_s: float = _time(0.42)
+    swing_s: float = _time(0.36)
     """How long one foot alone carries the robot in a step."""
     shift_s: float = _time(0.10)
     """How long the weight takes from foot to foot, both on the ground."""
@@ -78,15 +78,15 @@ class WalkParameters:
     turn_acceleration_rad_s2: float = _growing(-1.0, 0.8)
 
     # Posture.
-    crouch_m: float = _length(0.035)
+    crouch_m: float = _length(0.05)
     """How far the hips hang below stretched legs."""
     zmp_forward_m: float = _length(0.015)
     """Where under a foot its load is planned: before the sole's frame ..."""
     zmp_inward_m: float = _length(0.005)
     """... and on the inner side."""
-    margin_length_m: float = _length(0.02)
+    margin_length_m: float = _length(0.01)
     """What the load keeps from toe and heel ..."""
-    margin_width_m: float = _length(0.012)
+    margin_width_m: float = _length(0.008)
     """... and from the sides."""
     elbow_rad: float = -0.5
     shoulder_roll_rad: float = 0.12
@@ -103,6 +103,8 @@ class WalkParameters:
     """How far the reference may be from the estimate."""
     attitude_stiffness_nm_rad: float = _growing(4.0, 400.0)
     attitude_damping_nms_rad: float = _growing(4.5, 25.0)
+    ground_turn_nm: float = _growing(4.0, 15.0)
+    """The torque about the vertical that the feet may exert on the ground."""
     heading_share: float = 0.5
     """How much of them there is against errors of the heading."""
     push_forward_m: float = _length(0.065)
@@ -128,8 +130,6 @@ class WalkParameters:
     """At which share of the swing the foot is above its landing."""
     reach_down_m_s: float = _speed(0.2)
     """How fast it goes on down when the ground is late."""
-    swing_follow: float = 0.7
-    """How much of what the pelvis moves beside its plan the foot's velocity makes up for."""
     touchdown_phase: float = 0.6
     """From which share of the swing on a load means that the foot stands."""
     touchdown_load: float = 0.12
@@ -140,12 +140,28 @@ class WalkParameters:
     settle_s: float = _time(0.06)
     """The time constant in which a foot that landed too high or low is brought to the ground."""
 
+    # Falls.
+    fall_tilt_rad: float = 0.6
+    """A robot that leans more than this falls ..."""
+    fall_foresight_s: float = _time(0.2)
+    """... or one that will so soon."""
+    fall_height: float = 0.7
+    """So does one whose base is lower than this share of its height when it stands."""
+    upright_tilt_rad: float = 0.3
+    """A robot that leans less, its legs below it, is held by somebody and can stand up."""
+    collapse_s: float = _time(1.5)
+    """How long a fall is made soft; then the joints are loose."""
+    collapse_stiffness: float = 0.15
+    """The share of their stiffness with which the joints pull meanwhile."""
+    stand_up_s: float = _time(1.5)
+    """How long the joints take to the posture of standing."""
+    standing_load: float = 0.6
+    """The share of the weight on the soles at which a robot that has stood up walks again."""
+
     # Joints.
-    acceleration_filter_1_s: float = _rate(40.0)
-    """How fast the acceleration of the joints' targets follows their differences."""
     velocity_limit_rad_s: float = _rate(12.0)
-    acceleration_limit_rad_s2: float = _growing(-1.0, 150.0)
-    arm_swing: float = 0.5
+    acceleration_limit_rad_s2: float = _growing(-1.0, 250.0)
+    arm_swing: float = 1.0
     """How many radians a shoulder turns for a foot that is a leg's length ahead."""
 
     def scaled(self, scale: float) -> WalkParameters:

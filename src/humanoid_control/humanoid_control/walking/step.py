@@ -108,9 +108,16 @@ class Step:
         remaining_s = (p.early_arrival * p.swing_s - in_air_s) / self.rate + passed_s
         foot = self._foot
         foot.advance(self.landing, remaining_s, passed_s)
-        height_m, climb_m_s = self._lift.at(in_air_s)
+        height_m, climb_m_s, climb_m_s2 = self._lift.at(in_air_s)
         motion = SoleMotion(
-            foot.pose, height_m, foot.velocity_m_s, climb_m_s * self.rate, foot.turn_rad_s
+            foot.pose,
+            height_m,
+            foot.velocity_m_s,
+            climb_m_s * self.rate,
+            foot.turn_rad_s,
+            foot.acceleration_m_s2,
+            climb_m_s2 * self.rate**2,
+            foot.turn_rad_s2,
         )
         return Swing(self.side, motion)
 

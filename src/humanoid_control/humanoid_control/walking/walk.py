@@ -9,28 +9,29 @@ from humanoid_control.backends import JointTargets
 from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.rotations import about_z, skew
 from humanoid_control.walking.attitude import hip_efforts
-from humanoid_control.walking.base_estimate import base_on, sole_reading
+from humanoid_control.walking.base_estimate import base_on, BaseEstimate, sole_reading
 from humanoid_control.walking.com_observer import ComObserver
 from humanoid_control.walking.com_reference import ComReference
-from humanoid_control.walking.feed_forward import (
-    add_swing_efforts,
-    carrying_efforts,
-    ground_force,
-)
+from humanoid_control.walking.feed_forward import ground_efforts
 from humanoid_control.walking.foot_shape import FootShape
-from humanoid_control.walking.footing import Foothold, Footing
+from humanoid_control.walking.footing import Foothold, Footing, loads_for
 from humanoid_control.walking.gait import Gait, GaitOutput
 from humanoid_control.walking.gear import GaitInput, Gear
+from humanoid_control.walking.ground_reaction import GroundReaction
 from humanoid_control.walking.home_posture import HomePosture
+from humanoid_control.walking.leg_map import LegMap
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion, Pendulum
 from humanoid_control.walking.planar import Point
+from humanoid_control.walking.planned_acceleration import (
+    PlannedAcceleration,
+    whole_acceleration,
+)
 from humanoid_control.walking.senses import Sensed
-from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
-from humanoid_control.walking.target_acceleration import TargetAcceleration, within
+from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.turning import Turning
 from humanoid_control.walking.walking_robot import WalkingRobot
-from humanoid_control.walking.whole_body import BaseMotion, WholeBody
+from humanoid_control.walking.whole_body import BaseMotion, JointMotion, WholeBody
 import numpy as np
 from numpy.typing import NDArray
 
@@ -60,7 +61,6 @@ class Walk:
             self._pendulum, parameters.reference_leak_1_s, parameters.reference_distance_m
         )
         self._whole_body = WholeBody(robot, home, parameters)
-        self._acceleration = TargetAcceleration(parameters)
         self._shares = (0.5, 0.5)
         self._zmp_m = self._footing.rest_point
         self._last_s = sensed.time_s
@@ -85,7 +85,7 @@ class Walk:
         self._last_s, self.sensed = sensed.time_s, sensed
         self._estimate(passed_s)
         output = self.output = self.gait.update(self._gait_input(passed_s))
-        self._shares, self._zmp_m = output.loads.shares, output.zmp_m
+        self._zmp_m = output.zmp_m
         wanted = self._reference.update(self.com, output.zmp_m, passed_s)
         self._footing.settle(1.0 - math.exp(-passed_s / self._parameters.settle_s))
         joints = self._whole_body.motion(
@@ -94,10 +94,14 @@ class Walk:
             self._footing,
             output.swing,
         )
-        velocities = within(joints.velocities_rad_s, self._parameters.velocity_limit_rad_s)
-        accelerations = self._acceleration.update(velocities, passed_s)
-        efforts = self._efforts(output, accelerations)
-        return JointTargets(joints.positions_rad, velocities, efforts)
+        limit = self._parameters.velocity_limit_rad_s
+        velocities = np.clip(joints.velocities_rad_s, -limit, limit)
+        return JointTargets(joints.positions_rad, velocities, self._efforts(output, joints))
+
+    def lie(self, sensed: Sensed) -> None:
+        """Note that the robot does not walk now: it is where it was last, turned as it is."""
+        self._last_s, self.sensed = sensed.time_s, sensed
+        self.base = BaseEstimate(self.base.position_m, np.zeros(3))
 
     def _estimate(self, passed_s: float) -> None:
         """Find base and centre of mass from the feet that carried weight until now."""
@@ -143,24 +147,37 @@ class Walk:
         velocity = np.array([speed.real, speed.imag, 0.0]) - shifting - skew(turn) @ to_com
         return BaseMotion(Frame(goal - to_com, rotation), Twist(velocity, turn))
 
-    def _efforts(self, output: GaitOutput, accelerations: Array) -> Array:
-        """Return the efforts (n,) that carry the robot and keep it upright."""
-        acceleration = self._pendulum.acceleration_m_s2(self.com.position_m, output.zmp_m)
-        state = self.sensed.state
-        efforts = carrying_efforts(
-            self._robot,
-            state,
-            self.base.position_m,
-            output.loads,
-            ground_force(self._robot.body.mass_kg, acceleration),
+    def _efforts(self, output: GaitOutput, motion: JointMotion) -> Array:
+        """Return the efforts (n,) that move the robot as planned and keep it upright."""
+        state, p = self.sensed.state, self._parameters
+        maps = [LegMap.of(leg, state) for leg in self._robot.legs]
+        base, joints = whole_acceleration(
+            state, maps, self._planned(output, motion), p.acceleration_limit_rad_s2
         )
-        if len(output.sides) == 1:
-            swinging = RIGHT if output.sides[0] == LEFT else LEFT
-            add_swing_efforts(self._robot, state, swinging, accelerations, efforts)
-        upright = hip_efforts(self._parameters, self.sensed.attitude, output.turning.heading_rad)
+        wrench, efforts = state.required(base, joints)
+        reaction = GroundReaction.of(wrench, self.base.position_m).within(
+            self._footing.polygon(output.sides), p.ground_turn_nm
+        )
+        loads = loads_for(self._footing, output.sides, reaction.point_m)
+        self._shares = loads.shares
+        efforts -= ground_efforts(self._robot, state, self.base.position_m, loads, reaction)
+        upright = hip_efforts(p, self.sensed.attitude, output.turning)
         for side in SIDES:
-            efforts[self._robot.legs[side].indices[:3]] += output.loads.shares[side] * upright
+            efforts[self._robot.legs[side].indices[:3]] += loads.shares[side] * upright
         return efforts
+
+    def _planned(self, output: GaitOutput, motion: JointMotion) -> PlannedAcceleration:
+        """Return what is planned: a pendulum, upright, over feet that stand or swing."""
+        along = self._pendulum.acceleration_m_s2(self.com.position_m, output.zmp_m)
+        soles = [np.zeros(6), np.zeros(6)]
+        if output.swing:
+            soles[output.swing.side] = output.swing.sole.acceleration
+        return PlannedAcceleration(
+            np.array([along.real, along.imag, 0.0]),
+            np.zeros(3),
+            soles,
+            motion.accelerations_rad_s2,
+        )
 
 
 def _footing_below(
