@@ -235,6 +235,7 @@ class MujocoBackend:
         mujoco.mj_resetData(self._model, self._data)
         self._data.qpos[:], self._data.qvel[:] = before.qpos, before.qvel
         self._wrenches.clear()
+        self._hoists.clear()
         self._look_again()
         raise SimulationError(
             f'The physics has become unstable at {self.time_s:.3f} s: velocities are beyond all '
