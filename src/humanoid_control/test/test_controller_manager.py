@@ -30,6 +30,7 @@ class Swinging:
         """Begin without a fault."""
         self.fault = 0.0
         self.at_rest = True
+        self.trouble = ''
         self.starts = 0
 
     def start(self, observation: Observation, held: JointTargets) -> None:
@@ -56,6 +57,7 @@ class Robot:
                 self.walking,
                 ('left_elbow', 'right_elbow'),
                 may_end=lambda: self.walking.at_rest,
+                needs_all_because=lambda: self.walking.trouble,
             ),
             hold_mode(JOINTS),
             follow_mode(JOINTS),
@@ -150,6 +152,24 @@ def test_switch_to_rest(mode: str) -> None:
     assert told.positions_rad == pytest.approx(before, abs=0.03)
     assert not told.velocities_rad_s.any()
     assert robot.largest_step_rad() < 0.01 and robot.largest_jolt_rad_s() < 0.05
+
+
+def test_in_trouble_nothing_is_lent() -> None:
+    """A robot that needs all joints takes back what it has lent, and says why."""
+    robot = Robot()
+    robot.run(1)
+    robot.command('left_elbow', -0.5)
+    robot.run(1)
+    assert robot.manager.owner('left_elbow') == 'joint_commands'
+    robot.walking.trouble = 'the robot has fallen'
+    robot.run(1)
+    assert robot.manager.owner('left_elbow') == 'walking'
+    with pytest.raises(CommandError, match='lends nothing for the moment: the robot has fallen.'):
+        robot.command('left_elbow', -0.5)
+    robot.walking.trouble = ''
+    robot.command('left_elbow', -0.5)
+    robot.run(1)
+    assert robot.manager.owner('left_elbow') == 'joint_commands'
 
 
 def test_switch_waits_for_rest() -> None:

@@ -20,13 +20,18 @@ def _always() -> bool:
     return True
 
 
+def _no_reason() -> str:
+    """Tell that nothing is wrong."""
+    return ''
+
+
 @dataclass(frozen=True)
 class Mode:
     """
     A controller of all joints, and the joints that it lends.
 
     `take_back` is told which joints come back, (n,) true, and what they were told last. The mode
-    can be left when `may_end` says so.
+    can be left when `may_end` says so, and lends nothing while `needs_all_because` gives a reason.
     """
 
     name: str
@@ -34,6 +39,7 @@ class Mode:
     lends: tuple[str, ...]
     take_back: Callable[[Mask, JointTargets], None] = _nothing
     may_end: Callable[[], bool] = _always
+    needs_all_because: Callable[[], str] = _no_reason
 
 
 def hold_mode(joints: Sequence[str]) -> Mode:

@@ -52,13 +52,8 @@ class HostDiagnostics:
 
     def _robot(self, robot: str, health: RobotHealth) -> DiagnosticStatus:
         """Return the status of a robot."""
-        stopped = health.holds_because
-        return self._status(
-            robot or 'robot',
-            DiagnosticStatus.WARN if stopped else DiagnosticStatus.OK,
-            f'holds still: {stopped}' if stopped else health.mode,
-            {'mode': health.mode, 'walk': health.walk, **health.lent},
-        )
+        values = {'mode': health.mode, 'walk': health.walk, **health.lent}
+        return self._status(robot or 'robot', *_verdict(health), values)
 
     def _status(
         self, part: str, level: bytes, message: str, values: Mapping[str, str]
@@ -70,3 +65,12 @@ class HostDiagnostics:
             message=message,
             values=[KeyValue(key=key, value=value) for key, value in values.items()],
         )
+
+
+def _verdict(health: RobotHealth) -> tuple[bytes, str]:
+    """Return how bad it is, and what to say of it."""
+    if health.trouble:
+        return DiagnosticStatus.ERROR, health.trouble
+    if health.holds_because:
+        return DiagnosticStatus.WARN, f'holds still: {health.holds_because}'
+    return DiagnosticStatus.OK, health.mode

@@ -20,6 +20,8 @@ class RobotHealth:
 
     mode: str
     walk: str
+    trouble: str
+    """Why the mode cannot do what it should, empty if it can."""
     holds_because: str
     lent: Mapping[str, str]
     """The joints that belong to others than the mode, and these."""
@@ -74,6 +76,7 @@ class HostedRobots:
         return RobotHealth(
             mode=manager.mode,
             walk='' if status is None else status.phase,
+            trouble=manager.trouble,
             holds_because=self._inputs[name].stop.guard.reason,
             lent=manager.lent(),
         )
