@@ -61,6 +61,11 @@ class WalkParameters:
     """How far a foot may land before or behind the other one when it has to catch the robot."""
     preview_steps: int = 4
     """How many steps the plan looks ahead beyond the present one."""
+    course_gain: float = 0.5
+    """How much of the way back to its course the robot goes in a step."""
+    course_distance_m: float = _length(0.06)
+    """How far from its course it may be; what is more is forgotten."""
+    course_turn_rad: float = 0.15
     parallel_length_m: float = _length(0.025)
     """How far from side by side feet may be that the robot stops on."""
     parallel_width_m: float = _length(0.03)

@@ -82,6 +82,7 @@ class Standing(_OnBothFeet):
         """Go on standing, or step."""
         self._elapsed_s += now.passed_s
         self._gear.approach_target(now.passed_s)
+        self._gear.course.restart()
         if not self._gear.target.is_zero:
             shift_s = self._gear.parameters.first_shift_s
             return Stepping(
@@ -148,6 +149,7 @@ class Stepping:
             return self
         feet = self._gear.footing
         feet.put(step.side, step.foothold(now))
+        self._gear.course.advance(step.support, self._gear.command, step.duration_s)
         self._gear.approach_target(self._gear.parameters.step_s)
         if self._gear.is_stopping and self._may_rest():
             return Stopping(self._gear, step.side, now.zmp_m)
