@@ -28,6 +28,7 @@ from humanoid_control.walking.planar import Point
 from humanoid_control.walking.planned_acceleration import (
     PlannedAcceleration,
     whole_acceleration,
+    within,
 )
 from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import SIDES
@@ -97,7 +98,7 @@ class Walk:
             output.swing,
         )
         limit = self._parameters.velocity_limit_rad_s
-        velocities = np.clip(joints.velocities_rad_s, -limit, limit)
+        velocities = within(joints.velocities_rad_s, limit)
         return JointTargets(joints.positions_rad, velocities, self._efforts(output, joints))
 
     def lie(self, sensed: Sensed) -> None:
