@@ -85,6 +85,8 @@ class WalkParameters:
     # Posture.
     crouch_m: float = _length(0.05)
     """How far the hips hang below stretched legs."""
+    leg_reach: float = 0.97
+    """To which share of its length a leg on the ground is stretched before the pelvis sinks."""
     zmp_forward_m: float = _length(0.015)
     """Where under a foot its load is planned: before the sole's frame ..."""
     zmp_inward_m: float = _length(0.005)
