@@ -72,13 +72,13 @@ class WalkParameters:
     parallel_turn_rad: float = 0.06
 
     # Velocity.
-    forward_limit_m_s: float = _speed(0.35)
-    backward_limit_m_s: float = _speed(0.25)
-    left_limit_m_s: float = _speed(0.15)
-    turn_limit_rad_s: float = _rate(0.8)
+    forward_limit_m_s: float = _speed(0.5)
+    backward_limit_m_s: float = _speed(0.3)
+    left_limit_m_s: float = _speed(0.2)
+    turn_limit_rad_s: float = _rate(1.0)
     sum_of_shares: float = 1.5
     """What the shares of the limits may come to together."""
-    forward_acceleration_m_s2: float = 0.3
+    forward_acceleration_m_s2: float = 0.4
     left_acceleration_m_s2: float = 0.2
     turn_acceleration_rad_s2: float = _growing(-1.0, 0.8)
 
