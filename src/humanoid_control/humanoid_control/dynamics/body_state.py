@@ -160,6 +160,19 @@ class BodyState:
         jacobian[:, 6:] = self._poses[1:, :3, 2].T * self.model.tree.moves[self._mount(link).body]
         return jacobian
 
+    def limb_jacobian(self, link: str, indices: NDArray[np.intp]) -> Array:
+        """
+        Return the Jacobian (6, k) of the motion of a link for k joints that all move it.
+
+        Rows: linear velocity of the origin, angular velocity. It is part of the two above.
+        """
+        mount = self._mount(link)
+        jacobian = np.empty((6, len(indices)))
+        moved = self._screws[indices, :3] @ self._point(mount, None)
+        jacobian[:3] = moved.T
+        jacobian[3:] = self._poses[indices + 1, :3, 2].T
+        return jacobian
+
     @cached_property
     def com_jacobian(self) -> Array:
         """Return the Jacobian (3, 6 + n) of the velocity of the centre of mass."""
