@@ -13,6 +13,7 @@ from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion, Pendulum
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.sides import LEFT, other, outwards, SIDES
+from humanoid_control.walking.terrain import Facet, LEVEL
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 import numpy as np
 import pytest
@@ -73,9 +74,9 @@ class IdealRobot:
         """Return a sole that is where it was told to be at the tick before."""
         swing = self.output.swing if self.output else None
         if swing and swing.side == side:
-            height_m = max(0.0, swing.sole.height_m)
-            return SoleReading(swing.sole.pose, height_m, 0.0 if height_m else 0.5)
-        return SoleReading(self.footing.pose(side), 0.0, 0.5)
+            facet = Facet(max(0.0, swing.sole.facet.height_m))
+            return SoleReading(swing.sole.pose, facet, 0.0 if facet.height_m else 0.5)
+        return SoleReading(self.footing.pose(side), LEVEL, 0.5)
 
 
 def test_standing_stands() -> None:

@@ -103,3 +103,23 @@ def test_climb_is_the_slope_of_the_height(order: int) -> None:
 def test_late_ground_is_reached_for() -> None:
     """After the planned landing the foot goes on down."""
     assert LIFT.at(0.5) == pytest.approx((-0.02, -0.2, 0.0))
+
+
+@pytest.mark.parametrize('rise_m', [0.02, -0.03])
+def test_ground_of_another_height(rise_m: float) -> None:
+    """The foot lands gently where the ground is expected, and clears both ends by as much."""
+    assert LIFT.at(0.0, rise_m) == pytest.approx((0.0, 0.0, LIFT.at(0.0, rise_m)[2]))
+    assert LIFT.at(0.4, rise_m)[:2] == pytest.approx((rise_m, 0.0), abs=1e-12)
+    assert LIFT.at(0.2, rise_m)[0] - max(0.0, rise_m) >= 0.05 - 1e-12
+    for time_s in (0.03, 0.2, 0.37):
+        for order in (0, 1):
+            after, before = (LIFT.at(time_s + step, rise_m)[order] for step in (1e-6, -1e-6))
+            slope = (after - before) / 2e-6
+            assert LIFT.at(time_s, rise_m)[order + 1] == pytest.approx(slope, abs=1e-6)
+
+
+def test_the_foot_reaches_only_so_deep() -> None:
+    """It waits there for the ground."""
+    lift = Lift(0.05, 0.4, 0.2, deepest_m=0.03)
+    assert lift.at(0.5, 0.01) == pytest.approx((-0.01, -0.2, 0.0))
+    assert lift.at(0.9, 0.01) == pytest.approx((-0.02, 0.0, 0.0))

@@ -51,7 +51,7 @@ def _stance(robot: Robot) -> Stance:
     home = HomePosture.of(walking, P)
     still = np.zeros(len(drives))
     state = walking.body.state(np.eye(3), np.zeros(3), home.positions_rad, still)
-    readings = [sole_reading(leg.sole, np.zeros(3), state, 0.5) for leg in walking.legs]
+    readings = [sole_reading(leg.sole, np.zeros(3), state, 0.5, 0.2) for leg in walking.legs]
     footing = Footing(FootShape.of(robot, P), [Foothold(reading.pose) for reading in readings])
     return Stance(walking, home, state, footing, loads_for(footing, SIDES, footing.rest_point))
 

@@ -121,7 +121,7 @@ class BodyMatrices:
         return self._hanging((self.accelerations + added + root) @ self.inertias)
 
     def efforts(self, forces: Array) -> Array:
-        """Return the efforts (n,) of joints for forces (n + 1, 4, 4) on all that they carry."""
+        """Return what the joints exert, (n,), for forces (n + 1, 4, 4) on all that they carry."""
         powers: Array = (self.screws * forces[1:]).reshape(-1, 16)
         return powers @ np.ones(16)
 

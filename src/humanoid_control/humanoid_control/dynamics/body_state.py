@@ -179,6 +179,20 @@ class BodyState:
         )
         return jacobian
 
+    def jacobian_of(self, group: JointGroup, link: str) -> Array:
+        """
+        Return the Jacobian (6, k) of a link for the joints of a group alone.
+
+        Rows: the linear velocity of its origin, then its angular velocity.
+        """
+        mount, k = self._mount(link), len(group.indices)
+        moved = self.matrices.screws[group.indices].reshape(-1, 4) @ self._point(mount, None)
+        jacobian = np.empty((6, k))
+        jacobian[:3] = moved.reshape(k, 4).T[:3]
+        jacobian[3:] = self.matrices.poses[group.indices + 1, :3, 2].T
+        jacobian *= self.tree.moves[mount.body, group.indices]
+        return jacobian
+
     def efforts_of_force_nm(
         self, link: str, point_m: Array, force_n: Array, torque_nm: Array | None = None
     ) -> Array:

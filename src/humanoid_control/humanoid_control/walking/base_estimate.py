@@ -12,6 +12,7 @@ from humanoid_control.walking.gear import SoleReading
 from humanoid_control.walking.pendulum import Motion
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.terrain import Facet, tilt_of
 from humanoid_control.walking.walking_robot import WalkingRobot
 import numpy as np
 from numpy.typing import NDArray
@@ -46,14 +47,17 @@ def base_on(
     position, velocity = np.zeros(3), np.zeros(3)
     for side in SIDES:
         if shares[side] > 0.0:
-            point, sole = footing.pose(side).position_m, robot.legs[side].sole
-            anchor = np.array([point.real, point.imag, 0.0])
-            position += shares[side] * (anchor - state.position_m(sole))
+            sole = robot.legs[side].sole
+            position += shares[side] * (footing[side].sole_m - state.position_m(sole))
             velocity -= shares[side] * state.velocity_m_s(sole)
     return BaseEstimate(position, velocity)
 
 
-def sole_reading(sole: str, base_m: Array, state: BodyState, load: float) -> SoleReading:
+def sole_reading(
+    sole: str, base_m: Array, state: BodyState, load: float, most_tilt_rad: float
+) -> SoleReading:
     """Return where a sole is measured, with a load as a share of the weight."""
     x, y, z = (base_m + state.position_m(sole)).tolist()
-    return SoleReading(PlanarPose(complex(x, y), yaw_of(state.rotation(sole))), z, load)
+    rotation = state.rotation(sole)
+    facet = Facet(z, tilt_of(rotation, most_tilt_rad))
+    return SoleReading(PlanarPose(complex(x, y), yaw_of(rotation)), facet, load)

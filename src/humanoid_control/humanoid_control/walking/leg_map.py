@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from humanoid_control.dynamics import BodyState
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 _DAMPING = 0.01
 """As a share of the leg's length: keeps rates finite where the leg is stretched."""
+_ONE: Array = np.eye(6)
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,21 +34,26 @@ class LegMap:
     drift: Array
     """(6,) the acceleration of the sole while base and joints do not accelerate"""
 
-    @classmethod
-    def of(cls, leg: Leg, state: BodyState) -> LegMap:
-        """Return the map of a leg in the posture that is measured."""
-        own = np.empty((6, 6))
-        own[:3] = state.jacobian(leg.sole)[:, 6 + leg.indices]
-        own[3:] = state.angular_jacobian(leg.sole)[:, 6 + leg.indices]
-        carry = np.eye(6)
-        carry[:3, 3:] = -skew(state.position_m(leg.sole))
-        damping = (_DAMPING * leg.geometry.length_m) ** 2 * np.eye(6)
-        # Damped least squares (Nakamura and Hanafusa, Inverse kinematic solutions with
-        # singularity robustness, ASME Journal of Dynamic Systems 108, 1986).
-        inverse = np.linalg.solve(own.T @ own + damping, own.T)
-        return cls(leg.indices, inverse, carry, state.drift(leg.sole))
-
     def accelerations(self, sole: Array, base: Array) -> Array:
         """Return how the joints accelerate (6,) for accelerations of sole and base."""
         accelerations: Array = self.inverse @ (sole - self.drift - self.carry @ base)
         return accelerations
+
+
+def leg_maps(legs: Sequence[Leg], state: BodyState) -> list[LegMap]:
+    """Return the maps of legs in the posture that is measured."""
+    jacobians = np.array([state.jacobian_of(leg.group, leg.sole) for leg in legs])
+    turned = jacobians.transpose(0, 2, 1)
+    damping = np.array([(_DAMPING * leg.geometry.length_m) ** 2 for leg in legs])
+    # Damped least squares (Nakamura and Hanafusa, Inverse kinematic solutions with singularity
+    # robustness, ASME Journal of Dynamic Systems 108, 1986).
+    squares = turned @ jacobians + damping[:, None, None] * _ONE
+    inverses = np.linalg.solve(squares, turned)
+    return [_leg_map(leg, state, inverse) for leg, inverse in zip(legs, inverses)]
+
+
+def _leg_map(leg: Leg, state: BodyState, inverse: Array) -> LegMap:
+    """Return the map of a leg."""
+    carry = _ONE.copy()
+    carry[:3, 3:] = -skew(state.position_m(leg.sole))
+    return LegMap(leg.indices, inverse, carry, state.drift(leg.sole))

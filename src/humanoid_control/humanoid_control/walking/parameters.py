@@ -72,19 +72,21 @@ class WalkParameters:
     parallel_turn_rad: float = 0.06
 
     # Velocity.
-    forward_limit_m_s: float = _speed(0.35)
-    backward_limit_m_s: float = _speed(0.25)
-    left_limit_m_s: float = _speed(0.15)
-    turn_limit_rad_s: float = _rate(0.8)
+    forward_limit_m_s: float = _speed(0.5)
+    backward_limit_m_s: float = _speed(0.3)
+    left_limit_m_s: float = _speed(0.2)
+    turn_limit_rad_s: float = _rate(1.0)
     sum_of_shares: float = 1.5
     """What the shares of the limits may come to together."""
-    forward_acceleration_m_s2: float = 0.3
+    forward_acceleration_m_s2: float = 0.4
     left_acceleration_m_s2: float = 0.2
     turn_acceleration_rad_s2: float = _growing(-1.0, 0.8)
 
     # Posture.
     crouch_m: float = _length(0.05)
     """How far the hips hang below stretched legs."""
+    leg_reach: float = 0.97
+    """To which share of its length a leg on the ground is stretched before the pelvis sinks."""
     zmp_forward_m: float = _length(0.015)
     """Where under a foot its load is planned: before the sole's frame ..."""
     zmp_inward_m: float = _length(0.005)
@@ -130,20 +132,47 @@ class WalkParameters:
     unreachable_width_m: float = _length(0.03)
 
     # Swing foot.
-    swing_height_m: float = _length(0.045)
+    swing_height_m: float = _length(0.055)
     early_arrival: float = 0.94
     """At which share of the swing the foot is above its landing."""
     reach_down_m_s: float = _speed(0.2)
     """How fast it goes on down when the ground is late."""
-    touchdown_phase: float = 0.6
-    """From which share of the swing on a load means that the foot stands."""
+    deepest_m: float = _length(0.06)
+    """How far below the expected ground it goes."""
+    touchdown_phase: float = 0.5
+    """From which share of the swing on a foot that meets something stays there."""
     touchdown_load: float = 0.12
-    """How much of the weight that load is."""
-    touchdown_height_m: float = _length(0.02)
-    late_touchdown_s: float = _time(0.12)
+    """How much of the weight it has to carry for that ..."""
+    touch_load: float = 0.06
+    """... and how much near the end of the swing, ..."""
+    gentle_phase: float = 0.75
+    """... which begins at this share."""
+    landing_phase: float = 0.85
+    """From which share of the swing on a foot that stands may take the weight."""
+    late_touchdown_s: float = _time(0.16)
     """How late a landing may be until the step ends without it."""
-    settle_s: float = _time(0.06)
-    """The time constant in which a foot that landed too high or low is brought to the ground."""
+
+    # Ground that is not level.
+    conform_early_1_s: float = _rate(25.0)
+    """How fast a sole with weight on it gives way to the tilt of the ground at first ..."""
+    conform_early_s: float = _time(0.15)
+    """... for so long, ..."""
+    conform_1_s: float = _rate(10.0)
+    """... and later."""
+    conform_load: float = 0.4
+    """The share of the weight at which it does so fully; with less it is stiffer."""
+    conform_height_1_s: float = _rate(10.0)
+    """How fast a foot without weight on it gives way to the height of the ground."""
+    press_m_s: float = _speed(0.1)
+    """How fast a foot that only touches is pressed down."""
+    most_tilt_rad: float = 0.2
+    """Ground that is steeper is taken for so steep."""
+    slope_share: float = 0.5
+    """How much of the tilt under a foot is expected of the ground ahead."""
+    level_rate_1_s: float = _rate(6.0)
+    """How fast the height of the pelvis follows that of the feet ..."""
+    level_leak_1_s: float = _rate(8.0)
+    """... and gives way to where it is measured."""
 
     # Falls.
     fall_tilt_rad: float = 0.6

@@ -8,6 +8,7 @@ import math
 
 from humanoid_control.dynamics.rotations import wrap_angle
 from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.terrain import Facet, LEVEL
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,10 +17,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class SoleMotion:
-    """Where a sole is to be, level, and how it is to move."""
+    """Where a sole is to be, and how it is to move."""
 
     pose: PlanarPose
-    height_m: float = 0.0
+    facet: Facet = LEVEL
     velocity_m_s: Point = 0j
     climb_m_s: float = 0.0
     turn_rad_s: float = 0.0
@@ -83,17 +84,29 @@ class Lift:
     height_m: float
     duration_s: float
     reach_m_s: float
+    deepest_m: float = math.inf
+    """How far below where the ground was expected the foot reaches."""
 
-    def at(self, time_s: float) -> tuple[float, float, float]:
-        """Return height, rate of climb and its rate at a time since lift-off."""
-        if time_s > self.duration_s:
-            return -self.reach_m_s * (time_s - self.duration_s), -self.reach_m_s, 0.0
-        rate_1_s = math.pi / self.duration_s
-        phase, speed_m_s = rate_1_s * max(0.0, time_s), self.height_m * rate_1_s
+    def at(self, time_s: float, rise_m: float = 0.0) -> tuple[float, float, float]:
+        """
+        Return height, rate of climb and its rate at a time since lift-off.
+
+        :param rise_m: how much higher the landing is expected than the lift-off
+        """
+        late_s = time_s - self.duration_s
+        if late_s > 0.0:
+            reaches = self.reach_m_s * late_s < self.deepest_m
+            down_m = min(self.reach_m_s * late_s, self.deepest_m)
+            return rise_m - down_m, -self.reach_m_s if reaches else 0.0, 0.0
+        share = max(0.0, time_s) / self.duration_s
+        phase, rate_1_s = math.pi * share, math.pi / self.duration_s
+        top_m = self.height_m + abs(rise_m) / 2
+        speed_m_s = top_m * rate_1_s
         return (
-            self.height_m * math.sin(phase) ** 2,
-            speed_m_s * math.sin(2 * phase),
-            2 * speed_m_s * rate_1_s * math.cos(2 * phase),
+            top_m * math.sin(phase) ** 2 + rise_m * share**2 * (3 - 2 * share),
+            speed_m_s * math.sin(2 * phase) + rise_m * 6 * share * (1 - share) / self.duration_s,
+            2 * speed_m_s * rate_1_s * math.cos(2 * phase)
+            + rise_m * (6 - 12 * share) / self.duration_s**2,
         )
 
 

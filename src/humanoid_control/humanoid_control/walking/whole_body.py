@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.leg_ik import leg_posture
 from humanoid_control.dynamics.leg_rates import leg_rates
-from humanoid_control.dynamics.rotations import about_z
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.parameters import WalkParameters
@@ -63,7 +62,7 @@ class WholeBody:
         """
         positions: Array = self._home.positions_rad.copy()
         joints = JointMotion(positions, np.zeros_like(positions), np.zeros_like(positions))
-        soles = [SoleMotion(footing.pose(side), footing[side].lift_m) for side in SIDES]
+        soles = [SoleMotion(footing.pose(side), footing[side].facet) for side in SIDES]
         bases = [wanted, wanted]
         if swing:
             soles[swing.side] = swing.sole
@@ -76,12 +75,12 @@ class WholeBody:
     def _move_leg(
         self, side: int, base: BaseMotion, sole: SoleMotion, joints: JointMotion
     ) -> None:
-        """Set the joints of a leg so that its sole is level in a place."""
+        """Set the joints of a leg so that its sole is in a place."""
         leg, point, speed = self._robot.legs[side], sole.pose.position_m, sole.velocity_m_s
-        place = np.array([point.real, point.imag, sole.height_m])
+        place = np.array([point.real, point.imag, sole.facet.height_m])
         velocity = np.array([speed.real, speed.imag, sole.climb_m_s])
         turn = np.array([0.0, 0.0, sole.turn_rad_s])
-        frame = Frame(place, about_z(sole.pose.yaw_rad)).seen_from(base.frame)
+        frame = Frame(place, sole.facet.rotation(sole.pose.yaw_rad)).seen_from(base.frame)
         twist = Twist(velocity, turn).seen_from(base.frame, base.twist, place)
         posture = leg_posture(leg.geometry, frame)
         joints.positions_rad[leg.indices] = posture.positions_rad
