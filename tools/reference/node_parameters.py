@@ -8,7 +8,9 @@ from importlib import import_module
 from typing import Any
 
 NODES = {
-    'humanoid_simulation simulator': 'humanoid_simulation.simulator_parameters.SimulatorParameters',
+    'humanoid_simulation simulator': (
+        'humanoid_simulation.simulator_parameters.SimulatorParameters'
+    ),
     'humanoid_simulation walk_square': (
         'humanoid_simulation.examples.example_parameters.WalkSquareParameters'
     ),
@@ -33,8 +35,8 @@ NODES = {
 INTRODUCTION = """\
 # The parameters of the nodes
 
-Defaults are those without a configuration file; launch files may give others. What is *fixed* is read
-when the node starts; all else may change while it runs. How to set them:
+Defaults are those without a configuration file; launch files may give others. What is *fixed* is
+read when the node starts; all else may change while it runs. How to set them:
 [how-to/look_inside.md](../how-to/look_inside.md#parameters).
 """
 
