@@ -210,6 +210,15 @@ def test_a_state_without_joints(robot: Robot) -> None:
     assert state.jacobian('l_sole').shape == (3, 6)
 
 
+@pytest.mark.parametrize('link', ['l_sole', 'head'])
+def test_jacobian_of_some_joints(moving: Moving, link: str) -> None:
+    """The Jacobian of a group has the columns of its joints, zero where they move nothing."""
+    state = moving.at(0.0)
+    group = state.model.group(['left_ankle_roll', 'left_knee', 'head_yaw'])
+    whole = np.vstack([state.jacobian(link), state.angular_jacobian(link)])
+    assert state.jacobian_of(group, link) == pytest.approx(whole[:, 6 + group.indices])
+
+
 def test_com_jacobian_maps_to_its_velocity(moving: Moving) -> None:
     """The Jacobian of the centre of mass times all velocities is its velocity."""
     state = moving.at(0.0)

@@ -11,6 +11,7 @@ from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planned_acceleration import (
     PlannedAcceleration,
     whole_acceleration,
+    within,
 )
 from humanoid_control.walking.sides import LEFT, RIGHT
 from humanoid_control.walking.walking_robot import WalkingRobot
@@ -89,3 +90,8 @@ def test_a_stretched_leg_stays_finite(walking: WalkingRobot) -> None:
     asked = LegMap.of(walking.legs[LEFT], straight).accelerations(lift, np.zeros(6))
     assert np.isfinite(asked).all()
     assert np.abs(asked).max() < 200.0
+
+
+def test_within() -> None:
+    """Values beyond a limit become the limit, on both sides."""
+    assert within(np.array([-3.0, 0.5, 2.0]), 1.0).tolist() == [-1.0, 0.5, 1.0]

@@ -45,7 +45,8 @@ def seen(walker: Walker, time_s: float, pitch_rad: float = 0.0, load: float = 1.
     [
         (UPRIGHT, False),
         (replace(UPRIGHT, tilt_rad=0.3), False),
-        (replace(UPRIGHT, tilt_rad=0.3, tilting_rad_s=2.0), True),
+        (replace(UPRIGHT, tilt_rad=0.1, tilting_rad_s=4.0), False),
+        (replace(UPRIGHT, tilt_rad=0.35, tilting_rad_s=2.0), True),
         (replace(UPRIGHT, tilt_rad=0.3, tilting_rad_s=-5.0), False),
         (replace(UPRIGHT, tilt_rad=0.9, tilting_rad_s=-5.0), True),
         (replace(UPRIGHT, height_m=0.3), True),

@@ -160,6 +160,20 @@ class BodyState:
         jacobian[:, 6:] = self._poses[1:, :3, 2].T * self.model.tree.moves[self._mount(link).body]
         return jacobian
 
+    def jacobian_of(self, group: JointGroup, link: str) -> Array:
+        """
+        Return the Jacobian (6, k) of a link for the joints of a group alone.
+
+        Rows: the linear velocity of its origin, then its angular velocity.
+        """
+        mount, k = self._mount(link), len(group.indices)
+        moved = self._screws[group.indices].reshape(-1, 4) @ self._point(mount, None)
+        jacobian = np.empty((6, k))
+        jacobian[:3] = moved.reshape(k, 4).T[:3]
+        jacobian[3:] = self._poses[group.indices + 1, :3, 2].T
+        jacobian *= self.model.tree.moves[mount.body, group.indices]
+        return jacobian
+
     @cached_property
     def com_jacobian(self) -> Array:
         """Return the Jacobian (3, 6 + n) of the velocity of the centre of mass."""

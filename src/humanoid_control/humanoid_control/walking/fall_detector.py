@@ -50,12 +50,16 @@ class FallDetector:
     standing_height_m: float
 
     def is_falling(self, stance: Stance) -> bool:
-        """Tell whether the robot falls: it leans, or soon will lean, too much, or is too low."""
+        """
+        Tell whether the robot falls: it leans, or soon will lean, too much, or is too low.
+
+        How fast an upright robot tilts says nothing: the landing of a foot jerks it.
+        """
         p = self.parameters
-        soon_rad = stance.tilt_rad + p.fall_foresight_s * stance.tilting_rad_s
+        foresight_s = p.fall_foresight_s if stance.tilt_rad > p.upright_tilt_rad else 0.0
+        soon_rad = stance.tilt_rad + foresight_s * max(0.0, stance.tilting_rad_s)
         return (
-            max(stance.tilt_rad, soon_rad) > p.fall_tilt_rad
-            or stance.height_m < p.fall_height * self.standing_height_m
+            soon_rad > p.fall_tilt_rad or stance.height_m < p.fall_height * self.standing_height_m
         )
 
     def can_stand(self, stance: Stance) -> bool:

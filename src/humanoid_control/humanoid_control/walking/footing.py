@@ -11,6 +11,10 @@ from humanoid_control.walking.planar import dot, limited, PlanarPose, Point
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
 from humanoid_control.walking.support_polygon import SupportPolygon
 from humanoid_control.walking.terrain import Facet, LEVEL
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -33,6 +37,12 @@ class Footing:
     def __getitem__(self, side: int) -> Foothold:
         """Return where a foot is."""
         return self._footholds[side]
+
+    def place_m(self, side: int) -> Array:
+        """Return where the sole's origin is (3,)."""
+        foothold = self._footholds[side]
+        point = foothold.pose.position_m
+        return np.array([point.real, point.imag, foothold.facet.height_m])
 
     def put(self, side: int, foothold: Foothold) -> None:
         """Note where a foot has landed."""

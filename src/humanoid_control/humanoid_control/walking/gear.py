@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from humanoid_control.walking.course import Course
 from humanoid_control.walking.dcm_plan import DcmPlan, ZmpSegment
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.footsteps import Footstep, FootstepPlanner
@@ -51,11 +52,13 @@ class Gear:
     """The tilt of the ground ahead."""
     planner: FootstepPlanner = field(init=False)
     adjuster: StepAdjuster = field(init=False)
+    course: Course = field(init=False)
 
     def __post_init__(self) -> None:
         """Make what plans with the parameters."""
         self.planner = FootstepPlanner(self.parameters)
         self.adjuster = StepAdjuster(self.planner, self.pendulum.rate_1_s)
+        self.course = Course(self.planner)
 
     def approach_target(self, time_s: float) -> None:
         """Bring the velocity nearer to what is wanted, by what is allowed in a time."""

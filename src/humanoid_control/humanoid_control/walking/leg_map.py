@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+_DIAGONAL = np.diag_indices(6)
 _DAMPING = 0.01
 """As a share of the leg's length: keeps rates finite where the leg is stretched."""
 
@@ -35,15 +36,14 @@ class LegMap:
     @classmethod
     def of(cls, leg: Leg, state: BodyState) -> LegMap:
         """Return the map of a leg in the posture that is measured."""
-        own = np.empty((6, 6))
-        own[:3] = state.jacobian(leg.sole)[:, 6 + leg.indices]
-        own[3:] = state.angular_jacobian(leg.sole)[:, 6 + leg.indices]
+        own = state.jacobian_of(leg.group, leg.sole)
         carry = np.eye(6)
         carry[:3, 3:] = -skew(state.position_m(leg.sole))
-        damping = (_DAMPING * leg.geometry.length_m) ** 2 * np.eye(6)
         # Damped least squares (Nakamura and Hanafusa, Inverse kinematic solutions with
         # singularity robustness, ASME Journal of Dynamic Systems 108, 1986).
-        inverse = np.linalg.solve(own.T @ own + damping, own.T)
+        square = own.T @ own
+        square[_DIAGONAL] += (_DAMPING * leg.geometry.length_m) ** 2
+        inverse = np.linalg.solve(square, own.T)
         return cls(leg.indices, inverse, carry, state.drift(leg.sole))
 
     def accelerations(self, sole: Array, base: Array) -> Array:

@@ -61,25 +61,32 @@ class WalkParameters:
     """How far a foot may land before or behind the other one when it has to catch the robot."""
     preview_steps: int = 4
     """How many steps the plan looks ahead beyond the present one."""
+    course_gain: float = 0.5
+    """How much of the way back to its course the robot goes in a step."""
+    course_distance_m: float = _length(0.06)
+    """How far from its course it may be; what is more is forgotten."""
+    course_turn_rad: float = 0.15
     parallel_length_m: float = _length(0.025)
     """How far from side by side feet may be that the robot stops on."""
     parallel_width_m: float = _length(0.03)
     parallel_turn_rad: float = 0.06
 
     # Velocity.
-    forward_limit_m_s: float = _speed(0.35)
-    backward_limit_m_s: float = _speed(0.25)
-    left_limit_m_s: float = _speed(0.15)
-    turn_limit_rad_s: float = _rate(0.8)
+    forward_limit_m_s: float = _speed(0.5)
+    backward_limit_m_s: float = _speed(0.3)
+    left_limit_m_s: float = _speed(0.2)
+    turn_limit_rad_s: float = _rate(1.0)
     sum_of_shares: float = 1.5
     """What the shares of the limits may come to together."""
-    forward_acceleration_m_s2: float = 0.3
+    forward_acceleration_m_s2: float = 0.4
     left_acceleration_m_s2: float = 0.2
     turn_acceleration_rad_s2: float = _growing(-1.0, 0.8)
 
     # Posture.
     crouch_m: float = _length(0.05)
     """How far the hips hang below stretched legs."""
+    leg_reach: float = 0.97
+    """To which share of its length a leg on the ground is stretched before the pelvis sinks."""
     zmp_forward_m: float = _length(0.015)
     """Where under a foot its load is planned: before the sole's frame ..."""
     zmp_inward_m: float = _length(0.005)

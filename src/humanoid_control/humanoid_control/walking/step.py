@@ -29,6 +29,7 @@ class Step:
         self._shift_s = shift_s
         self._start_m = zmp
         self._passed_s = 0.0
+        self._real_s = 0.0
         self.elapsed_s = 0.0
         self.rate = 1.0
         self.error_m = 0.0
@@ -50,6 +51,11 @@ class Step:
         return self._shift_s + self._gear.parameters.swing_s
 
     @property
+    def duration_s(self) -> float:
+        """Return how long it has taken in fact, apart from a longer or shorter begin."""
+        return self._real_s + self._gear.parameters.shift_s - self._shift_s
+
+    @property
     def swing_phase(self) -> float:
         """Return which share of the swing has passed: 0 on both feet, above 1 if it is late."""
         return max(0.0, self.elapsed_s - self._shift_s) / self._gear.parameters.swing_s
@@ -67,6 +73,7 @@ class Step:
     def advance(self, passed_s: float) -> None:
         """Let time pass."""
         self._passed_s = passed_s
+        self._real_s += passed_s
         self.elapsed_s += passed_s * self.rate
 
     def feel(self, now: GaitInput) -> None:
@@ -147,9 +154,13 @@ class Step:
         return phase > p.touchdown_phase and sole.load > enough
 
     def _next_landing(self) -> PlanarPose:
-        """Return where the foot lands by plan."""
-        support = self._gear.footing.pose(self.support)
-        return self._gear.planner.next_foot(support, self.support, self._gear.command)
+        """Return where the foot lands by plan, on the robot's course unless it stops."""
+        planner, support = self._gear.planner, self._gear.footing.pose(self.support)
+        start = planner.middle_beside(support, self.support)
+        if not self._gear.is_stopping:
+            start = self._gear.course.corrected(start)
+        goal = planner.next_middle(start, self.support, self._gear.command)
+        return planner.landing(support, self.support, goal)
 
     def _planned(self, landing: PlanarPose) -> DcmPlan:
         """Return the plan from the begin of the step to rest for a landing."""

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from humanoid_control.backends import JointTargets
@@ -21,12 +22,14 @@ from humanoid_control.walking.gear import GaitInput, Gear, SoleReading
 from humanoid_control.walking.ground_reaction import GroundReaction
 from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.leg_map import LegMap
+from humanoid_control.walking.leg_reach import reachable_height_m
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion, Pendulum
 from humanoid_control.walking.planar import Point
 from humanoid_control.walking.planned_acceleration import (
     PlannedAcceleration,
     whole_acceleration,
+    within,
 )
 from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import SIDES
@@ -96,13 +99,13 @@ class Walk:
         wanted = self._reference.update(self.com, output.zmp_m, passed_s)
         self._give_way(soles, output, passed_s)
         joints = self._whole_body.motion(
-            self._wanted_base(wanted, output.turning),
+            self._within_reach(self._wanted_base(wanted, output.turning), output.sides),
             self._measured_base(),
             self._footing,
             output.swing,
         )
         limit = self._parameters.velocity_limit_rad_s
-        velocities = np.clip(joints.velocities_rad_s, -limit, limit)
+        velocities = within(joints.velocities_rad_s, limit)
         return JointTargets(joints.positions_rad, velocities, self._efforts(output, joints))
 
     def lie(self, sensed: Sensed) -> None:
@@ -180,6 +183,14 @@ class Walk:
         turn = np.array([0.0, 0.0, turning.rate_rad_s])
         velocity = np.array([speed.real, speed.imag, 0.0]) - shifting - skew(turn) @ to_com
         return BaseMotion(Frame(goal - to_com, rotation), Twist(velocity, turn))
+
+    def _within_reach(self, base: BaseMotion, sides: Sequence[int]) -> BaseMotion:
+        """Return the base so low that the legs on the ground need not be stretched."""
+        legs = [self._robot.legs[side].geometry for side in sides]
+        soles = [self._footing.place_m(side) for side in sides]
+        x, y, _ = base.frame.position_m.tolist()
+        height_m = reachable_height_m(base.frame, legs, soles, self._parameters.leg_reach)
+        return BaseMotion(Frame(np.array([x, y, height_m]), base.frame.rotation), base.twist)
 
     def _efforts(self, output: GaitOutput, motion: JointMotion) -> Array:
         """Return the efforts (n,) that move the robot as planned and keep it upright."""
