@@ -160,17 +160,18 @@ class BodyState:
         jacobian[:, 6:] = self._poses[1:, :3, 2].T * self.model.tree.moves[self._mount(link).body]
         return jacobian
 
-    def limb_jacobian(self, link: str, indices: NDArray[np.intp]) -> Array:
+    def jacobian_of(self, group: JointGroup, link: str) -> Array:
         """
-        Return the Jacobian (6, k) of the motion of a link for k joints that all move it.
+        Return the Jacobian (6, k) of a link for the joints of a group alone.
 
-        Rows: linear velocity of the origin, angular velocity. It is part of the two above.
+        Rows: the linear velocity of its origin, then its angular velocity.
         """
-        mount = self._mount(link)
-        jacobian = np.empty((6, len(indices)))
-        moved = self._screws[indices, :3] @ self._point(mount, None)
-        jacobian[:3] = moved.T
-        jacobian[3:] = self._poses[indices + 1, :3, 2].T
+        mount, k = self._mount(link), len(group.indices)
+        moved = self._screws[group.indices].reshape(-1, 4) @ self._point(mount, None)
+        jacobian = np.empty((6, k))
+        jacobian[:3] = moved.reshape(k, 4).T[:3]
+        jacobian[3:] = self._poses[group.indices + 1, :3, 2].T
+        jacobian *= self.model.tree.moves[mount.body, group.indices]
         return jacobian
 
     @cached_property

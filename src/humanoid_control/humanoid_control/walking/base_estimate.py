@@ -47,9 +47,8 @@ def base_on(
     position, velocity = np.zeros(3), np.zeros(3)
     for side in SIDES:
         if shares[side] > 0.0:
-            point, sole = footing.pose(side).position_m, robot.legs[side].sole
-            anchor = np.array([point.real, point.imag, footing[side].facet.height_m])
-            position += shares[side] * (anchor - state.position_m(sole))
+            sole = robot.legs[side].sole
+            position += shares[side] * (footing[side].sole_m - state.position_m(sole))
             velocity -= shares[side] * state.velocity_m_s(sole)
     return BaseEstimate(position, velocity)
 

@@ -11,6 +11,10 @@ from humanoid_control.walking.planar import dot, limited, PlanarPose, Point
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
 from humanoid_control.walking.support_polygon import SupportPolygon
 from humanoid_control.walking.terrain import Facet, LEVEL
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -19,6 +23,12 @@ class Foothold:
 
     pose: PlanarPose
     facet: Facet = LEVEL
+
+    @property
+    def sole_m(self) -> Array:
+        """Return where the origin of the sole is, (3,)."""
+        point = self.pose.position_m
+        return np.array([point.real, point.imag, self.facet.height_m])
 
 
 class Footing:

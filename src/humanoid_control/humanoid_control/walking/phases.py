@@ -149,8 +149,8 @@ class Stepping:
         step.feel(now)
         if not step.has_landed(now):
             return self
-        self._gear.course.advance(step.support, self._gear.command, step.duration_s)
         self._gear.learn_slope(self._gear.footing[step.support].facet.tilt)
+        self._gear.course.advance(step.support, self._gear.command, step.duration_s)
         self._gear.approach_target(self._gear.parameters.step_s)
         if self._gear.is_stopping and self._may_rest():
             return Stopping(self._gear, step.side, now.zmp_m)

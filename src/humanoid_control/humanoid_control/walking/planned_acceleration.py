@@ -51,5 +51,11 @@ def whole_acceleration(
     base[:3] = np.linalg.solve(share, missing)
     for leg, alone in zip(legs, without_root):
         followed = alone - leg.inverse[:, :3] @ base[:3]
-        joints[leg.indices] = np.clip(followed, -limit_rad_s2, limit_rad_s2)
+        joints[leg.indices] = within(followed, limit_rad_s2)
     return base, joints
+
+
+def within(values: Array, limit: float) -> Array:
+    """Return values that are at most as large as a limit."""
+    limited: Array = np.minimum(np.maximum(values, -limit), limit)
+    return limited

@@ -21,7 +21,7 @@ from humanoid_control.walking.gait import Gait, GaitOutput
 from humanoid_control.walking.gear import GaitInput, Gear, SoleReading
 from humanoid_control.walking.ground_reaction import GroundReaction
 from humanoid_control.walking.home_posture import HomePosture
-from humanoid_control.walking.leg_map import leg_maps
+from humanoid_control.walking.leg_map import LegMap
 from humanoid_control.walking.leg_reach import reachable_height_m
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion, Pendulum
@@ -29,6 +29,7 @@ from humanoid_control.walking.planar import Point
 from humanoid_control.walking.planned_acceleration import (
     PlannedAcceleration,
     whole_acceleration,
+    within,
 )
 from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import SIDES
@@ -104,7 +105,7 @@ class Walk:
             output.swing,
         )
         limit = self._parameters.velocity_limit_rad_s
-        velocities = np.clip(joints.velocities_rad_s, -limit, limit)
+        velocities = within(joints.velocities_rad_s, limit)
         return JointTargets(joints.positions_rad, velocities, self._efforts(output, joints))
 
     def lie(self, sensed: Sensed) -> None:
@@ -186,8 +187,7 @@ class Walk:
     def _within_reach(self, base: BaseMotion, sides: Sequence[int]) -> BaseMotion:
         """Return the base so low that the legs on the ground need not be stretched."""
         legs = [self._robot.legs[side].geometry for side in sides]
-        points = [self._footing.pose(side).position_m for side in sides]
-        soles = [np.array([point.real, point.imag, 0.0]) for point in points]
+        soles = [self._footing[side].sole_m for side in sides]
         x, y, _ = base.frame.position_m.tolist()
         height_m = reachable_height_m(base.frame, legs, soles, self._parameters.leg_reach)
         return BaseMotion(Frame(np.array([x, y, height_m]), base.frame.rotation), base.twist)
@@ -195,7 +195,7 @@ class Walk:
     def _efforts(self, output: GaitOutput, motion: JointMotion) -> Array:
         """Return the efforts (n,) that move the robot as planned and keep it upright."""
         state, p = self.sensed.state, self._parameters
-        maps = leg_maps(self._robot.legs, state)
+        maps = [LegMap.of(leg, state) for leg in self._robot.legs]
         base, joints = whole_acceleration(
             state, maps, self._planned(output, motion), p.acceleration_limit_rad_s2
         )
