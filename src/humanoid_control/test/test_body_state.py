@@ -202,12 +202,30 @@ def test_inertia_of_a_group(moving: Moving) -> None:
     assert part[0, 1] == 0.0 != part[0, 2]
 
 
+@pytest.mark.parametrize('name', ['com_m', 'com_velocity_m_s', 'bias_nm', 'bias_wrench'])
+def test_kept_quantities(moving: Moving, name: str) -> None:
+    """What is computed once is handed out again, and cannot be changed by who gets it."""
+    state = moving.at(0.0)
+    assert getattr(state, name) is getattr(state, name)
+    with pytest.raises(ValueError, match='read-only'):
+        getattr(state, name)[0] += 1.0
+
+
 def test_a_state_without_joints(robot: Robot) -> None:
     """A robot of which no joint turns has a centre of mass and no bias."""
     state = BodyModel.of(robot, ()).state(np.eye(3), np.ones(3), np.zeros(0), np.zeros(0))
     assert state.bias_nm.shape == (0,)
     assert state.com_velocity_m_s == pytest.approx(np.cross(np.ones(3), state.com_m))
     assert state.jacobian('l_sole').shape == (3, 6)
+
+
+@pytest.mark.parametrize('link', ['l_sole', 'head'])
+def test_jacobian_of_some_joints(moving: Moving, link: str) -> None:
+    """The Jacobian of a group has the columns of its joints, zero where they move nothing."""
+    state = moving.at(0.0)
+    group = state.model.group(['left_ankle_roll', 'left_knee', 'head_yaw'])
+    whole = np.vstack([state.jacobian(link), state.angular_jacobian(link)])
+    assert state.jacobian_of(group, link) == pytest.approx(whole[:, 6 + group.indices])
 
 
 def test_com_jacobian_maps_to_its_velocity(moving: Moving) -> None:
@@ -260,11 +278,3 @@ def test_torque_acts_at_the_joints(moving: Moving) -> None:
     state, torque = moving.at(0.0), np.array([1.0, -2.0, 0.5])
     efforts = state.efforts_of_force_nm('l_sole', np.zeros(3), np.zeros(3), torque)
     assert efforts == pytest.approx(state.angular_jacobian('l_sole')[:, 6:].T @ torque)
-
-
-def test_limb_jacobian_is_part_of_the_whole(moving: Moving) -> None:
-    """The columns of the joints of a limb are those of the whole Jacobians."""
-    state, model = moving.at(0.0), moving.model
-    indices = np.array([model.index(name) for name in model.joints if 'right_hip' in name])
-    whole = np.vstack([state.jacobian('r_sole'), state.angular_jacobian('r_sole')])
-    assert state.limb_jacobian('r_sole', indices) == pytest.approx(whole[:, 6 + indices])

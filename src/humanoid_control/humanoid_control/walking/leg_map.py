@@ -42,7 +42,7 @@ class LegMap:
 
 def leg_maps(legs: Sequence[Leg], state: BodyState) -> list[LegMap]:
     """Return the maps of legs in the posture that is measured."""
-    jacobians = np.array([state.limb_jacobian(leg.sole, leg.indices) for leg in legs])
+    jacobians = np.array([state.jacobian_of(leg.group, leg.sole) for leg in legs])
     turned = jacobians.transpose(0, 2, 1)
     damping = np.array([(_DAMPING * leg.geometry.length_m) ** 2 for leg in legs])
     # Damped least squares (Nakamura and Hanafusa, Inverse kinematic solutions with singularity

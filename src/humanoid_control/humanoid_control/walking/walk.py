@@ -187,7 +187,7 @@ class Walk:
     def _within_reach(self, base: BaseMotion, sides: Sequence[int]) -> BaseMotion:
         """Return the base so low that the legs on the ground need not be stretched."""
         legs = [self._robot.legs[side].geometry for side in sides]
-        soles = [self._footing.place_m(side) for side in sides]
+        soles = [self._footing[side].sole_m for side in sides]
         x, y, _ = base.frame.position_m.tolist()
         height_m = reachable_height_m(base.frame, legs, soles, self._parameters.leg_reach)
         return BaseMotion(Frame(np.array([x, y, height_m]), base.frame.rotation), base.twist)
