@@ -31,11 +31,15 @@ class Swinging:
         self.fault = 0.0
         self.at_rest = True
         self.trouble = ''
-        self.starts = 0
+        self.starts = self.forgets = 0
 
     def start(self, observation: Observation, held: JointTargets) -> None:
         """Count the starts."""
         self.starts += 1
+
+    def forget(self) -> None:
+        """Count how often it is told to forget."""
+        self.forgets += 1
 
     def update(self, observation: Observation) -> JointTargets:
         """Return the targets of the moment."""
@@ -58,6 +62,7 @@ class Robot:
                 ('left_elbow', 'right_elbow'),
                 may_end=lambda: self.walking.at_rest,
                 needs_all_because=lambda: self.walking.trouble,
+                forget=self.walking.forget,
             ),
             hold_mode(JOINTS),
             follow_mode(JOINTS),
@@ -232,10 +237,12 @@ def test_reset() -> None:
     """After a reset it begins anew from where the joints are."""
     robot = Robot()
     robot.run(150)
+    before = robot.walking.forgets
     robot.manager.reset()
     told = robot.manager.update(observed(2.0, 0.1, 0.1, 0.1))
     assert told.positions_rad == pytest.approx([0.1] * 3)
     assert robot.walking.starts == 2
+    assert robot.walking.forgets == before + 1
 
 
 def test_late_period() -> None:

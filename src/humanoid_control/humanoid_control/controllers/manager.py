@@ -81,6 +81,8 @@ class ControllerManager:
         """Begin anew with the next observation, from where the joints are then."""
         for guest in self._guests:
             guest.cancel()
+        for mode in self._modes.values():
+            mode.forget()
         self._last: JointTargets | None = None
         self._last_s = 0.0
         self._owners: Owners = np.full(len(self.joints), _MODE)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from humanoid_control.backends import Observation
+from humanoid_control.hosting.fall_report import FallReport
 from humanoid_control.hosting.parameters import HostParameters
 from humanoid_control.hosting.robot_inputs import RobotInputs
 from humanoid_control.hosting.robot_outputs import RobotOutputs
@@ -44,6 +45,8 @@ class HostedRobots:
         self._outputs = {
             name: RobotOutputs(node, name, robot, parameters) for name, robot in robots.items()
         }
+        log = node.get_logger()
+        self._falls = {name: FallReport(log, name) for name in robots}
         self.change(parameters)
 
     def change(self, parameters: HostParameters) -> None:
@@ -65,6 +68,7 @@ class HostedRobots:
         for name, outputs in self._outputs.items():
             outputs.publish(observations[name])
             self.time_s = observations[name].time_s
+            self._falls[name].look(self._robots[name].walker.has_fallen)
 
     def health(self) -> dict[str, RobotHealth]:
         """Return how each robot is."""
