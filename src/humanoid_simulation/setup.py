@@ -31,6 +31,7 @@ setup(
         'console_scripts': [
             'simulator = humanoid_simulation.simulator:main',
             'push_test = humanoid_simulation.examples.push_test:main',
+            'record_gait = humanoid_simulation.examples.record_gait:main',
             'walk_square = humanoid_simulation.examples.walk_square:main',
         ],
     },

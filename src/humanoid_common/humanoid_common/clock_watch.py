@@ -6,7 +6,7 @@ from __future__ import annotations
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
-PATIENCE_S = 2.0
+PATIENCE_S = 5.0
 TOPIC = '/clock'
 
 

@@ -202,6 +202,15 @@ def test_inertia_of_a_group(moving: Moving) -> None:
     assert part[0, 1] == 0.0 != part[0, 2]
 
 
+@pytest.mark.parametrize('name', ['com_m', 'com_velocity_m_s', 'bias_nm', 'bias_wrench'])
+def test_kept_quantities(moving: Moving, name: str) -> None:
+    """What is computed once is handed out again, and cannot be changed by who gets it."""
+    state = moving.at(0.0)
+    assert getattr(state, name) is getattr(state, name)
+    with pytest.raises(ValueError, match='read-only'):
+        getattr(state, name)[0] += 1.0
+
+
 def test_a_state_without_joints(robot: Robot) -> None:
     """A robot of which no joint turns has a centre of mass and no bias."""
     state = BodyModel.of(robot, ()).state(np.eye(3), np.ones(3), np.zeros(0), np.zeros(0))

@@ -98,6 +98,8 @@ def test_pause(ros: RosSandbox) -> None:
     others = World(ros, fast=False)
     ros.wait_until(lambda: len(others.times_s) >= 10, what='ticks of another host')
     assert world.host.paused and len(world.times_s) == before + 5
+    looks = world.looks
+    ros.wait_until(lambda: world.looks > looks + 2, what='looks in the pause')
     world.host.pause(False)
     ros.wait_until(lambda: len(world.times_s) >= before + 10, what='ticks after the pause')
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from humanoid_control.dynamics import BodyModel, BodyState
 from humanoid_control.dynamics.rotations import from_rpy
 from humanoid_control.walking.home_posture import HomePosture
-from humanoid_control.walking.leg_map import LegMap
+from humanoid_control.walking.leg_map import leg_maps
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planned_acceleration import (
     PlannedAcceleration,
@@ -58,7 +58,7 @@ def test_plan_is_kept(walking: WalkingRobot, state: BodyState) -> None:
     plan = PlannedAcceleration(
         np.array([0.5, -0.8, 0.0]), np.array([1.0, 2.0, -1.0]), (swinging, still), arms
     )
-    maps = [LegMap.of(leg, state) for leg in walking.legs]
+    maps = leg_maps(walking.legs, state)
     base, joints = whole_acceleration(state, maps, plan, 1e3)
     accelerations = np.append(base, joints)
     com = state.com_jacobian @ accelerations + state.com_drift_m_s2
@@ -73,7 +73,7 @@ def test_plan_is_kept(walking: WalkingRobot, state: BodyState) -> None:
 
 def test_joints_are_limited(walking: WalkingRobot, state: BodyState) -> None:
     """A sole that is told to jump does not ask for more than the limit."""
-    maps = [LegMap.of(leg, state) for leg in walking.legs]
+    maps = leg_maps(walking.legs, state)
     jump = np.array([0.0, 0.0, 1e5, 0.0, 0.0, 0.0])
     plan = PlannedAcceleration(
         np.zeros(3), np.zeros(3), (jump, np.zeros(6)), np.zeros(len(walking.body.joints))
@@ -87,7 +87,7 @@ def test_a_stretched_leg_stays_finite(walking: WalkingRobot) -> None:
     n = len(walking.body.joints)
     straight = walking.body.state(np.eye(3), np.zeros(3), np.zeros(n), np.zeros(n))
     lift = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
-    asked = LegMap.of(walking.legs[LEFT], straight).accelerations(lift, np.zeros(6))
+    asked = leg_maps(walking.legs, straight)[LEFT].accelerations(lift, np.zeros(6))
     assert np.isfinite(asked).all()
     assert np.abs(asked).max() < 200.0
 

@@ -46,14 +46,14 @@ def test_fixed_frame(view: dict[str, Any], robot: ElementTree.Element) -> None:
     assert view['Global Options']['Fixed Frame'] == robot.findall('link')[0].attrib['name']
 
 
-def test_launch_arguments() -> None:
-    """The launch file has the arguments of the model, with its defaults."""
-    description = load_launch_file(SHARE / 'launch' / 'view.launch.py')
-    assert argument_defaults(description) == {
-        'gui': 'true',
-        'scale': '1.0',
-        'prefix': '',
-        'upper_body_only': 'false',
-        'use_sim_time': 'false',
-    }
+MODEL = {'scale': '1.0', 'prefix': '', 'upper_body_only': 'false', 'use_sim_time': 'false'}
+
+
+@pytest.mark.parametrize(
+    ('name', 'defaults'), [('view', {'gui': 'true', **MODEL}), ('description', MODEL)]
+)
+def test_launch_arguments(name: str, defaults: dict[str, str]) -> None:
+    """The launch files have the arguments of the model, with its defaults."""
+    description = load_launch_file(SHARE / 'launch' / f'{name}.launch.py')
+    assert argument_defaults(description) == defaults
     assert undescribed_arguments(description) == []

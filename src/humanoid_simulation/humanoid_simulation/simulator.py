@@ -12,6 +12,7 @@ from humanoid_common.errors import NodeStartError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.running import run_node
 from humanoid_control.backends import Observation
+from humanoid_control.hosting.diagnostics import HostDiagnostics
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
 from humanoid_description.errors import DescriptionError
@@ -44,7 +45,9 @@ class Simulator(Node):
             {name: backend.camera(name) for name in backend.robots},
             backend.model,
             parameters,
+            parameters.prefix,
         )
+        self._see()
         brains = {name: robot.control for name, robot in simulated.controls.items()}
         loop = GuardedLoop(backend, brains, self._fail)
         self._pacer = Pacer(backend.period_s, parameters.real_time_factor, time.monotonic())
@@ -53,10 +56,16 @@ class Simulator(Node):
         )
         self._host.pause(parameters.start_paused)
         self._control = SimulatorServices(
-            self, backend, loop, self._host, simulated.controls, parameters.steps_per_period
+            self, backend, loop, self._host, parameters.steps_per_period
         )
         self._factor_topic = RealTimeFactorTopic(self, self._pacer)
+        self._diagnostics = HostDiagnostics(self, self._host, self._robots)
         self.get_logger().info(_greeting(simulated, parameters))
+
+    @property
+    def camera_process_id(self) -> int | None:
+        """Return the number of the process that draws what the cameras see, if it runs."""
+        return self._cameras.process_id
 
     def destroy_node(self) -> None:
         """End, together with the process that draws."""
@@ -71,9 +80,15 @@ class Simulator(Node):
             raise NodeStartError(f'The simulator cannot start. {error}') from error
 
     def _tell(self, observations: Mapping[str, Observation]) -> None:
-        """Publish what is due after a period."""
+        """Publish what is due after a period; at time zero nothing: ROS takes it for no time."""
+        if next(iter(observations.values())).time_s <= 0.0:
+            return
         self._world.tell(observations)
         self._robots.tell(observations)
+        self._see()
+
+    def _see(self) -> None:
+        """Let the cameras see the world as it is."""
         time_ns = round(self._backend.time_s * 1e9)
         self._cameras.tick(time.monotonic(), time_ns, self._backend.data)
 

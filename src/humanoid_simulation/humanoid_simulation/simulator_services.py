@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 import math
 from typing import Any
 
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.topics.filling import topic
-from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_interfaces.srv import (
     ApplyWrench,
     ResetSimulation,
@@ -37,12 +36,11 @@ class SimulatorServices:
         backend: MujocoBackend,
         loop: GuardedLoop,
         host: Host,
-        controls: Mapping[str, WalkingRobotControl],
         steps_per_period: int,
     ) -> None:
         """Offer the services."""
         self._backend, self._loop, self._host = backend, loop, host
-        self._controls, self._steps_per_period = controls, steps_per_period
+        self._steps_per_period = steps_per_period
         for kind, name, do in (
             (SetBool, '~/set_pause', self._set_pause),
             (StepSimulation, '~/step_simulation', self._step),
@@ -88,7 +86,7 @@ class SimulatorServices:
 
     def _put(self, request: SetEntityState.Request) -> str:
         """Put a robot or a thing somewhere."""
-        self._backend.set_entity_state(self._backend.entity(request.entity), entity_state(request))
+        self._backend.set_entity_state(request.entity, entity_state(request))
         return 'Done.'
 
     def _push(self, request: ApplyWrench.Request) -> str:

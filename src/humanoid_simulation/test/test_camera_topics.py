@@ -13,27 +13,32 @@ from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_simulation.camera.parameters import CameraParameters
 from humanoid_simulation.camera.topics import CameraTopics
 from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.testing.camera_studio import ball_address
 from humanoid_simulation.testing.camera_world import world
 import numpy as np
 import pytest
 from sensor_msgs.msg import CameraInfo, Image
 
 SMALL = {'camera_width_px': 64, 'camera_height_px': 49, 'camera_renderer': 'rays'}
-TICK_NS = 10_000_000
 
 
 class Set:
     """The cameras of a node, and a clock that ticks when the test wants."""
 
-    def __init__(self, ros: RosSandbox, cameras: Mapping[str, str], **parameters: Any) -> None:
+    def __init__(
+        self,
+        ros: RosSandbox,
+        cameras: Mapping[str, str],
+        prefix: str = '',
+        **parameters: Any,
+    ) -> None:
         """Begin at time 0."""
         self._ros = ros
         self._model, self._data = world()
         self.node = ros.observer()
-        self.topics = CameraTopics(
-            self.node, cameras, self._model, build(CameraParameters, {**SMALL, **parameters})
-        )
-        self.time_ns = 0
+        given = build(CameraParameters, {**SMALL, **parameters})
+        self.topics = CameraTopics(self.node, cameras, self._model, given, prefix)
+        self._ticks = 0
 
     def collect(self, kind: Any, topic: str) -> list[Any]:
         """Collect the messages of a topic."""
@@ -50,10 +55,28 @@ class Set:
 
         self._ros.wait_until(is_so, 60.0, what)
 
+    def wait_until(self, predicate: Callable[[], bool], what: str) -> None:
+        """Wait, in a pause, until the predicate holds."""
+        self._ros.wait_until(predicate, 60.0, what)
+
+    def rest(self, duration_s: float) -> None:
+        """Let the node do what it does in a pause."""
+        end_s = time.monotonic() + duration_s
+        self.wait_until(lambda: time.monotonic() > end_s, 'time to pass')
+
     def tick(self) -> None:
         """Tick once."""
-        self.time_ns += TICK_NS
+        self._ticks += 1
         self.topics.tick(time.monotonic(), self.time_ns, self._data)
+
+    def move_ball(self) -> None:
+        """Put the ball elsewhere."""
+        self._data.qpos[ball_address(self._model) + 2] += 0.2
+
+    @property
+    def time_ns(self) -> int:
+        """Return the simulated time."""
+        return self._ticks * 10_000_000
 
 
 MakeSet = Callable[..., Set]
@@ -94,10 +117,11 @@ def test_color(make_set: MakeSet) -> None:
 
 def test_depth(make_set: MakeSet) -> None:
     """A depth picture is in metres."""
-    one = make_set({'': 'eye'})
+    one = make_set({'': 'eye'}, prefix='my_')
     images = one.collect(Image, 'camera/depth/image_raw')
     one.tick_until(lambda: bool(images), 'a picture')
     image = images[0]
+    assert image.header.frame_id == 'my_camera_optical_frame'
     assert (image.encoding, image.step) == ('32FC1', 256)
     metres = np.frombuffer(image.data, np.float32).reshape(49, 64)
     assert metres[5, 5] == pytest.approx(2.0, abs=1e-3)
@@ -128,13 +152,40 @@ def test_nothing_is_drawn_for_nobody(make_set: MakeSet) -> None:
     assert stamp_ns(infos[2]) - stamp_ns(infos[1]) == 100_000_000
 
 
+def test_pause(make_set: MakeSet) -> None:
+    """In a pause, new subscribers get a picture of the state, and all one of what was moved."""
+    one = make_set({'': 'eye'})
+    for _ in range(15):
+        one.tick()
+    first = one.collect(Image, 'camera/image_raw')
+    one.wait_until(lambda: bool(first), 'a picture')
+    second = one.collect(Image, 'camera/image_raw')
+    one.wait_until(lambda: bool(second), 'a picture for the other one')
+    assert stamp_ns(first[0]) == stamp_ns(second[0]) == one.time_ns
+    one.move_ball()
+    one.wait_until(lambda: second[-1].data != first[0].data, 'a picture of what was moved')
+
+
+def test_nothing_is_drawn_twice(make_set: MakeSet) -> None:
+    """In a pause in which nothing changes, no more pictures come."""
+    one = make_set({'': 'eye'})
+    images = one.collect(Image, 'camera/image_raw')
+    one.tick_until(lambda: bool(images), 'a picture')
+    one.rest(2.0)
+    count = len(images)
+    one.rest(0.5)
+    assert len(images) == count
+
+
 def test_two_robots(make_set: MakeSet) -> None:
     """The cameras of two robots publish in their namespaces, drawn by one process."""
     two = make_set({'robot1': 'eye', 'robot2': 'back_eye'})
     first = two.collect(Image, 'robot1/camera/image_raw')
     second = two.collect(Image, 'robot2/camera/image_raw')
     two.tick_until(lambda: bool(first) and bool(second), 'pictures of both')
-    assert any(first[0].data) and not any(second[0].data)
+    wall, sky = list(first[0].data[:3]), list(second[0].data[:3])
+    assert wall == pytest.approx([128, 130, 128], abs=3)
+    assert sky == pytest.approx([51, 102, 153], abs=3)
 
 
 def test_off(make_set: MakeSet) -> None:

@@ -241,6 +241,8 @@ def test_physics_that_explodes_says_so(backend: MujocoBackend, tmp_path, monkeyp
     backend.apply_wrench('torso', (1e14, 0.0, 0.0))
     with pytest.raises(SimulationError, match=r'unstable at .* Reset the simulation'):
         run(backend, 1.0)
+    assert np.isfinite(backend.snapshot().qpos).all()
+    assert np.isfinite(backend.observe()[''].positions_rad).all()
     backend.reset()
     run(backend, 1.0)
     assert backend.ground_truth().position_m[2] > 0.68

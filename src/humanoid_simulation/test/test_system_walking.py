@@ -48,10 +48,16 @@ def test_it_walks_straight(robot: SimulatedRobot) -> None:
 
 def test_it_turns_by_its_odometry(robot: SimulatedRobot) -> None:
     """A quarter turn, to which it needs no ground truth."""
-    begin, believed = robot.pose, robot.topics.odometry.yaw_rad
+    begin, believed = robot.pose, robot.topics.odometry
+
+    def left_rad() -> float:
+        """Return by how much more it believes that it has to turn."""
+        return math.pi / 2 - wrap_angle(robot.topics.odometry.yaw_rad - believed.yaw_rad)
+
     robot.drive(turn=0.4)
-    turned = lambda: wrap_angle(robot.topics.odometry.yaw_rad - believed)  # noqa: E731
-    assert robot.wait_until(lambda: turned() > math.pi / 2 - 0.1, 8.0)
+    assert robot.wait_until(lambda: left_rad() < 0.4, 8.0)
+    robot.drive(turn=0.15)
+    assert robot.wait_until(lambda: left_rad() < 0.05, 8.0)
     robot.drive()
     robot.wait(3.0)
     assert wrap_angle(robot.pose.yaw_rad - begin.yaw_rad) == pytest.approx(math.pi / 2, abs=0.15)

@@ -9,6 +9,7 @@ from functools import cached_property
 import math
 
 from humanoid_common.naming import did_you_mean
+from humanoid_control.dynamics.body_matrices import BodyMatrices
 from humanoid_control.dynamics.body_state import BodyState
 from humanoid_control.dynamics.errors import DynamicsError
 from humanoid_control.dynamics.forward import ForwardKinematics
@@ -65,10 +66,10 @@ class BodyModel:
         """Return the links by their names, frames without mass as well."""
         return self.tree.mounts
 
-    @cached_property
+    @property
     def mass_kg(self) -> float:
         """Return the mass of all bodies."""
-        return float(self.tree.inertias[:, 3, 3].sum())
+        return self.tree.mass_kg
 
     @cached_property
     def forward(self) -> ForwardKinematics:
@@ -98,7 +99,8 @@ class BodyModel:
         """
         Return the robot in a posture and motion; nothing is computed that is not asked for.
 
-        The origin of the root is at zero and does not move: add its position and velocity.
+        The origin of the root is at zero and does not move: add its position and velocity. The
+        arrays are not copied: leave them as they are while the state is in use.
 
         :param rotation: of the root in the world, (3, 3)
         :param angular_velocity_rad_s: of the root in its own axes, (3,), as a gyroscope has it
@@ -115,9 +117,16 @@ class BodyModel:
         )
         for name, values, shape in given:
             _check(name, values, shape)
-        return BodyState(
-            self, rotation, rotation @ angular_velocity_rad_s, positions_rad, velocities_rad_s
+        matrices = BodyMatrices(
+            self.tree,
+            self.forward,
+            self.gravity_m_s2,
+            rotation,
+            rotation @ angular_velocity_rad_s,
+            positions_rad,
+            velocities_rad_s,
         )
+        return BodyState(self.tree, matrices, self.armature_kgm2)
 
 
 def _armature(joints: tuple[str, ...], given: ArrayLike) -> Array:

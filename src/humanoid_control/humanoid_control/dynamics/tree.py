@@ -63,6 +63,11 @@ class Tree:
         )
 
     @cached_property
+    def mass_kg(self) -> float:
+        """Return the mass of all bodies."""
+        return float(self.inertias[:, 3, 3].sum())
+
+    @cached_property
     def moves(self) -> Array:
         """Return (n + 1, n): 1 where the joint of the column moves the body of the row."""
         n = len(self.joints)

@@ -15,6 +15,8 @@ from rclpy.node import Node
 
 SLICE_S = 0.005
 """After so long with ticks alone, the node hears what has come meanwhile."""
+PAUSED_INTERVAL_S = 0.05
+"""In a pause, the host looks so often for what has come: a stop is to be heard."""
 _AT_ONCE_S = 1e-6
 _EARLY = 0.25
 """A tick may begin earlier by this share of the interval: no timer is exactly in step."""
@@ -45,7 +47,7 @@ class Host:
         :param interval_s: between two ticks at the pace; 0 is as fast as possible
         """
         self._loop, self._pace, self._look, self._tell = loop, pace, look, tell
-        self._early_s = _EARLY * interval_s
+        self._interval_s = interval_s
         self._paused = False
         self.load = Load(time.monotonic())
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -59,18 +61,14 @@ class Host:
     def pause(self, paused: bool) -> None:
         """Stop the time, or let it go on."""
         self._paused = paused
-        if paused:
-            self._timer.cancel()
-        else:
+        if not paused:
             self._pace.restart(time.monotonic())
-            self._timer.reset()
+        self._set_timer()
 
     def change(self, interval_s: float) -> None:
         """Tick at another interval; the pace has been told already."""
-        self._early_s = _EARLY * interval_s
-        self._timer.timer_period_ns = int((interval_s or _AT_ONCE_S) * 1e9)
-        if not self._paused:
-            self._timer.reset()
+        self._interval_s = interval_s
+        self._set_timer()
 
     def tick(self) -> None:
         """Let one period pass."""
@@ -82,11 +80,20 @@ class Host:
         self._loop.reset(keyframe)
 
     def _run(self) -> None:
-        """Do the ticks that are due, for a slice of time at most."""
+        """Do the ticks that are due, for a slice of time at most; in a pause, only look."""
+        if self._paused:
+            self._look()
+            return
         now_s = time.monotonic()
-        end_s = now_s + SLICE_S
-        while now_s < end_s and self._pace.wait_s(now_s) <= self._early_s:
+        end_s, early_s = now_s + SLICE_S, _EARLY * self._interval_s
+        while not self._paused and now_s < end_s and self._pace.wait_s(now_s) <= early_s:
             self.tick()
             before_s, now_s = now_s, time.monotonic()
             self.load.add(now_s - before_s)
             self._pace.ticked(now_s)
+
+    def _set_timer(self) -> None:
+        """Let the timer follow a change of the pace, or a pause."""
+        interval_s = PAUSED_INTERVAL_S if self._paused else self._interval_s or _AT_ONCE_S
+        self._timer.timer_period_ns = int(interval_s * 1e9)
+        self._timer.reset()

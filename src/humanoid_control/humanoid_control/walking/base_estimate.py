@@ -48,7 +48,7 @@ def base_on(
     for side in SIDES:
         if shares[side] > 0.0:
             sole = robot.legs[side].sole
-            position += shares[side] * (footing.place_m(side) - state.position_m(sole))
+            position += shares[side] * (footing[side].sole_m - state.position_m(sole))
             velocity -= shares[side] * state.velocity_m_s(sole)
     return BaseEstimate(position, velocity)
 

@@ -24,6 +24,12 @@ class Foothold:
     pose: PlanarPose
     facet: Facet = LEVEL
 
+    @property
+    def sole_m(self) -> Array:
+        """Return where the origin of the sole is, (3,)."""
+        point = self.pose.position_m
+        return np.array([point.real, point.imag, self.facet.height_m])
+
 
 class Footing:
     """The footholds of both feet, and what follows from them."""
@@ -37,12 +43,6 @@ class Footing:
     def __getitem__(self, side: int) -> Foothold:
         """Return where a foot is."""
         return self._footholds[side]
-
-    def place_m(self, side: int) -> Array:
-        """Return where the sole's origin is (3,)."""
-        foothold = self._footholds[side]
-        point = foothold.pose.position_m
-        return np.array([point.real, point.imag, foothold.facet.height_m])
 
     def put(self, side: int, foothold: Foothold) -> None:
         """Note where a foot has landed."""

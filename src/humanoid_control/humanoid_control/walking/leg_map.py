@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from humanoid_control.dynamics import BodyState
@@ -12,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-_DIAGONAL = np.diag_indices(6)
 _DAMPING = 0.01
 """As a share of the leg's length: keeps rates finite where the leg is stretched."""
+_ONE: Array = np.eye(6)
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,20 +34,26 @@ class LegMap:
     drift: Array
     """(6,) the acceleration of the sole while base and joints do not accelerate"""
 
-    @classmethod
-    def of(cls, leg: Leg, state: BodyState) -> LegMap:
-        """Return the map of a leg in the posture that is measured."""
-        own = state.jacobian_of(leg.group, leg.sole)
-        carry = np.eye(6)
-        carry[:3, 3:] = -skew(state.position_m(leg.sole))
-        # Damped least squares (Nakamura and Hanafusa, Inverse kinematic solutions with
-        # singularity robustness, ASME Journal of Dynamic Systems 108, 1986).
-        square = own.T @ own
-        square[_DIAGONAL] += (_DAMPING * leg.geometry.length_m) ** 2
-        inverse = np.linalg.solve(square, own.T)
-        return cls(leg.indices, inverse, carry, state.drift(leg.sole))
-
     def accelerations(self, sole: Array, base: Array) -> Array:
         """Return how the joints accelerate (6,) for accelerations of sole and base."""
         accelerations: Array = self.inverse @ (sole - self.drift - self.carry @ base)
         return accelerations
+
+
+def leg_maps(legs: Sequence[Leg], state: BodyState) -> list[LegMap]:
+    """Return the maps of legs in the posture that is measured."""
+    jacobians = np.array([state.jacobian_of(leg.group, leg.sole) for leg in legs])
+    turned = jacobians.transpose(0, 2, 1)
+    damping = np.array([(_DAMPING * leg.geometry.length_m) ** 2 for leg in legs])
+    # Damped least squares (Nakamura and Hanafusa, Inverse kinematic solutions with singularity
+    # robustness, ASME Journal of Dynamic Systems 108, 1986).
+    squares = turned @ jacobians + damping[:, None, None] * _ONE
+    inverses = np.linalg.solve(squares, turned)
+    return [_leg_map(leg, state, inverse) for leg, inverse in zip(legs, inverses)]
+
+
+def _leg_map(leg: Leg, state: BodyState, inverse: Array) -> LegMap:
+    """Return the map of a leg."""
+    carry = _ONE.copy()
+    carry[:3, 3:] = -skew(state.position_m(leg.sole))
+    return LegMap(leg.indices, inverse, carry, state.drift(leg.sole))

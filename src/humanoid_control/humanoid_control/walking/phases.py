@@ -82,8 +82,8 @@ class Standing(_OnBothFeet):
         """Go on standing, or step."""
         self._elapsed_s += now.passed_s
         self._gear.approach_target(now.passed_s)
-        self._gear.slope = self._gear.footing.tilt
         self._gear.course.restart()
+        self._gear.slope = self._gear.footing.tilt
         if not self._gear.target.is_zero:
             shift_s = self._gear.parameters.first_shift_s
             return Stepping(

@@ -21,7 +21,7 @@ from humanoid_control.walking.gait import Gait, GaitOutput
 from humanoid_control.walking.gear import GaitInput, Gear, SoleReading
 from humanoid_control.walking.ground_reaction import GroundReaction
 from humanoid_control.walking.home_posture import HomePosture
-from humanoid_control.walking.leg_map import LegMap
+from humanoid_control.walking.leg_map import leg_maps
 from humanoid_control.walking.leg_reach import reachable_height_m
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion, Pendulum
@@ -187,7 +187,7 @@ class Walk:
     def _within_reach(self, base: BaseMotion, sides: Sequence[int]) -> BaseMotion:
         """Return the base so low that the legs on the ground need not be stretched."""
         legs = [self._robot.legs[side].geometry for side in sides]
-        soles = [self._footing.place_m(side) for side in sides]
+        soles = [self._footing[side].sole_m for side in sides]
         x, y, _ = base.frame.position_m.tolist()
         height_m = reachable_height_m(base.frame, legs, soles, self._parameters.leg_reach)
         return BaseMotion(Frame(np.array([x, y, height_m]), base.frame.rotation), base.twist)
@@ -195,7 +195,7 @@ class Walk:
     def _efforts(self, output: GaitOutput, motion: JointMotion) -> Array:
         """Return the efforts (n,) that move the robot as planned and keep it upright."""
         state, p = self.sensed.state, self._parameters
-        maps = [LegMap.of(leg, state) for leg in self._robot.legs]
+        maps = leg_maps(self._robot.legs, state)
         base, joints = whole_acceleration(
             state, maps, self._planned(output, motion), p.acceleration_limit_rad_s2
         )

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections import deque
-from typing import Any, TYPE_CHECKING
+from typing import Any
 
 from humanoid_control.backends import Array, JointTargets, Observation
 from humanoid_simulation.backend.layout import layout_of
@@ -12,12 +12,10 @@ from humanoid_simulation.backend.noise import NoiseSource
 from humanoid_simulation.backend.posing import pose
 from humanoid_simulation.backend.sensing import Sensors
 from humanoid_simulation.backend.servos import check_targets, Servos
+from humanoid_simulation.backend.settings import BackendSettings
 from humanoid_simulation.keyframes import Keyframe
 from humanoid_simulation.model import Placement, RobotDescription
 import numpy as np
-
-if TYPE_CHECKING:
-    from humanoid_simulation.backend.mujoco_backend import BackendSettings
 
 
 class SimulatedRobot:

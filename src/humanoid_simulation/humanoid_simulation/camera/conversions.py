@@ -17,7 +17,8 @@ _NANOSECONDS = 1_000_000_000
 
 def stamp_of(time_ns: int) -> Time:
     """Return a time as ROS writes it."""
-    return Time(sec=time_ns // _NANOSECONDS, nanosec=time_ns % _NANOSECONDS)
+    seconds, nanoseconds = divmod(time_ns, _NANOSECONDS)
+    return Time(sec=seconds, nanosec=nanoseconds)
 
 
 def color_image(pinhole: Pinhole, frame: str) -> Image:

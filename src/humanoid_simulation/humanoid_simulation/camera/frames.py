@@ -18,14 +18,14 @@ _ALIGNMENT = 64
 
 class Frames:
     """
-    A snapshot, and a colour and a depth picture of each view, in one piece of memory.
+    One piece of memory with the positions of a state, and two pictures of each view.
 
     The memory has no name and is gone with the last process that holds it.
     """
 
-    def __init__(self, file: int, snapshot_size: int, views: Sequence[CameraView]) -> None:
+    def __init__(self, file: int, nq: int, views: Sequence[CameraView]) -> None:
         """Map the memory of an open file; give it its size if it is new."""
-        sizes = [snapshot_size * 8]
+        sizes = [nq * 8]
         for view in views:
             pixels = view.width_px * view.height_px
             sizes += [pixels * 3, pixels * 4]
@@ -33,7 +33,7 @@ class Frames:
         os.ftruncate(file, int(ends[-1]))
         self._memory = mmap.mmap(file, int(ends[-1]))
         starts = [0, *(int(end) for end in ends[:-1])]
-        self.snapshot: NDArray[np.float64] = self._array(np.float64, 0, snapshot_size)
+        self.qpos: NDArray[np.float64] = self._array(np.float64, 0, nq)
         self.colors: list[Color] = [
             self._array(np.uint8, start, view.height_px, view.width_px, 3)
             for start, view in zip(starts[1::2], views)

@@ -12,6 +12,11 @@ import mujoco
 import numpy as np
 
 _SPARE_GEOMS = 500
+_LEFT_OUT = (
+    mujoco.mjtRndFlag.mjRND_SHADOW,
+    mujoco.mjtRndFlag.mjRND_REFLECTION,
+    mujoco.mjtRndFlag.mjRND_HAZE,
+)
 
 
 class GlPainter:
@@ -27,8 +32,9 @@ class GlPainter:
         self._model = model
         _make_cheap(model, width_px, height_px)
         self._scene = mujoco.MjvScene(model, maxgeom=model.ngeom + _SPARE_GEOMS)
-        self._scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = 0
-        self._scene.flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = 0
+        for flag in _LEFT_OUT:
+            self._scene.flags[flag] = 0
+        self._has_sky = mujoco.mjtTexture.mjTEXTURE_SKYBOX in list(model.tex_type)
         self._option = mujoco.MjvOption()
         self._camera = mujoco.MjvCamera()
         self._camera.type = mujoco.mjtCamera.mjCAMERA_FIXED
@@ -39,14 +45,28 @@ class GlPainter:
         self, data: mujoco.MjData, camera: int, color: Color | None, depth: Depth | None
     ) -> None:
         """Fill the pictures that are given."""
-        shape = _shape_of(color, depth)
-        if shape is None:
-            return
         self._camera.fixedcamid = camera
         everything = mujoco.mjtCatBit.mjCAT_ALL.value
         mujoco.mjv_updateScene(
             self._model, data, self._option, None, self._camera, everything, self._scene
         )
+        if self._has_sky:
+            self._render(color, None)
+            self._render(None, depth)
+        else:
+            self._render(color, depth)
+
+    def close(self) -> None:
+        """End OpenGL."""
+        self._context.free()
+        self._gl.free()
+
+    def _render(self, color: Color | None, depth: Depth | None) -> None:
+        """Fill the pictures that are given; a sky is drawn only if depth is not."""
+        shape = _shape_of(color, depth)
+        if shape is None:
+            return
+        self._scene.flags[mujoco.mjtRndFlag.mjRND_SKYBOX] = depth is None
         window = mujoco.MjrRect(0, 0, shape[1], shape[0])
         mujoco.mjr_render(window, self._scene, self._context)
         mujoco.mjr_readPixels(color, depth, window, self._context)
@@ -54,11 +74,6 @@ class GlPainter:
             color[:] = color[::-1].copy()
         if depth is not None:
             depth[:] = _metres(depth[::-1])
-
-    def close(self) -> None:
-        """End OpenGL."""
-        self._context.free()
-        self._gl.free()
 
 
 def _start(method: str, width_px: int, height_px: int) -> Any:

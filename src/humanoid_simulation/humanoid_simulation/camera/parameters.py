@@ -27,7 +27,9 @@ class CameraParameters:
         240, 'The height of the pictures.', at_least=16, at_most=1920, read_only=True
     )
     camera_frame: str = parameter(
-        'camera_optical_frame', 'The frame of the pictures.', read_only=True
+        'camera_optical_frame',
+        'The frame of the pictures, without the prefix of the robot.',
+        read_only=True,
     )
     camera_renderer: str = parameter(
         AUTO,

@@ -72,8 +72,7 @@ class ProcessKeeper:
         """Start what is missing, and see what has become of what was started."""
         if self._process is None:
             if self._ladder.method and now_s >= self._next_start_s:
-                self._process = self._start(self._ladder.method)
-                self._deadline_s = now_s + self._patience.start_s
+                self._begin(now_s)
             return
         self._process.poll()
         if self._process.has_ended():
@@ -100,11 +99,23 @@ class ProcessKeeper:
             self._process.wait(self._patience.end_s)
             self._process = None
 
+    def _begin(self, now_s: float) -> None:
+        """Start a process."""
+        self._deadline_s = now_s + self._patience.start_s
+        try:
+            self._process = self._start(self._ladder.method)
+        except OSError as error:
+            self._go_on(f'its process cannot be started: {error.strerror}.', now_s)
+
     def _bury(self, process: RenderProcess, now_s: float) -> None:
-        """Say that a process has ended, and what comes next."""
+        """Take leave of a process that has ended."""
         reason = process.end_reason()
         process.release()
         self._process = None
+        self._go_on(reason, now_s)
+
+    def _go_on(self, reason: str, now_s: float) -> None:
+        """Say why there is no process, and what comes next."""
         if self._ladder.note_end(reason):
             self._next_start_s = now_s + self._patience.retry_s
             self._log.warning(

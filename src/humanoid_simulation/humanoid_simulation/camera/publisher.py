@@ -25,9 +25,9 @@ class CameraPublisher:
     Pictures are reliable: large messages lose parts otherwise, and with them the whole.
     """
 
-    def __init__(self, node: Node, prefix: str, pinhole: Pinhole, frame: str) -> None:
-        """Announce the topics; `prefix` is '' or the name of a robot and a slash."""
-        base = f'{prefix}camera'
+    def __init__(self, node: Node, folder: str, pinhole: Pinhole, frame: str) -> None:
+        """Announce the topics; `folder` is '' or the name of a robot and a slash."""
+        base = f'{folder}camera'
         self._color = node.create_publisher(Image, f'{base}/image_raw', STATE)
         self._depth = node.create_publisher(Image, f'{base}/depth/image_raw', STATE)
         self._color_info = node.create_publisher(CameraInfo, f'{base}/camera_info', STATE)
@@ -42,6 +42,11 @@ class CameraPublisher:
             color=self._color.get_subscription_count() > 0,
             depth=self._depth.get_subscription_count() > 0,
         )
+
+    @property
+    def subscribers(self) -> int:
+        """Return how many subscribers the pictures have."""
+        return sum(each.get_subscription_count() for each in (self._color, self._depth))
 
     def publish(self, wanted: Wanted, color: Color, depth: Depth, stamp: Time) -> None:
         """Publish the pictures that were wanted, all with the same time."""

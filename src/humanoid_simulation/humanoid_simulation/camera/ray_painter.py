@@ -37,21 +37,22 @@ class RayPainter:
         rays = self._rays[camera]
         turn = data.cam_xmat[camera].reshape(3, 3)
         hits = cast_rays(self._model, data, data.cam_xpos[camera], rays @ turn.T)
+        along_m = hits.distances_m * -rays[:, 2]
+        is_seen = along_m < FAR_M
         if depth is not None:
-            along_m = hits.distances_m * -rays[:, 2]
-            depth[:] = np.where(along_m < FAR_M, along_m, np.inf).reshape(depth.shape)
+            depth[:] = np.where(is_seen, along_m, np.inf).reshape(depth.shape)
         if color is not None:
-            shown = self._shown(data, hits, forward=-turn[:, 2])
+            lit = self._lit(data, hits, forward=-turn[:, 2])
+            shown = np.where(is_seen[:, None], lit, self._sky)
             color[:] = (255.0 * np.clip(shown, 0.0, 1.0)).reshape(color.shape)
 
     def close(self) -> None:
         """Do nothing: memory is all that is held."""
 
-    def _shown(self, data: mujoco.MjData, hits: Hits, forward: Array) -> Array:
-        """Return the colour of each ray, (n, 3), 1 as bright as white paper in full light."""
+    def _lit(self, data: mujoco.MjData, hits: Hits, forward: Array) -> Array:
+        """Return the colour of what each ray hits, (n, 3), 1 as bright as a screen can be."""
         light = brightness(self._model, data, hits.points, hits.normals, forward)
-        is_hit = (hits.geoms >= 0)[:, None]
-        return np.where(is_hit, self._colors[hits.geoms] * light, self._sky)
+        return self._colors[hits.geoms] * light
 
 
 def _unit_rays(model: mujoco.MjModel, view: CameraView) -> Array:

@@ -19,9 +19,10 @@ from humanoid_simulation.camera.methods import RAYS
 from humanoid_simulation.camera.painter import Painter
 from humanoid_simulation.camera.protocol import Assignment, DONE, FAILED, READY, wanted_in
 from humanoid_simulation.camera.ray_painter import RayPainter
-from humanoid_simulation.camera.snapshot import show_snapshot, snapshot_size
 from humanoid_simulation.camera.view import camera_id
 import mujoco
+import numpy as np
+from numpy.typing import NDArray
 
 _PR_SET_PDEATHSIG = 1
 _LESS_URGENT = 5
@@ -52,18 +53,26 @@ def _serve(assignment: Assignment) -> None:
     """Answer each line of standard input by the pictures that it asks for."""
     model = mujoco.MjModel.from_binary_path(f'/proc/self/fd/{assignment.model_file}')
     data = mujoco.MjData(model)
-    frames = Frames(assignment.frames_file, snapshot_size(model), assignment.views)
+    frames = Frames(assignment.frames_file, model.nq, assignment.views)
     cameras = [camera_id(model, view.camera) for view in assignment.views]
     painter = _painter(assignment, model)
     _say(READY)
     for line in sys.stdin:
-        show_snapshot(model, data, frames.snapshot)
+        _show(model, data, frames.qpos)
         for number, wanted in enumerate(wanted_in(line)):
             color = frames.colors[number] if wanted.color else None
             depth = frames.depths[number] if wanted.depth else None
             painter.draw(data, cameras[number], color, depth)
         _say(DONE)
     painter.close()
+
+
+def _show(model: mujoco.MjModel, data: mujoco.MjData, qpos: NDArray[np.float64]) -> None:
+    """Put everything where positions, (nq,), say, ready to be drawn."""
+    data.qpos[:] = qpos
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    mujoco.mj_camlight(model, data)
 
 
 def _painter(assignment: Assignment, model: mujoco.MjModel) -> Painter:

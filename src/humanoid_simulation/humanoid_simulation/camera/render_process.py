@@ -24,21 +24,18 @@ class RenderProcess:
     """
     A process that draws one request at a time; nothing here ever waits for it.
 
-    It writes its noise, such as warnings of drivers, to a file in memory.
+    It writes its noise, such as warnings of drivers, to a file in memory. It ends at the latest
+    with the thread that has started it.
     """
 
     def __init__(self, assignment: Assignment) -> None:
-        """Start the process."""
+        """Start the process; raise OSError if the computer has no room for it."""
         self._noise = unnamed_file('noise')
-        self._process = subprocess.Popen(
-            [sys.executable, '-m', _MODULE, assignment.as_text()],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=self._noise,
-            bufsize=0,
-            pass_fds=(assignment.model_file, assignment.frames_file),
-            env=environment_of(assignment.method, os.environ),
-        )
+        try:
+            self._process = _start(assignment, self._noise)
+        except OSError:
+            os.close(self._noise)
+            raise
         self._requests, self._replies = _pipes_of(self._process)
         os.set_blocking(self._replies.fileno(), False)
         self._unread = b''
@@ -115,6 +112,19 @@ class RenderProcess:
         text = os.pread(self._noise, _LAST_WORDS, max(0, size - _LAST_WORDS))
         lines = text.decode(errors='replace').strip().splitlines()
         return f' It wrote: {lines[-1].strip()}' if lines else ''
+
+
+def _start(assignment: Assignment, noise: int) -> subprocess.Popen[bytes]:
+    """Start a process; it writes to an open file what is no answer."""
+    return subprocess.Popen(
+        [sys.executable, '-m', _MODULE, assignment.as_text()],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=noise,
+        bufsize=0,
+        pass_fds=(assignment.model_file, assignment.frames_file),
+        env=environment_of(assignment.method, os.environ),
+    )
 
 
 def _pipes_of(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], IO[bytes]]:

@@ -12,10 +12,10 @@ from humanoid_simulation.camera.painter import Color, Depth
 from humanoid_simulation.camera.process_keeper import Log, Patience, ProcessKeeper
 from humanoid_simulation.camera.protocol import Assignment
 from humanoid_simulation.camera.render_process import RenderProcess
-from humanoid_simulation.camera.snapshot import snapshot_size, take_snapshot
 from humanoid_simulation.camera.view import CameraView, check_views, Wanted
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,11 +45,10 @@ class Renderer:
     ) -> None:
         """Copy the model; raise SimulationError if a view cannot be drawn."""
         check_views(model, views)
-        self._model = model
         self._views = tuple(views)
         self._model_file = _file_with(model)
         self._frames_file = unnamed_file('frames')
-        self._frames = Frames(self._frames_file, snapshot_size(model), views)
+        self._frames = Frames(self._frames_file, model.nq, views)
         self._keeper = ProcessKeeper(self._start, methods, log, patience)
         self._is_needed = False
         self._requested: tuple[int, tuple[Wanted, ...]] | None = None
@@ -70,15 +69,15 @@ class Renderer:
         return self._keeper.can_draw and self._requested is None
 
     def request(
-        self, data: mujoco.MjData, time_ns: int, wanted: Sequence[Wanted], now_s: float
+        self, qpos: NDArray[np.float64], time_ns: int, wanted: Sequence[Wanted], now_s: float
     ) -> None:
         """
-        Copy the state and have it drawn; only when `can_draw`.
+        Copy positions, (nq,), and have them drawn; only when `can_draw`.
 
         `wanted` has one element for each view. `time_ns` is that of the state; `now_s` is that of
         a clock that nobody sets.
         """
-        take_snapshot(self._model, data, self._frames.snapshot)
+        self._frames.qpos[:] = qpos
         self._requested = (time_ns, tuple(wanted))
         self._keeper.request(wanted, now_s)
 

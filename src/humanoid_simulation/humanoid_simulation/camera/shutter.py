@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 _NANOSECONDS = 1_000_000_000
+_TINY = 1e-6
+"""By so many periods a time may miss the beginning of one, for all that numbers are round."""
 
 
 class Shutter:
@@ -28,4 +30,4 @@ class Shutter:
 
     def _period_of(self, time_ns: int) -> int:
         """Return the number of the period that a time is in; exact where periods begin."""
-        return int(time_ns * self._rate_hz / _NANOSECONDS + 1e-9)
+        return int(time_ns * self._rate_hz / _NANOSECONDS + _TINY)

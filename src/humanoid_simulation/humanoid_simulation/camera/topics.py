@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
+import time
 
 from humanoid_simulation.camera.conversions import stamp_of
 from humanoid_simulation.camera.methods import methods_of
@@ -13,14 +15,30 @@ from humanoid_simulation.camera.renderer import Pictures, Renderer
 from humanoid_simulation.camera.shutter import Shutter
 from humanoid_simulation.camera.view import CameraView, pinhole_of
 import mujoco
+import numpy as np
+from numpy.typing import NDArray
+from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+
+_LOOK_S = 0.05
+"""How often to look for pictures and subscribers besides the ticks: there are none in a pause."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Taken:
+    """What was there when pictures were taken last."""
+
+    time_ns: int
+    qpos: NDArray[np.float64]
+    subscribers: int
 
 
 class CameraTopics:
     """
     Publishes what the cameras see, at a rate in simulated time, while somebody subscribes.
 
-    One process draws the pictures of all of them; `tick` never waits for it.
+    One process draws the pictures of all of them; nothing here ever waits for it. In a pause,
+    new subscribers get a picture, and all of them one of what was moved.
     """
 
     def __init__(
@@ -29,23 +47,32 @@ class CameraTopics:
         cameras: Mapping[str, str],
         model: mujoco.MjModel,
         parameters: CameraParameters,
+        prefix: str = '',
     ) -> None:
         """
         Announce the topics; raise SimulationError if the model has not the cameras.
 
-        `cameras` gives the name of the camera in the model by the namespace of its robot,
-        relative to the node: '' for a robot alone. At rate 0 there are no topics.
+        At rate 0 there are no topics.
+
+        :param cameras: the name of the camera in the model, by the namespace of its robot
+            relative to the node: '' for a robot alone
+        :param prefix: what the names of frames begin with
         """
         cameras = cameras if parameters.camera_rate_hz > 0.0 else {}
         width_px, height_px = parameters.camera_width_px, parameters.camera_height_px
         views = [CameraView(camera, width_px, height_px) for camera in cameras.values()]
         methods = methods_of(parameters.camera_renderer)
         self._renderer = Renderer(model, views, methods, node.get_logger())
+        frame = f'{prefix}{parameters.camera_frame}'
         self._publishers = [
-            CameraPublisher(node, _prefix(robot), pinhole_of(model, view), parameters.camera_frame)
+            CameraPublisher(node, _folder(robot), pinhole_of(model, view), frame)
             for robot, view in zip(cameras, views)
         ]
         self._shutter = Shutter(parameters.camera_rate_hz)
+        self._state: tuple[int, mujoco.MjData] | None = None
+        self._taken: _Taken | None = None
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(_LOOK_S, self._look_again, clock=steady)
 
     @property
     def process_id(self) -> int | None:
@@ -56,18 +83,34 @@ class CameraTopics:
         """
         Publish what was drawn; have the state drawn if it is time. Call it once a control period.
 
-        `now_s` is that of a clock that nobody sets; `time_ns`, the simulated time of the state,
-        stamps its pictures. The data is read only, and only here.
+        `now_s` is that of a clock that nobody sets, `time_ns` the simulated time of the state,
+        which is also read between ticks.
         """
-        pictures = self._renderer.poll(now_s)
-        if pictures is not None:
-            self._publish(pictures)
+        self._state = time_ns, data
+        self._publish_drawn(now_s)
         if self._shutter.is_due(time_ns):
             self._take(now_s, time_ns, data)
 
     def close(self) -> None:
         """End the process that draws."""
+        self._timer.cancel()
         self._renderer.close()
+
+    def _look_again(self) -> None:
+        """Do what cannot wait for the next tick, which comes after a pause only."""
+        now_s = time.monotonic()
+        self._publish_drawn(now_s)
+        if self._state is not None and self._is_missing(*self._state):
+            self._take(now_s, *self._state)
+
+    def _is_missing(self, time_ns: int, data: mujoco.MjData) -> bool:
+        """Tell whether subscribers miss a picture that no tick will give them."""
+        subscribers, taken = self._subscribers(), self._taken
+        if not subscribers:
+            return False
+        if taken is None or subscribers > taken.subscribers:
+            return True
+        return taken.time_ns == time_ns and not np.array_equal(taken.qpos, data.qpos)
 
     def _take(self, now_s: float, time_ns: int, data: mujoco.MjData) -> None:
         """Have the state drawn for those who look, as soon as the last one is done."""
@@ -76,11 +119,22 @@ class CameraTopics:
             self._renderer.need()
             if not self._renderer.can_draw:
                 return
-            self._renderer.request(data, time_ns, wanted, now_s)
+            self._renderer.request(data.qpos, time_ns, wanted, now_s)
         self._shutter.release(time_ns)
+        self._taken = _Taken(time_ns, data.qpos.copy(), self._subscribers())
         stamp = stamp_of(time_ns)
         for publisher in self._publishers:
             publisher.publish_info(stamp)
+
+    def _subscribers(self) -> int:
+        """Return how many subscribers all pictures have."""
+        return sum(publisher.subscribers for publisher in self._publishers)
+
+    def _publish_drawn(self, now_s: float) -> None:
+        """Publish what was drawn meanwhile."""
+        pictures = self._renderer.poll(now_s)
+        if pictures is not None:
+            self._publish(pictures)
 
     def _publish(self, pictures: Pictures) -> None:
         """Publish what was drawn."""
@@ -91,6 +145,6 @@ class CameraTopics:
             publisher.publish(wanted, color, depth, stamp)
 
 
-def _prefix(robot: str) -> str:
+def _folder(robot: str) -> str:
     """Return what comes before the names of the topics of a robot."""
     return f'{robot}/' if robot else ''

@@ -7,6 +7,7 @@ from typing import Any
 
 from humanoid_simulation.collisions import WORLD
 from humanoid_simulation.rotations import from_rpy
+from humanoid_simulation.scene.lighting import add_lighting
 from humanoid_simulation.scene.scene import FLOOR, Floor, Scene, Thing, Vector
 import mujoco
 
@@ -26,12 +27,7 @@ def add_scene(world: Any, scene: Scene) -> None:
     _add_floor(world, scene.floor)
     for thing in scene.things:
         _add_thing(world, thing)
-    world.worldbody.add_light(
-        name='sun',
-        type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
-        pos=(0.0, 0.0, 6.0),
-        dir=(-0.3, 0.2, -1.0),
-    )
+    add_lighting(world)
 
 
 def _add_floor(world: Any, floor: Floor) -> None:

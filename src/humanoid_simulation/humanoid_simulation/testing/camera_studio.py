@@ -49,7 +49,7 @@ class Studio:
         """Have the state drawn as it is now."""
         self._time_ns += 1
         every = list(wanted) or [ALL] * self._count
-        self.renderer.request(self.data, self._time_ns, every, time.monotonic())
+        self.renderer.request(self.data.qpos, self._time_ns, every, time.monotonic())
 
     def wait_until(self, predicate: Callable[[], bool], what: str) -> None:
         """Poll until the predicate holds."""

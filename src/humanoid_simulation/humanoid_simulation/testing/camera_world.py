@@ -15,6 +15,10 @@ WORLD = """
   <visual>
     <headlight ambient="0.4 0.4 0.4" diffuse="0.6 0.6 0.6" specular="0 0 0"/>
   </visual>
+  <asset>
+    <texture type="skybox" builtin="flat" rgb1="0.2 0.4 0.6" rgb2="0.2 0.4 0.6" width="8"
+      height="48"/>
+  </asset>
   <default><geom contype="0" conaffinity="0"/></default>
   <worldbody>
     <geom name="wall" type="box" size="0.1 5 5" pos="2.1 0 1" rgba="0.5 0.51 0.5 1"/>

@@ -8,15 +8,13 @@ from typing import Any
 
 from joint_state_publisher.parameters import Extra
 from joint_state_publisher.settings import checked
-from rviz_common.page.settings import PageSettings
+from rviz_common.page.settings import PageSettings, PARAMETERS
 
 __all__ = ['EXTRAS', 'page_settings_of']
 
 EXTRAS = {
     'num_rows': Extra(0, 'Means nothing here: the page scrolls.'),
-    'host': Extra('127.0.0.1', 'The address at which the page is served.'),
-    'port': Extra(0, 'The port of the page; 0 is the first free one from 8080 on.'),
-    'token': Extra('', 'What must be known to open the page, if other machines can reach it.'),
+    **{name: Extra(*about) for name, about in PARAMETERS.items()},
 }
 
 

@@ -1,7 +1,53 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests of this package share can be imported."""
+"""A browser; and what the tests of this package share can be imported."""
 
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+import os
 from pathlib import Path
 import sys
+from typing import Any
+
+import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
+
+CHROMIUM = '/usr/bin/chromium'
+WEBGL = ('--use-angle=swiftshader', '--enable-unsafe-swiftshader')
+OWN = ('http://127.0.0.1:', 'ws://127.0.0.1:', 'blob:', 'data:', 'about:')
+
+
+@pytest.fixture(scope='module')
+def browser() -> Iterator[Any]:
+    """Start a browser, if there is one."""
+    if not os.path.exists(CHROMIUM):
+        pytest.skip(f'needs a browser: there is no {CHROMIUM}')
+    api = pytest.importorskip('playwright.sync_api')
+    with api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=WEBGL)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def open_tab(browser: Any) -> Iterator[Callable[[int, int], Any]]:
+    """Return what opens a tab, in which no script may fail, and that asks nobody else."""
+    tabs: list[Any] = []
+    failures: list[str] = []
+
+    def note(url: str) -> None:
+        if not url.startswith(OWN):
+            failures.append(url)
+
+    def open_one(width: int, height: int) -> Any:
+        tab = browser.new_page(viewport={'width': width, 'height': height})
+        tabs.append(tab)
+        tab.on('pageerror', lambda error: failures.append(str(error)))
+        tab.on('request', lambda request: note(request.url))
+        return tab
+
+    yield open_one
+    for tab in tabs:
+        tab.close()
+    assert failures == []

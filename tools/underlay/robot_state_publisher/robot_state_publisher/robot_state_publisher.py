@@ -25,7 +25,7 @@ from urdf import RobotModel
 __all__ = ['RobotStatePublisher']
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-PATIENCE_S = 2.0
+PATIENCE_S = 5.0
 REPEAT_S = 10.0
 
 

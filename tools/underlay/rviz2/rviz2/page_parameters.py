@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any, TYPE_CHECKING
 
 from rcl_interfaces.msg import ParameterDescriptor
-from rviz_common.page.settings import PageSettings
+from rviz_common.page.settings import PageSettings, PARAMETERS
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -16,10 +16,8 @@ __all__ = ['page_settings', 'unknown_parameters']
 
 def page_settings(node: Node) -> PageSettings:
     """Declare the parameters and return what they say, or raise ValueError."""
-    host = _declare(node, 'host', '127.0.0.1', 'The address at which the page is served.')
-    port = _declare(node, 'port', 0, 'The port of the page; 0: the first free one from 8080 on.')
-    token = _declare(node, 'token', '', 'What one must know to see the page; empty: nothing.')
-    return PageSettings(host, port or None, token)
+    values = {name: _declare(node, name, *about) for name, about in PARAMETERS.items()}
+    return PageSettings(values['host'], values['port'] or None, values['token'])
 
 
 def unknown_parameters(node: Node) -> list[str]:

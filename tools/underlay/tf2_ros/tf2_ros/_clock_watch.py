@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-_PATIENCE_S = 2.0
+_PATIENCE_S = 5.0
 _TOPIC = '/clock'
 
 

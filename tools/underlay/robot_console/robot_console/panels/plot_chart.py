@@ -23,6 +23,8 @@ FREE = {'x': uplot.Scale(time=False)}
 AROUND_ZERO = {**FREE, 'y': uplot.Scale(range=(-0.1, 0.1))}
 """Without it, uPlot shows curves that are all zero on a scale to 100."""
 X_AXIS = uplot.Series(label='s')
+WIDER = 1.0 + 1e-9
+"""uPlot lays out an axis when its scale changes; one made without width would stay empty."""
 NO_CURVE = uplot.Series(label='', show=False)
 
 
@@ -39,11 +41,13 @@ class PlotChart:
         self._server = server
         self._place = server.gui.add_folder(None)
         self._count, self._is_zero = 0, True
+        self._is_wider = False
         self._chart = self._new_chart(np.array([-1.0, 0.0]))
 
     def draw(self, window_s: float, curves: Sequence[Numbers]) -> None:
         """Draw the curves; where they are not a number, they have a gap."""
-        times = slice_times(window_s)
+        self._is_wider = not self._is_wider
+        times = slice_times(window_s) * (WIDER if self._is_wider else 1.0)
         kind = len(curves), not any(np.nan_to_num(curve).any() for curve in curves)
         with self._server.atomic():
             if kind != (self._count, self._is_zero):

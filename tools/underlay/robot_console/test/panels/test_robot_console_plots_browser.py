@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-import os
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -14,8 +13,6 @@ from robot_console.plots.series import parse_all
 from rviz_common.page import Page
 from sensor_msgs.msg import JointState
 
-CHROMIUM = '/usr/bin/chromium'
-WEBGL = ('--use-angle=swiftshader', '--enable-unsafe-swiftshader')
 JOINTS = tuple('abcd')
 EFFORT = '; '.join(f'joint_states.effort[{joint}]' for joint in JOINTS)
 STILL = '; '.join(f'joint_states.velocity[{joint}]' for joint in JOINTS[:2])
@@ -25,23 +22,11 @@ CURVES = f'{CHARTS}.map(chart => chart.data.slice(1).filter(curve => curve.some(
 DRAWN = f'{CURVES}.map(curves => curves.length)'
 TICKS = f'{CHARTS}.map(chart => chart.axes.map(axis => (axis._splits || []).length))'
 
-pytestmark = pytest.mark.skipif(
-    not os.path.exists(CHROMIUM), reason=f'needs a browser: there is no {CHROMIUM}'
-)
-
 
 @pytest.fixture
-def tab() -> Iterator[Any]:
-    """Open a tab in which no script may fail."""
-    api = pytest.importorskip('playwright.sync_api')
-    with api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=WEBGL)
-        tab = browser.new_page(viewport={'width': 1000, 'height': 500})
-        failures: list[str] = []
-        tab.on('pageerror', lambda error: failures.append(str(error)))
-        yield tab
-        browser.close()
-    assert failures == []
+def tab(open_tab: Any) -> Any:
+    """Open a tab."""
+    return open_tab(1000, 500)
 
 
 @pytest.fixture

@@ -6,9 +6,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 import ipaddress
 
-__all__ = ['FIRST_PORT', 'PageSettings']
+__all__ = ['FIRST_PORT', 'PARAMETERS', 'PageSettings']
 
 FIRST_PORT = 8080
+PARAMETERS: dict[str, tuple[str | int, str]] = {
+    'host': ('127.0.0.1', 'The address at which the page is served.'),
+    'port': (0, 'The port of the page; 0: the first free one from 8080 on.'),
+    'token': ('', 'What must be known to open the page, if other machines can reach it.'),
+}
+"""What the parameters of a node with a page are called: their defaults, and what they mean."""
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a walk was like."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from humanoid_control.backends import Array, Observation
+from humanoid_simulation.backend import Snapshot
+from humanoid_simulation.model import in_world
+import mujoco
+import numpy as np
+
+SOLES = ('l_sole', 'r_sole')
+_LEAST_LOAD_N = 20.0
+
+
+@dataclass(frozen=True, eq=False)
+class GaitRecording:
+    """
+    A walk of n moments: what was true, not what the robot knew; feet are left, right.
+
+    Positions are in the world. Where no foot carries the robot, there is no zero-moment point,
+    and its coordinates are NaN.
+    """
+
+    times_s: Array
+    """(n,)"""
+    com_m: Array
+    """(n, 3) the centre of mass"""
+    zmp_m: Array
+    """(n, 2) where the forces of the ground on the feet act"""
+    soles_m: Array
+    """(n, 2, 3)"""
+    loads_n: Array
+    """(n, 2) how much each foot carries"""
+    efforts_nm: Array
+    """(n, j) what the drives exert"""
+    joints: tuple[str, ...]
+    """(j,)"""
+
+
+class GaitRecorder:
+    """Collects the moments of a walk of a robot that is alone in its world."""
+
+    def __init__(self, model: Any, joints: tuple[str, ...], base: str = 'base_link') -> None:
+        """Take the model of the world; its state is computed anew from snapshots."""
+        self._model, self._data, self._joints = model, mujoco.MjData(model), joints
+        self._base = model.body(in_world('', base)).id
+        self._soles = [model.body(in_world('', sole)).id for sole in SOLES]
+        self._rows: list[tuple[Any, ...]] = []
+
+    def note(self, observation: Observation, snapshot: Snapshot) -> None:
+        """Add what was observed in a state."""
+        model, data = self._model, self._data
+        data.qpos[:] = snapshot.qpos
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        soles_m = data.xpos[self._soles]
+        turns = data.xmat[self._soles].reshape(-1, 3, 3)
+        forces_n = np.einsum('fij,fj->fi', turns, observation.foot_forces_n)
+        torques_nm = np.einsum('fij,fj->fi', turns, observation.foot_torques_nm)
+        self._rows.append(
+            (
+                observation.time_s,
+                data.subtree_com[self._base].copy(),
+                zero_moment_point(soles_m, forces_n, torques_nm),
+                soles_m,
+                forces_n[:, 2],
+                observation.efforts_nm,
+            )
+        )
+
+    def recording(self) -> GaitRecording:
+        """Return what was collected."""
+        columns = [np.array(column, dtype=np.float64) for column in zip(*self._rows)]
+        times_s, com_m, zmp_m, soles_m, loads_n, efforts_nm = columns
+        return GaitRecording(times_s, com_m, zmp_m, soles_m, loads_n, efforts_nm, self._joints)
+
+
+def zero_moment_point(soles_m: Array, forces_n: Array, torques_nm: Array) -> Array:
+    """
+    Return where on the ground, at height 0, the forces on the feet have no moment but about z.
+
+    Vukobratovic and Borovac, "Zero-moment point: thirty five years of its life", 2004.
+
+    :param soles_m: the points that the torques are about, (feet, 3), in the world as all
+    :param forces_n: (feet, 3)
+    :param torques_nm: (feet, 3)
+    :return: (2,), NaN if hardly anything is carried
+    """
+    load_n = forces_n[:, 2].sum()
+    if load_n < _LEAST_LOAD_N:
+        return np.full(2, np.nan)
+    moment_nm = (torques_nm + np.cross(soles_m, forces_n)).sum(axis=0)
+    return np.array([-moment_nm[1] / load_n, moment_nm[0] / load_n])

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Draw how the robot walks: `ros2 run humanoid_simulation record_gait`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+import signal
+import sys
+
+from humanoid_control.walking import VelocityCommand, WalkingError
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.examples.gait_recording import GaitRecording
+from humanoid_simulation.examples.gait_run import GaitPlan, record_walk
+from humanoid_simulation.scene import load_scene
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Record a walk and write what is asked for; return 1 if that cannot be done."""
+    arguments = _parser().parse_args(argv)
+    try:
+        recording = record_walk(_plan(arguments), load_scene(arguments.scene))
+        _write(recording, arguments)
+    except (SimulationError, WalkingError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f'{error.filename} cannot be written: {error.strerror}.', file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 128 + signal.SIGINT
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    """Describe the command line."""
+    parser = argparse.ArgumentParser(
+        prog='record_gait',
+        description='Let the simulated robot stand, walk and stop, without ROS and as fast as it '
+        'can be computed, and draw its centre of mass, zero-moment point, feet and torques.',
+    )
+    for name, default, unit in (
+        ('--forward', 0.25, 'm/s'),
+        ('--left', 0.0, 'm/s'),
+        ('--turn', 0.0, 'rad/s'),
+        ('--duration', 6.0, 's of walking'),
+    ):
+        parser.add_argument(
+            name,
+            type=float,
+            metavar='NUMBER',
+            default=default,
+            help=f'{unit} (default: {default:g})',
+        )
+    parser.add_argument('--scene', default='flat', help='its name or YAML file (default: flat)')
+    parser.add_argument(
+        '--output', type=Path, default=Path('gait.png'), help='the picture (default: gait.png)'
+    )
+    parser.add_argument('--csv', type=Path, help='a file for a table of all values')
+    return parser
+
+
+def _plan(arguments: argparse.Namespace) -> GaitPlan:
+    """Return the walk that the arguments describe."""
+    velocity = VelocityCommand(arguments.forward, arguments.left, arguments.turn)
+    return GaitPlan(velocity, arguments.duration)
+
+
+def _write(recording: GaitRecording, arguments: argparse.Namespace) -> None:
+    """Write the files, and say what is in them."""
+    from humanoid_simulation.examples.gait_plots import draw_gait  # takes a while to import
+    from humanoid_simulation.examples.gait_table import write_table
+
+    draw_gait(recording, arguments.output)
+    if arguments.csv is not None:
+        write_table(recording, arguments.csv)
+    way_m = recording.com_m[-1] - recording.com_m[0]
+    print(
+        f'{arguments.output}: {recording.times_s[-1]:.2f} s, {way_m[0]:.2f} m along x, '
+        f'{way_m[1]:.2f} m along y'
+    )
+
+
+if __name__ == '__main__':
+    sys.exit(main())

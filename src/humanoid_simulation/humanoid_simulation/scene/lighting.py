@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Light a scene, so that cameras see something."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+
+_HORIZON_RGB = (0.75, 0.82, 0.9)
+_ZENITH_RGB = (0.35, 0.5, 0.75)
+
+
+def add_lighting(world: Any) -> None:
+    """Add a sun, a sky, and the light that comes from everywhere."""
+    world.worldbody.add_light(
+        name='sun',
+        type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
+        pos=(0.0, 0.0, 6.0),
+        dir=(-0.3, 0.2, -1.0),
+        diffuse=(0.5, 0.5, 0.5),
+        specular=(0.1, 0.1, 0.1),
+    )
+    world.add_texture(
+        name='sky',
+        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
+        rgb1=_ZENITH_RGB,
+        rgb2=_HORIZON_RGB,
+        width=64,
+        height=64 * 6,
+    )
+    head = world.visual.headlight
+    head.ambient, head.diffuse, head.specular = (0.35,) * 3, (0.3,) * 3, (0.0,) * 3
