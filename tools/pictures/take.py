@@ -93,7 +93,7 @@ def walk(tab: Any) -> None:
             return
         tab.mouse.up()
         release(tab)
-    raise SystemExit('This machine has too much to do: the robot stopped because the page was slow.')
+    raise SystemExit('This machine has too much to do: the page was slow, and the robot stopped.')
 
 
 def release(tab: Any) -> None:
