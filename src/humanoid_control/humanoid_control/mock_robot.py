@@ -17,6 +17,7 @@ from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
 from humanoid_control.hosting.pacing import RealTimePace
 from humanoid_control.hosting.parameters import HostParameters
+from humanoid_control.hosting.refusals import Refusals
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_description.drives import load_drives
@@ -59,7 +60,7 @@ class MockRobot(Node):
             model = load_robot(humanoid_urdf(scale, prefix), 'the humanoid')
         except DescriptionError as error:
             raise NodeStartError(f'The mock robot has no model. {error}') from error
-        drives, say = load_drives(scale, prefix), self.get_logger().error
+        drives, say = load_drives(scale, prefix), Refusals(self.get_logger().error).add
         controls = {
             name: WalkingRobotControl.of(model, drives, scale, time.monotonic, say, self._able)
             for name in parameters.robots

@@ -61,12 +61,17 @@ def test_refusals() -> None:
 
 
 def test_many_different_refusals() -> None:
-    """However many sentences there are, they are all said."""
+    """A flood of sentences, all of them new, is cut off for a while, with a word on that."""
     said: list[str] = []
-    refusals = Refusals(said.append, lambda: 0.0)
+    clock = [0.0]
+    refusals = Refusals(said.append, lambda: clock[0])
     for number in range(250):
         refusals.add(f'{number}')
-    assert len(said) == 250
+    assert said[:2] == ['0', '1'] and len(said) == 11
+    assert 'no more of it is said' in said[-1]
+    clock[0] = 6.0
+    refusals.add('later')
+    assert said[-1] == 'later'
 
 
 def test_load() -> None:

@@ -15,6 +15,7 @@ from humanoid_control.backends import Observation
 from humanoid_control.hosting.diagnostics import HostDiagnostics
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
+from humanoid_control.hosting.refusals import Refusals
 from humanoid_description.errors import DescriptionError
 from humanoid_simulation.camera.topics import CameraTopics
 from humanoid_simulation.errors import SimulationError
@@ -75,7 +76,7 @@ class Simulator(Node):
     def _build(self, parameters: SimulatorParameters) -> SimulatedRobots:
         """Return the world, or say why there is none."""
         try:
-            return simulated_robots(parameters, self.get_logger().error)
+            return simulated_robots(parameters, Refusals(self.get_logger().error).add)
         except (DescriptionError, SimulationError) as error:
             raise NodeStartError(f'The simulator cannot start. {error}') from error
 

@@ -57,8 +57,8 @@ class SimulatorServices:
 
     def _set_pause(self, request: SetBool.Request) -> str:
         """Stop the time, or let it go on."""
-        if self._loop.has_failed and not request.data:
-            raise SimulationError('The physics has failed; reset the simulation first.')
+        if not request.data:
+            self._refuse_after_failure()
         self._host.pause(request.data)
         return 'The simulation is paused.' if request.data else 'The simulation runs.'
 
@@ -88,11 +88,13 @@ class SimulatorServices:
 
     def _put(self, request: SetEntityState.Request) -> str:
         """Put a robot or a thing somewhere."""
+        self._refuse_after_failure()
         self._backend.set_entity_state(self._backend.entity(request.entity), entity_state(request))
         return 'Done.'
 
     def _push(self, request: ApplyWrench.Request) -> str:
         """Push a robot or a thing."""
+        self._refuse_after_failure()
         self._backend.apply_wrench(
             self._backend.body(request.entity, request.body),
             vector(request.wrench.force),
@@ -104,9 +106,15 @@ class SimulatorServices:
 
     def _stand_up(self, robot: str, request: Trigger.Request) -> str:
         """Put a robot onto its feet, where it is."""
+        self._refuse_after_failure()
         self._backend.stand_up(robot)
         self._controls[robot].control.reset()
         return 'The robot was put onto its feet.'
+
+    def _refuse_after_failure(self) -> None:
+        """Refuse what has no effect before a reset."""
+        if self._loop.has_failed:
+            raise SimulationError('The physics has failed; reset the simulation first.')
 
 
 def _answer(do: Callable[[Any], str], request: Any, response: Any) -> Any:

@@ -10,6 +10,7 @@ from typing import Any
 from humanoid_control.backends import Array, JointTargets, Observation
 from humanoid_simulation.backend.contacts import Contact, contacts_in
 from humanoid_simulation.backend.entities import Entities, EntityState
+from humanoid_simulation.backend.last_sound import LastSound
 from humanoid_simulation.backend.noise import SensorNoise
 from humanoid_simulation.backend.robot import SimulatedRobot
 from humanoid_simulation.backend.snapshot import Snapshot
@@ -32,7 +33,6 @@ import numpy as np
 
 ALONE = 'robot'
 """What a robot without a name is called among the things of the world."""
-_FASTEST = 1e4
 
 
 @dataclass(frozen=True)
@@ -99,6 +99,7 @@ class MujocoBackend:
         }
         self._entities = Entities(self._model, self._data, self._floating_joints(scene))
         self._wrenches = Wrenches(self._model, self._data)
+        self._sound = LastSound(self._model, self._data)
         self._body_names = [self._public(self._model.body(i).name) for i in self._bodies]
         self._periods = 0
         self.reset()
@@ -146,13 +147,15 @@ class MujocoBackend:
         """
         Let a period pass; a robot without targets keeps those that it had.
 
-        Targets that are wrong are refused, all of them, and no time passes.
+        Targets that are wrong are refused, all of them, and no time passes. If the physics becomes
+        unstable, that is an error, and the last state that meant something is there again.
         """
         for name, wanted in targets.items():
             named('robot', name, self._robots).check(wanted)
         for name, robot in self._robots.items():
             robot.command(targets.get(name))
         self._wrenches.act(self.period_s)
+        self._sound.keep()
         mujoco.mj_step(self._model, self._data, self._settings.steps_per_period)
         self._periods += 1
         self._refuse_explosion()
@@ -278,9 +281,11 @@ class MujocoBackend:
             robot.measure(self.time_s)
 
     def _refuse_explosion(self) -> None:
-        """Refuse a state that no longer means anything."""
-        qvel = self._data.qvel
-        if not float(qvel @ qvel) < _FASTEST * _FASTEST:
+        """Go back from a state that no longer means anything, and raise SimulationError."""
+        if self._sound.is_lost:
+            self._sound.restore()
+            self._wrenches.clear()
+            self._look_again()
             raise SimulationError(
                 f'The physics has become unstable at {self.time_s:.3f} s: velocities are beyond '
                 'all bounds. Reset the simulation. If it happens again, look for huge forces, for '
