@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from functools import partial
 import math
 from typing import Any
@@ -21,11 +21,13 @@ from humanoid_simulation.backend import MujocoBackend
 from humanoid_simulation.conversions import entity_state, seconds, vector
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.guarded_loop import GuardedLoop
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.node import Node
+from rclpy.task import Future
 from std_srvs.srv import SetBool, Trigger
 
 MOST_STEPS = 100_000
-"""Of one call: while it lasts, the simulator hears nothing."""
+"""Of one call: whoever mistypes a number should not have to wait for hours."""
 
 
 class SimulatorServices:
@@ -45,12 +47,18 @@ class SimulatorServices:
         self._controls, self._steps_per_period = controls, steps_per_period
         for kind, name, do in (
             (SetBool, '~/set_pause', self._set_pause),
-            (StepSimulation, '~/step_simulation', self._step),
             (ResetSimulation, '~/reset_simulation', self._reset),
             (SetEntityState, '~/set_entity_state', self._put),
             (ApplyWrench, '~/apply_wrench', self._push),
         ):
             node.create_service(kind, name, partial(_answer, do))
+        # In a group of its own: while it waits for its steps, all else is heard.
+        node.create_service(
+            StepSimulation,
+            '~/step_simulation',
+            partial(_answer_later, self._step),
+            callback_group=MutuallyExclusiveCallbackGroup(),
+        )
         for robot in backend.robots:
             stand_up = partial(_answer, partial(self._stand_up, robot))
             node.create_service(Trigger, topic(robot, 'stand_up'), stand_up)
@@ -62,7 +70,7 @@ class SimulatorServices:
         self._host.pause(request.data)
         return 'The simulation is paused.' if request.data else 'The simulation runs.'
 
-    def _step(self, request: StepSimulation.Request) -> str:
+    async def _step(self, request: StepSimulation.Request) -> str:
         """Let a paused simulation go on by whole control periods."""
         if not self._host.paused:
             raise SimulationError('The simulation runs. Pause it before you step it.')
@@ -71,10 +79,14 @@ class SimulatorServices:
                 f'A call cannot do {request.steps} steps. Give 1 to {MOST_STEPS}.'
             )
         periods = math.ceil(request.steps / self._steps_per_period)
-        for _ in range(periods):
-            self._host.tick()
+        end_s = self._backend.time_s + (periods - 0.5) * self._backend.period_s
+        done: Future = Future()
+        self._host.tick_in_pause(periods, lambda: done.set_result(None))
+        await done
         if self._loop.has_failed:
             raise SimulationError('The physics has failed meanwhile; see the log.')
+        if self._backend.time_s < end_s:
+            raise SimulationError('The steps were ended by set_pause.')
         return f'{periods * self._steps_per_period} steps of physics: {periods} control periods.'
 
     def _reset(self, request: ResetSimulation.Request) -> str:
@@ -121,6 +133,15 @@ def _answer(do: Callable[[Any], str], request: Any, response: Any) -> Any:
     """Answer a request: whether it was done, and if not, why."""
     try:
         response.message, response.success = do(request), True
+    except SimulationError as error:
+        response.message, response.success = str(error), False
+    return response
+
+
+async def _answer_later(do: Callable[[Any], Awaitable[str]], request: Any, response: Any) -> Any:
+    """Answer a request when it has been done, or refused."""
+    try:
+        response.message, response.success = await do(request), True
     except SimulationError as error:
         response.message, response.success = str(error), False
     return response
