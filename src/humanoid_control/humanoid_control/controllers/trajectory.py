@@ -128,8 +128,8 @@ def _check_velocities(velocities_rad_s: Array, most_rad_s: Array, names: Sequenc
         if too_fast.any():
             joint = int(np.argmax(too_fast))
             raise CommandError(
-                f"Point {number} lets '{names[joint]}' turn at {speed_rad_s[joint]:.3g} rad/s, but "
-                f'it can do {most_rad_s[joint]:.3g} rad/s. Give less, or leave velocities out.'
+                f"Point {number} lets '{names[joint]}' turn at {speed_rad_s[joint]:.3g} rad/s, "
+                f'but it can do {most_rad_s[joint]:.3g} rad/s. Give less, or leave velocities out.'
             )
 
 
