@@ -18,6 +18,8 @@ from humanoid_control.hosting.hosted_robots import HostedRobots
 from humanoid_control.hosting.pacing import RealTimePace
 from humanoid_control.hosting.parameters import HostParameters
 from humanoid_control.hosting.refusals import Refusals
+from humanoid_control.hosting.rivals import Rivals
+from humanoid_control.hosting.topics.filling import topic
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_description.drives import load_drives
@@ -45,6 +47,7 @@ class MockRobot(Node):
         loop = ControlLoop(backend, {name: robot.control for name, robot in controls.items()})
         period_s, pace = backend.period_s, RealTimePace(backend.period_s)
         self._host = Host(self, loop, pace, period_s, self._robots.look, self._robots.tell)
+        self._rivals = Rivals(self, [topic(name, 'joint_states') for name in controls])
         self._diagnostics = HostDiagnostics(self, self._host, self._robots)
         self.get_logger().info(
             f'Mock robot started: {len(backend.joints)} joints at {1.0 / period_s:g} Hz, '

@@ -91,6 +91,7 @@ def test_load() -> None:
         (['', 'robot1'], "contains '', which is no namespace"),
         (['2nd'], "contains '2nd'"),
         (['a/b'], "contains 'a/b'"),
+        (['a' * 300], 'at most 60 letters'),
         (['robot1', 'robot1'], "names 'robot1' more than once"),
     ],
 )

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from humanoid_common.naming import did_you_mean
+from humanoid_common.naming import did_you_mean, shortened
 from humanoid_control.backends import Array, JointTargets
 import numpy as np
 from numpy.typing import NDArray
@@ -68,7 +68,7 @@ class JointNames:
     def _unknown(self, name: str) -> str:
         """Build the sentence on a joint that there is not."""
         advice = did_you_mean(name, self.joints) or f'It has: {", ".join(self.joints)}.'
-        return f"The robot has no joint '{name}'. {advice}"
+        return f"The robot has no joint '{shortened(name)}'. {advice}"
 
 
 def optional_values(field: str, values: Sequence[float], names: Sequence[str]) -> Array:

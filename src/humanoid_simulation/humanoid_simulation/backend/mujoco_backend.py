@@ -27,12 +27,10 @@ from humanoid_simulation.model import (
     RobotDescription,
 )
 from humanoid_simulation.model.robot_spec import CAMERA, FLOATING_BASE
+from humanoid_simulation.model.world import ALONE
 from humanoid_simulation.scene import Scene
 import mujoco
 import numpy as np
-
-ALONE = 'robot'
-"""What a robot without a name is called among the things of the world."""
 
 
 @dataclass(frozen=True)
