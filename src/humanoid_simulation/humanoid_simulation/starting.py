@@ -7,10 +7,14 @@ Physics and walk take seconds to load. They are loaded here, where Ctrl-C ends t
 
 from __future__ import annotations
 
+import os
 import sys
 
 from humanoid_common.running import run_node
 from rclpy.node import Node
+
+NO_GL = 'disable'
+"""This process draws nothing; whatever the user has set, mujoco would load it here, or fail."""
 
 
 def main() -> int:
@@ -20,6 +24,7 @@ def main() -> int:
 
 def _simulator() -> Node:
     """Load and make the node."""
+    os.environ['MUJOCO_GL'] = NO_GL
     from humanoid_simulation.simulator import Simulator
 
     return Simulator()

@@ -34,3 +34,11 @@ def test_what_takes_long_is_loaded_where_signals_are_heard() -> None:
     code = 'import sys, humanoid_simulation.starting; sys.exit("mujoco" in sys.modules)'
     with running_program([sys.executable, '-c', code]) as program:
         assert program.wait_for_exit().status == 0
+
+
+def test_a_drawing_library_that_is_set_but_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The node itself draws nothing, and starts whatever others have set."""
+    monkeypatch.setenv('MUJOCO_GL', 'nonsense')
+    command = module_command('humanoid_simulation.starting', '--ros-args', '-p', 'scene:=nowhere')
+    with ros_sandbox(), running_program(command) as program:
+        assert "There is no scene 'nowhere'" in program.wait_for_exit().stderr
