@@ -106,7 +106,7 @@ class SimulatedRobot:
 
     def step_commanded(self, steps: int) -> None:
         """
-        The same, with a velocity that has certainly come just before.
+        Step, with a velocity that has certainly come just before.
 
         What a paused simulation does in fewer steps than the velocity lasts is the same each time.
         """
