@@ -26,6 +26,13 @@ def test_every_tick_at_most() -> None:
     assert due.is_due(0.0) and due.is_due(1.0) and not due.is_due(1.001)
 
 
+def test_every_goes_on_after_a_clock_was_set_back() -> None:
+    """What is due does not wait for a time that lies far ahead."""
+    due = Every(50.0)
+    assert due.is_due(1000.0) and due.is_due(10.0)
+    assert not due.is_due(10.01) and due.is_due(10.02)
+
+
 def test_never() -> None:
     """A rate of zero is never due."""
     assert not Every(0.0).is_due(5.0)

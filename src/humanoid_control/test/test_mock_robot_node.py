@@ -297,7 +297,7 @@ def test_rates(watch: Watch) -> None:
     robot = watch.start()
     assert robot.set_parameters([Parameter('joint_states_rate_hz', value=0.0)])[0].successful
     watch.listen(Odometry, 'odom')
-    watch.wait_for('odom')
-    watch.last.clear()
-    watch.wait_for('odom')
+    for _ in range(5):  # What is under way already may still come.
+        watch.last.clear()
+        watch.wait_for('odom')
     assert 'joint_states' not in watch.last
