@@ -27,6 +27,7 @@ def test_a_clock_that_stands() -> None:
     """Nothing is told before it has a time, nor when it was left behind, until it goes on."""
     stamps = Stamps()
     assert stamps.stamp_s(0.0, 0.0) is None
+    assert stamps.stamp_s(0.1, 0.0) is None
     assert stamps.stamp_s(1.0, 0.0) is None
     assert stamps.stamp_s(1.01, 700.0) == pytest.approx(700.0)
     assert stamps.stamp_s(2.0, 700.0) is None

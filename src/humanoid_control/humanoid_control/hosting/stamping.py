@@ -19,12 +19,12 @@ class Stamps:
 
     def stamp_s(self, robot_s: float, clock_s: float) -> Optional[float]:
         """Return the stamp of a moment, None while the clock stands still or has no time yet."""
-        stands = clock_s <= 0.0 or clock_s == self._clock_s
-        self._clock_s = clock_s
+        stands, self._clock_s = clock_s == self._clock_s, clock_s
+        if clock_s <= 0.0:
+            return None
         off_s = robot_s + self._ahead_s - clock_s
         if abs(off_s) > MOST_OFF_S:
             if stands:
                 return None
             self._ahead_s = clock_s - robot_s
-        stamp_s = robot_s + self._ahead_s
-        return stamp_s if stamp_s > 0.0 else None
+        return robot_s + self._ahead_s
