@@ -95,7 +95,7 @@ def walk(tab: Any) -> None:
         tab.mouse.up()
         if 'holds still' in safety.locator('#robot').inner_text():
             release(tab)
-    raise SystemExit('This machine has too much to do: the robot stops because the page is slow.')
+    raise SystemExit('This machine has too much to do: the page was slow, and the robot stopped.')
 
 
 def release(tab: Any) -> None:

@@ -223,7 +223,7 @@ def test_a_state_without_joints(robot: Robot) -> None:
 def test_jacobian_of_some_joints(moving: Moving, link: str) -> None:
     """The Jacobian of a group has the columns of its joints, zero where they move nothing."""
     state = moving.at(0.0)
-    group = state.model.group(['left_ankle_roll', 'left_knee', 'head_yaw'])
+    group = moving.model.group(['left_ankle_roll', 'left_knee', 'head_yaw'])
     whole = np.vstack([state.jacobian(link), state.angular_jacobian(link)])
     assert state.jacobian_of(group, link) == pytest.approx(whole[:, 6 + group.indices])
 

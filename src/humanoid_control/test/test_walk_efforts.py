@@ -8,15 +8,17 @@ from dataclasses import dataclass
 from humanoid_control.dynamics import BodyState
 from humanoid_control.dynamics.rotations import from_rpy
 from humanoid_control.walking.attitude import Attitude, hip_efforts
-from humanoid_control.walking.base_estimate import base_on, sole_reading
+from humanoid_control.walking.base_estimate import base_on
 from humanoid_control.walking.feed_forward import ground_efforts
 from humanoid_control.walking.foot_shape import FootShape
-from humanoid_control.walking.footing import Foothold, Footing, Loads, loads_for
+from humanoid_control.walking.footing import Footing, Loads, loads_for
 from humanoid_control.walking.ground_reaction import GroundReaction
 from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import GRAVITY_M_S2
+from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.soles import footing_below
 from humanoid_control.walking.turning import Turning
 from humanoid_control.walking.walking_robot import WalkingRobot
 from humanoid_description.drives import load_drives
@@ -51,8 +53,9 @@ def _stance(robot: Robot) -> Stance:
     home = HomePosture.of(walking, P)
     still = np.zeros(len(drives))
     state = walking.body.state(np.eye(3), np.zeros(3), home.positions_rad, still)
-    readings = [sole_reading(leg.sole, np.zeros(3), state, 0.5, 0.2) for leg in walking.legs]
-    footing = Footing(FootShape.of(robot, P), [Foothold(reading.pose) for reading in readings])
+    level = Attitude(0.0, 0.0, 0.0, (0.0, 0.0, 0.0))
+    sensed = Sensed(0.0, state, level, (0.5, 0.5))
+    footing = footing_below(0j, walking, FootShape.of(robot, P), P, sensed)
     return Stance(walking, home, state, footing, loads_for(footing, SIDES, footing.rest_point))
 
 

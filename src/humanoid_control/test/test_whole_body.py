@@ -6,6 +6,7 @@ from __future__ import annotations
 from humanoid_control.dynamics import BodyState
 from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.rotations import about_z, from_rpy
+from humanoid_control.walking.base_motion import BaseMotion
 from humanoid_control.walking.foot_shape import FootShape
 from humanoid_control.walking.footing import Foothold, Footing
 from humanoid_control.walking.home_posture import HomePosture
@@ -15,7 +16,7 @@ from humanoid_control.walking.sides import LEFT, RIGHT
 from humanoid_control.walking.swing_foot import SoleMotion, Swing
 from humanoid_control.walking.terrain import Facet
 from humanoid_control.walking.walking_robot import WalkingRobot
-from humanoid_control.walking.whole_body import BaseMotion, JointMotion, WholeBody
+from humanoid_control.walking.whole_body import JointMotion, WholeBody
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
 import numpy as np

@@ -118,6 +118,28 @@ def test_it_steps_sideways(walk: Walk, left_m_s: float) -> None:
     assert abs(walk.pose.yaw_rad) < 0.1
 
 
+def test_it_walks_fast(walk: Walk) -> None:
+    """Half a metre a second, upright and at the speed, and it stops within three seconds."""
+    walk.go(3.0, 0.5)
+    start = walk.pose
+    walk.go(6.0, 0.5)
+    assert start.local(walk.pose.position_m).real == pytest.approx(3.0, rel=0.05)
+    walk.go(3.0)
+    assert walk.phase == 'stand'
+
+
+def test_it_keeps_its_course_with_bad_sensors(make_backend: Callable[..., MujocoBackend]) -> None:
+    """It strays by less than a twentieth of the way, and as little in speed and heading."""
+    robot = Walk(make_backend(settings=BackendSettings(noise=REALISTIC, seed=5)))
+    robot.go(2.5, 0.4)
+    start, time_s = robot.pose, 10.12
+    robot.go(time_s, 0.4)
+    way = start.local(robot.pose.position_m)
+    assert way.real == pytest.approx(0.4 * time_s, rel=0.05)
+    assert abs(way.imag) < 0.05 * 0.4 * time_s
+    assert abs(robot.pose.yaw_rad) < 0.05
+
+
 def test_it_turns(walk: Walk) -> None:
     """On the spot, at the rate that it is told."""
     walk.go(1.5, 0.0, 0.0, 0.4)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.controllers.modes import Mode
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_control.walking.walker import Walker
 
 LENT = ('head_', 'shoulder', 'elbow', 'wrist', 'gripper')
@@ -24,12 +24,10 @@ class WalkingController:
         """Take the walker."""
         self.walker = walker
         self.joints = tuple(walker.robot.body.joints)
-        self._velocity = STANDING
 
     def start(self, observation: Observation, held: JointTargets) -> None:
         """Begin from where the feet are, without a velocity."""
         self.walker.restart()
-        self._velocity = STANDING
 
     def update(self, observation: Observation) -> JointTargets:
         """Return the targets for the coming period."""
@@ -45,11 +43,8 @@ class WalkingController:
         return DOWN if self.walker.has_fallen else ''
 
     def drive(self, velocity: VelocityCommand) -> None:
-        """Walk at a velocity; the same one again costs nothing. A fallen robot forgets it."""
-        if self.walker.has_fallen:
-            self._velocity = STANDING
-        elif velocity != self._velocity:
-            self._velocity = velocity
+        """Walk at a velocity; the same one again costs nothing."""
+        if velocity != self.walker.velocity:
             self.walker.command(velocity)
 
 

@@ -24,7 +24,7 @@ class Facet:
     """The horizontal part of its unit normal: where water would run."""
 
     def rotation(self, yaw_rad: float) -> Array:
-        """Return the rotation (3, 3) of a sole that stands flat on it and faces a direction."""
+        """Return how a sole is turned, (3, 3), that stands flat on it and faces a direction."""
         x, y = self.tilt.real, self.tilt.imag
         z = math.sqrt(max(0.0, 1.0 - x * x - y * y))
         k = 1.0 / (1.0 + z)

@@ -90,6 +90,11 @@ class Walker:
         self._walk = self._targets = None
         self._velocity = STANDING
 
+    @property
+    def velocity(self) -> VelocityCommand:
+        """Return the velocity at which to go; none after a reset, a restart or a fall."""
+        return self._velocity
+
     def command(self, velocity: VelocityCommand) -> None:
         """Go at a velocity, within the limits of the gait; zero stops."""
         self._velocity = velocity

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.leg_ik import leg_posture
 from humanoid_control.dynamics.leg_rates import leg_rates
+from humanoid_control.walking.base_motion import BaseMotion
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.parameters import WalkParameters
@@ -19,14 +20,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False)
-class BaseMotion:
-    """Where the base is in the odometry's frame and how it moves, measured or wanted."""
-
-    frame: Frame
-    twist: Twist
 
 
 @dataclass(frozen=True, eq=False)

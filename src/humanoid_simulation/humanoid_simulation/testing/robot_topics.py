@@ -49,7 +49,7 @@ class RobotTopics:
         self.reset = node.create_client(ResetSimulation, f'{simulator}/reset_simulation')
         self.push = node.create_client(ApplyWrench, f'{simulator}/apply_wrench')
         self.stand_up = node.create_client(Trigger, 'stand_up')
-        self.emergency_stop = node.create_publisher(Bool, 'emergency_stop', COMMAND)
+        self.emergency_stop = node.create_publisher(Bool, 'emergency_stop', LATCHED)
         self._joints = node.create_publisher(JointState, 'joint_commands', COMMAND)
         self._publisher = node.create_publisher(Twist, 'cmd_vel', COMMAND)
         node.create_subscription(Odometry, 'ground_truth/odom', self._take_truth, STATE)
