@@ -195,7 +195,7 @@ def test_it_walks_with_bad_sensors_and_late(make_backend: Callable[..., MujocoBa
 def test_it_bears_missed_ticks(make_backend: Callable[..., MujocoBackend], seed: int) -> None:
     """Ticks that are missed for 10 to 100 ms, again and again, do not make it fall."""
     drop_outs = DropOuts(np.random.default_rng(seed), 0.02, 10)
-    settings = BackendSettings(extrapolation_s=0.1)
+    settings = BackendSettings(extrapolation_s=0.03)
     robot = Walk(make_backend(settings=settings), misses=drop_outs.misses)
     robot.go(0.5)
     robot.go(8.0, 0.3)
