@@ -29,7 +29,7 @@ setup(
     license='Apache-2.0',
     entry_points={
         'console_scripts': [
-            'simulator = humanoid_simulation.simulator:main',
+            'simulator = humanoid_simulation.starting:main',
             'push_test = humanoid_simulation.examples.push_test:main',
             'record_gait = humanoid_simulation.examples.record_gait:main',
             'walk_square = humanoid_simulation.examples.walk_square:main',

@@ -49,7 +49,7 @@ def simulator_share(real_time_factor: float, forward_m_s: float) -> Share:
 def _simulator(real_time_factor: float) -> list[str]:
     """Return the command of a simulator that draws no camera images."""
     settings = {'real_time_factor': real_time_factor, 'camera_rate_hz': 0.0}
-    command = [sys.executable, '-m', 'humanoid_simulation.simulator', '--ros-args']
+    command = [sys.executable, '-m', 'humanoid_simulation.starting', '--ros-args']
     for name, value in settings.items():
         command += ['-p', f'{name}:={value}']
     return command

@@ -22,21 +22,26 @@ class PatientInterrupt:
 
     Raising KeyboardInterrupt would break into whatever runs at that moment. Only when the node
     still runs a second later, a further signal raises, so that a callback that never returns
-    can be ended.
+    can be ended; and when the request says that it is better to break off.
     """
 
     def __init__(
         self,
+        request: StopRequest,
         patience_s: float = 1.0,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """Set how long the node may take to end by itself."""
+        self._request = request
         self._patience_s = patience_s
         self._clock = clock
         self._first_s: float | None = None
 
     def __call__(self, number: int, frame: FrameType | None) -> None:
         """Note the first signal; raise KeyboardInterrupt when patience is at an end."""
+        if self._request.at_once:
+            self._request.make()
+            raise KeyboardInterrupt
         now_s = self._clock()
         if self._first_s is None:
             self._first_s = now_s
@@ -58,7 +63,7 @@ def stop_on_signals() -> Iterator[StopRequest]:
     with reader, writer:
         writer.setblocking(False)
         signal.set_wakeup_fd(writer.fileno(), warn_on_full_buffer=False)
-        handler = PatientInterrupt()
+        handler = PatientInterrupt(request)
         for number in STOP_SIGNALS:
             signal.signal(number, handler)
         watcher = threading.Thread(target=_watch, args=(reader, request), daemon=True)

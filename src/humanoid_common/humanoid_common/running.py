@@ -23,8 +23,8 @@ def run_node(factory: NodeFactory, args: Sequence[str] | None = None) -> int:
     """
     Run the node that the factory makes, and return the exit status.
 
-    SIGINT and SIGTERM end the node between two callbacks, with status 0. A node that cannot
-    start ends with status 1 and one message on stderr.
+    SIGINT and SIGTERM end the node between two callbacks, or while it starts, with status 0. A
+    node that cannot start ends with status 1 and one message on stderr.
     """
     with stop_on_signals() as stop:
         try:
@@ -53,15 +53,42 @@ def _initialize(args: Sequence[str] | None) -> None:
             signal_handler_options=SignalHandlerOptions.NO,
         )
     except RuntimeError as error:
-        raise NodeStartError(
-            f'The ROS arguments of this node cannot be used: {error}. '
-            'Correct what follows --ros-args, or the parameter file that it names.'
-        ) from error
+        raise NodeStartError(_refusal(str(error))) from error
+
+
+def _refusal(reason: str) -> str:
+    """Say what ROS refuses at its start, and what to do."""
+    if 'initialize logging' in reason:
+        return (
+            f'This node cannot write its log: {reason}. '
+            'Set ROS_LOG_DIR to a folder that can be written.'
+        )
+    return (
+        f'The ROS arguments of this node cannot be used: {reason}. '
+        'Correct what follows --ros-args, or the parameter file that it names.'
+    )
+
+
+def _made(factory: NodeFactory, stop: StopRequest) -> Node:
+    """
+    Make the node; break off if it is to stop before it has begun, which may be seconds.
+
+    What a signal breaks into may turn KeyboardInterrupt into an error of its own.
+    """
+    stop.at_once = True
+    try:
+        return factory()
+    except Exception as error:
+        if stop.is_made:
+            raise KeyboardInterrupt from error
+        raise
+    finally:
+        stop.at_once = False
 
 
 def _run(factory: NodeFactory, stop: StopRequest) -> None:
     """Make the node, run its callbacks until the request to stop, and destroy it."""
-    node = factory()
+    node = _made(factory, stop)
     watch_clock(node)
     executor = SingleThreadedExecutor()
     executor.add_node(node)

@@ -15,6 +15,8 @@ class StopRequest:
         self._made = threading.Event()
         self._lock = threading.Lock()
         self._wake: Callable[[], None] | None = None
+        self.at_once = False
+        """Whether it is better to break off what runs than to let it come to its end."""
 
     @property
     def is_made(self) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from humanoid_common.naming import did_you_mean
+from humanoid_common.naming import did_you_mean, shortened
 from humanoid_common.parameters import parameter, specs_of, unknown_parameter_warnings
 import pytest
 
@@ -75,3 +75,9 @@ def test_known_names() -> None:
 def test_did_you_mean(name: str, answer: str) -> None:
     """Only a close name is offered."""
     assert did_you_mean(name, ['shoulder', 'elbow']) == answer
+
+
+def test_shortened() -> None:
+    """An endless name does not fill the log; others stay as they are."""
+    assert shortened('left_elbow') == 'left_elbow'
+    assert len(shortened('x' * 100_000)) < 100

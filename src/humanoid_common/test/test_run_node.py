@@ -67,11 +67,26 @@ sys.exit(run_node(fail))
 )
 
 
-def run(tmp_path: Path, code: str, *arguments: str) -> ExitReport:
+SLOW = (
+    HEAD
+    + """
+def load():
+    print('loading', flush=True)
+    try:
+        time.sleep(60.0)
+    except KeyboardInterrupt as error:
+        raise ImportError('half of it') from error
+sys.exit(run_node(load))
+"""
+)
+
+
+def run(tmp_path: Path, code: str, *arguments: str, **environment: str) -> ExitReport:
     """Run code until it ends by itself."""
+    command = [sys.executable, str(tmp_path / 'node.py'), *arguments]
     script = tmp_path / 'node.py'
     script.write_text(code, encoding='utf-8')
-    with ros_sandbox(), running_program([sys.executable, str(script), *arguments]) as program:
+    with ros_sandbox(), running_program(command, environment) as program:
         return program.wait_for_exit()
 
 
@@ -142,3 +157,22 @@ def test_bad_ros_arguments(tmp_path: Path) -> None:
     report = run(tmp_path, BUSY, '--ros-args', '-p', 'no_value')
     assert report.status == 1 and 'Traceback' not in report.stderr
     assert 'no_value' in report.stderr and 'Correct what follows --ros-args' in report.stderr
+
+
+def test_log_that_cannot_be_written(tmp_path: Path) -> None:
+    """It is not the arguments that are at fault then."""
+    in_a_file = tmp_path / 'file' / 'log'
+    in_a_file.parent.touch()
+    report = run(tmp_path, BUSY, ROS_LOG_DIR=str(in_a_file))
+    assert report.status == 1 and 'Set ROS_LOG_DIR' in report.stderr
+    assert '--ros-args' not in report.stderr
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_signal_while_it_starts(tmp_path: Path, number: signal.Signals) -> None:
+    """A node that is still being made ends at once, and without a traceback."""
+    script = tmp_path / 'node.py'
+    script.write_text(SLOW, encoding='utf-8')
+    with ros_sandbox(), running_program([sys.executable, str(script)]) as program:
+        program.wait_for_output('loading')
+        assert_clean_exit(program.stop(number))

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 import sys
 import time
 from typing import Any
@@ -10,6 +12,7 @@ from typing import Any
 from humanoid_common.errors import NodeStartError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.running import run_node
+from humanoid_control.backends import Observation
 from humanoid_control.backends.mock import MockBackend
 from humanoid_control.hosting.control_loop import ControlLoop
 from humanoid_control.hosting.diagnostics import HostDiagnostics
@@ -17,6 +20,10 @@ from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
 from humanoid_control.hosting.pacing import RealTimePace
 from humanoid_control.hosting.parameters import HostParameters
+from humanoid_control.hosting.refusals import Refusals
+from humanoid_control.hosting.rivals import Rivals
+from humanoid_control.hosting.stamping import Stamps
+from humanoid_control.hosting.topics.filling import topic
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_description.drives import load_drives
@@ -40,10 +47,12 @@ class MockRobot(Node):
         self._settings = NodeParameters(self, HostParameters, self._change)
         parameters = self._settings.current
         controls, backend = self._build(parameters)
+        self._stamps = Stamps()
         self._robots = HostedRobots(self, controls, parameters)
         loop = ControlLoop(backend, {name: robot.control for name, robot in controls.items()})
         period_s, pace = backend.period_s, RealTimePace(backend.period_s)
-        self._host = Host(self, loop, pace, period_s, self._robots.look, self._robots.tell)
+        self._host = Host(self, loop, pace, period_s, self._robots.look, self._tell)
+        self._rivals = Rivals(self, [topic(name, 'joint_states') for name in controls])
         self._diagnostics = HostDiagnostics(self, self._host, self._robots)
         self.get_logger().info(
             f'Mock robot started: {len(backend.joints)} joints at {1.0 / period_s:g} Hz, '
@@ -59,7 +68,7 @@ class MockRobot(Node):
             model = load_robot(humanoid_urdf(scale, prefix), 'the humanoid')
         except DescriptionError as error:
             raise NodeStartError(f'The mock robot has no model. {error}') from error
-        drives, say = load_drives(scale, prefix), self.get_logger().error
+        drives, say = load_drives(scale, prefix), Refusals(self.get_logger().error).add
         controls = {
             name: WalkingRobotControl.of(model, drives, scale, time.monotonic, say, self._able)
             for name in parameters.robots
@@ -70,8 +79,24 @@ class MockRobot(Node):
             1.0 / parameters.control_rate_hz,
             model.mass_kg,
             next(iter(controls.values())).home_rad,
-            self.get_clock().now().nanoseconds * 1e-9,
+            self._now_s(),
         )
+
+    def _now_s(self) -> float:
+        """Return the time of the clock by which this node tells it."""
+        return float(self.get_clock().now().nanoseconds * 1e-9)
+
+    def _tell(self, observations: Mapping[str, Observation]) -> None:
+        """Publish what is due after a tick, stamped by the clock."""
+        robot_s = next(iter(observations.values())).time_s
+        stamp_s = self._stamps.stamp_s(robot_s, self._now_s())
+        if stamp_s is not None:
+            self._robots.tell(
+                {
+                    name: replace(observation, time_s=stamp_s)
+                    for name, observation in observations.items()
+                }
+            )
 
     def _able(self, velocity: VelocityCommand) -> VelocityCommand:
         """Leave out the turn, with a word on why, once."""

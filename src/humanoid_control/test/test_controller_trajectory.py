@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from humanoid_control.backends import JointTargets
 from humanoid_control.controllers import (
@@ -90,9 +91,10 @@ def test_successor() -> None:
         ([(1.0, [])], "field 'position' has length 0"),
         ([(1.0, [1.5])], "Point 1 has 'left_elbow' at 1.5 rad, which it does not reach"),
         ([(1.0, [1.0]), (1.1, [-1.0])], "'left_elbow' would have to turn at 20 rad/s to be at p"),
+        ([(1.0, [0.1], [99.0])], "Point 1 lets 'left_elbow' turn at 99 rad/s, but it can do"),
     ],
 )
-def test_refused(points: list[tuple[float, list[float]]], reason: str) -> None:
+def test_refused(points: list[tuple[Any, ...]], reason: str) -> None:
     """A trajectory that is not sound is refused with the reason."""
     with pytest.raises(CommandError) as refusal:
         checked_trajectory(

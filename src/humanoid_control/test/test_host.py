@@ -104,6 +104,21 @@ def test_pause(ros: RosSandbox) -> None:
     ros.wait_until(lambda: len(world.times_s) >= before + 10, what='ticks after the pause')
 
 
+def test_ticks_in_a_pause(ros: RosSandbox) -> None:
+    """They pass between callbacks; who asked for them is told, also if a pause ends them."""
+    world = World(ros, fast=False)
+    ros.wait_until(lambda: len(world.times_s) >= 3, what='ticks')
+    world.host.pause(True)
+    before, told = len(world.times_s), []
+    world.host.tick_in_pause(30, lambda: told.append(len(world.times_s)))
+    ros.wait_until(lambda: bool(told), what='the end of the ticks')
+    assert told == [before + 30]
+    world.host.tick_in_pause(10**9, lambda: told.append(-1))
+    ros.wait_until(lambda: len(world.times_s) > before + 40, what='ticks')
+    world.host.pause(True)
+    assert told[1:] == [-1]
+
+
 def test_change_of_pace(ros: RosSandbox) -> None:
     """The interval may change while it runs."""
     world = World(ros, fast=False)

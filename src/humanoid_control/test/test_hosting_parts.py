@@ -26,6 +26,13 @@ def test_every_tick_at_most() -> None:
     assert due.is_due(0.0) and due.is_due(1.0) and not due.is_due(1.001)
 
 
+def test_every_goes_on_after_a_clock_was_set_back() -> None:
+    """What is due does not wait for a time that lies far ahead."""
+    due = Every(50.0)
+    assert due.is_due(1000.0) and due.is_due(10.0)
+    assert not due.is_due(10.01) and due.is_due(10.02)
+
+
 def test_never() -> None:
     """A rate of zero is never due."""
     assert not Every(0.0).is_due(5.0)
@@ -61,12 +68,17 @@ def test_refusals() -> None:
 
 
 def test_many_different_refusals() -> None:
-    """However many sentences there are, they are all said."""
+    """A flood of sentences, all of them new, is cut off for a while, with a word on that."""
     said: list[str] = []
-    refusals = Refusals(said.append, lambda: 0.0)
+    clock = [0.0]
+    refusals = Refusals(said.append, lambda: clock[0])
     for number in range(250):
         refusals.add(f'{number}')
-    assert len(said) == 250
+    assert said[:2] == ['0', '1'] and len(said) == 11
+    assert 'no more of it is said' in said[-1]
+    clock[0] = 6.0
+    refusals.add('later')
+    assert said[-1] == 'later'
 
 
 def test_load() -> None:
@@ -86,6 +98,7 @@ def test_load() -> None:
         (['', 'robot1'], "contains '', which is no namespace"),
         (['2nd'], "contains '2nd'"),
         (['a/b'], "contains 'a/b'"),
+        (['a' * 300], 'at most 60 letters'),
         (['robot1', 'robot1'], "names 'robot1' more than once"),
     ],
 )

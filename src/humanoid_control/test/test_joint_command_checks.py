@@ -44,7 +44,12 @@ def test_refused(names: list[str], positions: list[float], reason: str) -> None:
 
 @pytest.mark.parametrize(
     ('velocities', 'efforts', 'field'),
-    [([math.nan], [], 'velocity'), ([], [math.inf], 'effort'), ([1.0, 2.0], [], 'velocity')],
+    [
+        ([math.nan], [], 'velocity'),
+        ([], [math.inf], 'effort'),
+        ([1.0, 2.0], [], 'velocity'),
+        ([-1e308], [], 'velocity of .* is -1e.308, beyond all that a joint can do'),
+    ],
 )
 def test_other_fields(velocities: Sequence[float], efforts: Sequence[float], field: str) -> None:
     """Velocities and efforts are checked too."""

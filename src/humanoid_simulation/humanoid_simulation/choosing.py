@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TypeVar
 
-from humanoid_common.naming import did_you_mean
+from humanoid_common.naming import did_you_mean, shortened
 from humanoid_simulation.errors import SimulationError
 
 T = TypeVar('T')
@@ -18,4 +18,4 @@ def named(kind: str, name: str, things: Mapping[str, T]) -> T:
         return things[name]
     known = ', '.join(f"'{other}'" for other in things) or 'none'
     hint = did_you_mean(name, things) or f'There are: {known}.'
-    raise SimulationError(f"There is no {kind} '{name}'. {hint}")
+    raise SimulationError(f"There is no {kind} '{shortened(name)}'. {hint}")

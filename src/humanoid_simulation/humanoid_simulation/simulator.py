@@ -4,17 +4,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-import sys
 import time
 from typing import Any
 
 from humanoid_common.errors import NodeStartError
 from humanoid_common.node_parameters import NodeParameters
-from humanoid_common.running import run_node
 from humanoid_control.backends import Observation
 from humanoid_control.hosting.diagnostics import HostDiagnostics
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
+from humanoid_control.hosting.refusals import Refusals
+from humanoid_control.hosting.rivals import Rivals
+from humanoid_control.hosting.topics.filling import topic
 from humanoid_description.errors import DescriptionError
 from humanoid_simulation.camera.topics import CameraTopics
 from humanoid_simulation.errors import SimulationError
@@ -59,6 +60,8 @@ class Simulator(Node):
             self, backend, loop, self._host, parameters.steps_per_period
         )
         self._factor_topic = RealTimeFactorTopic(self, self._pacer)
+        joint_states = [topic(name, 'joint_states') for name in backend.robots]
+        self._rivals = Rivals(self, ['/clock', *joint_states])
         self._diagnostics = HostDiagnostics(self, self._host, self._robots)
         self.get_logger().info(_greeting(simulated, parameters))
 
@@ -75,7 +78,7 @@ class Simulator(Node):
     def _build(self, parameters: SimulatorParameters) -> SimulatedRobots:
         """Return the world, or say why there is none."""
         try:
-            return simulated_robots(parameters, self.get_logger().error)
+            return simulated_robots(parameters, Refusals(self.get_logger().error).add)
         except (DescriptionError, SimulationError) as error:
             raise NodeStartError(f'The simulator cannot start. {error}') from error
 
@@ -115,12 +118,3 @@ def _greeting(simulated: SimulatedRobots, parameters: SimulatorParameters) -> st
         f"Simulator started: {robots} in the scene '{parameters.scene}', physics at "
         f'{parameters.physics_rate_hz:g} Hz, control at {parameters.control_rate_hz:g} Hz, {pace}'
     )
-
-
-def main() -> int:
-    """Run the node."""
-    return run_node(Simulator)
-
-
-if __name__ == '__main__':
-    sys.exit(main())

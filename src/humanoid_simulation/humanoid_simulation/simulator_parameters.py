@@ -11,6 +11,9 @@ from humanoid_simulation.camera.parameters import CameraParameters
 from humanoid_simulation.model.physics import SELF_COLLISIONS
 from humanoid_simulation.noise_parameters import NoiseParameters
 
+SLOWEST_FACTOR = 0.001
+"""Besides zero: slower than that, nobody would tell it from a simulator that hangs."""
+
 
 @dataclass(frozen=True)
 class SimulatorParameters(HostParameters, CameraParameters, NoiseParameters):
@@ -92,6 +95,13 @@ class SimulatorParameters(HostParameters, CameraParameters, NoiseParameters):
     def __post_init__(self) -> None:
         """Check what must hold together."""
         super().__post_init__()
+        if 0.0 < self.real_time_factor < SLOWEST_FACTOR:
+            raise ParameterError(
+                f"Parameter 'real_time_factor' is {self.real_time_factor:g}. Give "
+                f'{SLOWEST_FACTOR:g} or more, or 0 for as fast as possible; the service '
+                'set_pause stops the time.',
+                'real_time_factor',
+            )
         steps = self.physics_rate_hz / self.control_rate_hz
         if steps < 1.0 or abs(steps - round(steps)) > 1e-6:
             raise ParameterError(

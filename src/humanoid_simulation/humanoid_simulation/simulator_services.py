@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from functools import partial
 import math
 from typing import Any
@@ -20,11 +20,13 @@ from humanoid_simulation.backend import MujocoBackend
 from humanoid_simulation.conversions import entity_state, seconds, vector
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.guarded_loop import GuardedLoop
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.node import Node
+from rclpy.task import Future
 from std_srvs.srv import SetBool, Trigger
 
 MOST_STEPS = 100_000
-"""Of one call: while it lasts, the simulator hears nothing."""
+"""Of one call: whoever mistypes a number should not have to wait for hours."""
 
 
 class SimulatorServices:
@@ -43,24 +45,30 @@ class SimulatorServices:
         self._steps_per_period = steps_per_period
         for kind, name, do in (
             (SetBool, '~/set_pause', self._set_pause),
-            (StepSimulation, '~/step_simulation', self._step),
             (ResetSimulation, '~/reset_simulation', self._reset),
             (SetEntityState, '~/set_entity_state', self._put),
             (ApplyWrench, '~/apply_wrench', self._push),
         ):
             node.create_service(kind, name, partial(_answer, do))
+        # In a group of its own: while it waits for its steps, all else is heard.
+        node.create_service(
+            StepSimulation,
+            '~/step_simulation',
+            partial(_answer_later, self._step),
+            callback_group=MutuallyExclusiveCallbackGroup(),
+        )
         for robot in backend.robots:
             stand_up = partial(_answer, partial(self._stand_up, robot))
             node.create_service(Trigger, topic(robot, 'stand_up'), stand_up)
 
     def _set_pause(self, request: SetBool.Request) -> str:
         """Stop the time, or let it go on."""
-        if self._loop.has_failed and not request.data:
-            raise SimulationError('The physics has failed; reset the simulation first.')
+        if not request.data:
+            self._refuse_after_failure()
         self._host.pause(request.data)
         return 'The simulation is paused.' if request.data else 'The simulation runs.'
 
-    def _step(self, request: StepSimulation.Request) -> str:
+    async def _step(self, request: StepSimulation.Request) -> str:
         """Let a paused simulation go on by whole control periods."""
         if not self._host.paused:
             raise SimulationError('The simulation runs. Pause it before you step it.')
@@ -69,10 +77,14 @@ class SimulatorServices:
                 f'A call cannot do {request.steps} steps. Give 1 to {MOST_STEPS}.'
             )
         periods = math.ceil(request.steps / self._steps_per_period)
-        for _ in range(periods):
-            self._host.tick()
+        end_s = self._backend.time_s + (periods - 0.5) * self._backend.period_s
+        done: Future = Future()
+        self._host.tick_in_pause(periods, lambda: done.set_result(None))
+        await done
         if self._loop.has_failed:
             raise SimulationError('The physics has failed meanwhile; see the log.')
+        if self._backend.time_s < end_s:
+            raise SimulationError('The steps were ended by set_pause.')
         return f'{periods * self._steps_per_period} steps of physics: {periods} control periods.'
 
     def _reset(self, request: ResetSimulation.Request) -> str:
@@ -86,11 +98,13 @@ class SimulatorServices:
 
     def _put(self, request: SetEntityState.Request) -> str:
         """Put a robot or a thing somewhere."""
+        self._refuse_after_failure()
         self._backend.set_entity_state(request.entity, entity_state(request))
         return 'Done.'
 
     def _push(self, request: ApplyWrench.Request) -> str:
         """Push a robot or a thing."""
+        self._refuse_after_failure()
         self._backend.apply_wrench(
             self._backend.body(request.entity, request.body),
             vector(request.wrench.force),
@@ -102,14 +116,29 @@ class SimulatorServices:
 
     def _stand_up(self, robot: str, request: Trigger.Request) -> str:
         """Lift a robot onto its feet; its walker takes over when it stands."""
+        self._refuse_after_failure()
         self._backend.hoist(robot)
         return 'The robot is being put onto its feet.'
+
+    def _refuse_after_failure(self) -> None:
+        """Refuse what has no effect before a reset."""
+        if self._loop.has_failed:
+            raise SimulationError('The physics has failed; reset the simulation first.')
 
 
 def _answer(do: Callable[[Any], str], request: Any, response: Any) -> Any:
     """Answer a request: whether it was done, and if not, why."""
     try:
         response.message, response.success = do(request), True
+    except SimulationError as error:
+        response.message, response.success = str(error), False
+    return response
+
+
+async def _answer_later(do: Callable[[Any], Awaitable[str]], request: Any, response: Any) -> Any:
+    """Answer a request when it has been done, or refused."""
+    try:
+        response.message, response.success = await do(request), True
     except SimulationError as error:
         response.message, response.success = str(error), False
     return response

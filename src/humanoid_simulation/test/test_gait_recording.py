@@ -106,6 +106,7 @@ def test_refused_plan(walking_s: float) -> None:
         (['--forward', 'nan'], 'not finite'),
         (['--scene', 'flatt'], "no scene 'flatt'. Did you mean 'flat'?"),
         (['--duration', '0.1', '--output', 'no/such/folder.png'], 'cannot be written'),
+        (['--duration', '0.1', '--output', '/dev/full'], '/dev/full cannot be written: No space'),
     ],
 )
 def test_refused_command(

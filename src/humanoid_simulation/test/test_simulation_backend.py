@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 from humanoid_control.backends import Backend, JointTargets
-from humanoid_simulation.backend import BackendSettings, MujocoBackend
+from humanoid_simulation.backend import BackendSettings, EntityState, MujocoBackend
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.keyframes import Keyframe
 from humanoid_simulation.model import Placement
 import numpy as np
 import pytest
+
+LEVEL = np.array([1.0, 0.0, 0.0, 0.0])
 
 GRAVITY = 9.81
 MASS = 42.8
@@ -235,13 +237,16 @@ def test_a_keyframe_of_ones_own(description) -> None:
         MujocoBackend(description, keyframes={'home': Keyframe({'left_elbo': -1.0})})
 
 
-def test_physics_that_explodes_says_so(backend: MujocoBackend, tmp_path, monkeypatch) -> None:
-    """Numbers without bounds become an error that says what to do, and a reset helps."""
+@pytest.mark.parametrize('force_n', [1e14, 1e300])
+def test_physics_that_explodes_says_so(
+    backend: MujocoBackend, force_n: float, tmp_path, monkeypatch
+) -> None:
+    """Numbers without bounds become an error; the last sound state stays, and a reset helps."""
     monkeypatch.chdir(tmp_path)
-    backend.apply_wrench('torso', (1e14, 0.0, 0.0))
+    backend.apply_wrench('torso', (force_n, 0.0, 0.0))
     with pytest.raises(SimulationError, match=r'unstable at .* Reset the simulation'):
         run(backend, 1.0)
-    assert np.isfinite(backend.snapshot().qpos).all()
+    assert np.isfinite(backend.ground_truth().position_m).all()
     assert np.isfinite(backend.observe()[''].positions_rad).all()
     backend.reset()
     run(backend, 1.0)
@@ -277,3 +282,19 @@ def test_settings_that_cannot_be(options) -> None:
     """The error says what to give."""
     with pytest.raises(SimulationError, match='Give'):
         BackendSettings(**options)
+
+
+@pytest.mark.parametrize(
+    'state',
+    [
+        EntityState(np.array([1e9, 0.0, 1.0]), LEVEL),
+        EntityState(np.zeros(3), LEVEL, np.array([0.0, -1e300, 0.0])),
+        EntityState(np.zeros(3), LEVEL, np.zeros(3), np.array([0.0, 0.0, 1e5])),
+    ],
+)
+def test_places_that_cannot_be_computed_with(backend: MujocoBackend, state: EntityState) -> None:
+    """A state beyond all bounds is refused, and nothing moves."""
+    before_m = backend.ground_truth().position_m
+    with pytest.raises(SimulationError, match='too large to be computed with'):
+        backend.set_entity_state('robot', state)
+    assert backend.ground_truth().position_m == pytest.approx(before_m)

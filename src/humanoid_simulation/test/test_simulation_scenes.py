@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 
 from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.model import Placement
 from humanoid_simulation.scene import load_scene, Scene, Thing
 from humanoid_simulation.scene.loading import installed_scenes
 from humanoid_simulation.scene.terrain import Plates, plates_of, Ramp, ramp_of
@@ -126,12 +127,17 @@ def test_the_friction_of_the_floor_decides(make_backend) -> None:
         ),
         ('things: [{name: a, shape: sphere, size: [0], position: [0, 0, 0]}]', 'above zero'),
         ('things: [{name: floor, shape: sphere, size: [1], position: [0, 0, 0]}]', "'floor'"),
+        ('things: [{name: world, shape: sphere, size: [1], position: [0, 0, 0]}]', "'world'"),
         ('things: [{nam: a}]', "things[0] sets 'nam', which means nothing. Did you mean 'name'"),
         ('ramps: [{name: r, start: [0, 0], slope_deg: 60, length: 1, width: 1}]', '60 degrees'),
         ('ramps: [{name: r, start: [0, 0], slope_deg: 5, length: 0, width: 1}]', 'above zero'),
         (
             'plates: [{name: p, from: [0, 0], to: [-1, 1], edge: [0.1, 0.1], height: 0.02}]',
             'the larger coordinates',
+        ),
+        (
+            'plates: [{name: p, from: [0, 0], to: [1, 1], edge: [1.0e-320, 0.1], height: 0.02}]',
+            'room for 1 to 2000 plates',
         ),
         ('plates: [{name: p, seed: -1}]', 'seed must be a whole number, not negative'),
         ('a: [', 'is no YAML file'),
@@ -160,3 +166,12 @@ def test_names_must_differ() -> None:
     ball = Thing('ball', 'sphere', (0.1,))
     with pytest.raises(SimulationError, match="a thing 'ball'"):
         Scene('two', things=(ball, ball))
+
+
+@pytest.mark.parametrize('robot', ['', 'ball'])
+def test_robots_and_things_must_differ(make_backend, robot: str) -> None:
+    """A thing that is called like a robot would be mistaken for it."""
+    name = robot or 'robot'
+    scene = Scene('one', things=(Thing(name, 'sphere', (0.1,), mass_kg=1.0),))
+    with pytest.raises(SimulationError, match=f"a thing called '{name}', as a robot is"):
+        make_backend(scene=scene, placements=[Placement(robot)])

@@ -143,6 +143,21 @@ def test_pause_step_and_go_on(ros: RosSandbox) -> None:
     watch.run(0.5)
 
 
+def test_many_steps_leave_the_simulator_responsive(ros: RosSandbox) -> None:
+    """While they are computed, other services answer; set_pause ends them."""
+    watch = Watch(ros, start_paused=True)
+    client = watch.node.create_client(StepSimulation, 'simulator/step_simulation')
+    watch.wait('the service', client.service_is_ready)
+    steps = client.call_async(StepSimulation.Request(steps=100_000))
+    watch.wait('the first steps', lambda: watch.simulator._backend.time_s > 0.1)
+    assert watch.ask(ResetSimulation, 'simulator/reset_simulation').success
+    assert not steps.done()
+    assert watch.pause().success
+    watch.wait('the answer', steps.done)
+    assert not steps.result().success and 'ended by set_pause' in steps.result().message
+    assert watch.ask(StepSimulation, 'simulator/step_simulation', steps=50).success
+
+
 def test_it_may_start_paused(ros: RosSandbox) -> None:
     """Then no time passes before somebody wants it."""
     watch = Watch(ros, start_paused=True)

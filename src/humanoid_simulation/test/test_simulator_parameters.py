@@ -35,6 +35,7 @@ def test_a_period_has_whole_steps(physics_hz: float, control_hz: float, steps: i
         ({'robots': ('a', 'a')}, 'more than once'),
         ({'self_collision': 'legs'}, 'self_collision'),
         ({'real_time_factor': -1.0}, 'real_time_factor'),
+        ({'real_time_factor': 1e-300}, 'Give 0.001 or more, or 0'),
     ],
 )
 def test_parameters_that_cannot_be(values, sentence: str) -> None:

@@ -6,12 +6,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from humanoid_common.naming import did_you_mean
+from humanoid_common.naming import did_you_mean, shortened
 from humanoid_control.backends import Array, JointTargets
 import numpy as np
 from numpy.typing import NDArray
 
 Indices = NDArray[np.intp]
+LARGEST = 1e6
+"""No joint gets near to it in any unit; beyond, sums of values may overflow."""
 
 
 class CommandError(ValueError):
@@ -66,7 +68,7 @@ class JointNames:
     def _unknown(self, name: str) -> str:
         """Build the sentence on a joint that there is not."""
         advice = did_you_mean(name, self.joints) or f'It has: {", ".join(self.joints)}.'
-        return f"The robot has no joint '{name}'. {advice}"
+        return f"The robot has no joint '{shortened(name)}'. {advice}"
 
 
 def optional_values(field: str, values: Sequence[float], names: Sequence[str]) -> Array:
@@ -75,7 +77,7 @@ def optional_values(field: str, values: Sequence[float], names: Sequence[str]) -
 
 
 def checked_values(field: str, values: Sequence[float], names: Sequence[str]) -> Array:
-    """Return one finite value a joint, or refuse them."""
+    """Return one finite value a joint, none of them absurd, or refuse them."""
     if len(values) != len(names):
         raise CommandError(
             f"Its field '{field}' has length {len(values)}, but it names {len(names)} joints. "
@@ -87,5 +89,12 @@ def checked_values(field: str, values: Sequence[float], names: Sequence[str]) ->
         place = int(np.argmin(finite))
         raise CommandError(
             f"The {field} of '{names[place]}' is {array[place]}. Give finite numbers."
+        )
+    sizes = np.abs(array)
+    if sizes.max() > LARGEST:
+        place = int(np.argmax(sizes))
+        raise CommandError(
+            f"The {field} of '{names[place]}' is {array[place]:g}, beyond all that a joint can "
+            f'do. Give at most {LARGEST:g}.'
         )
     return array

@@ -60,11 +60,14 @@ def checked_trajectory(
     positions_rad = _checked_rows('position', [point.positions_rad for point in points], names)
     _check_range(positions_rad, places, limits, names)
     _check_speed(times_s, positions_rad, places, limits, names)
+    velocities_rad_s = _given('velocity', [point.velocities_rad_s for point in points], names)
+    if velocities_rad_s is not None:
+        _check_velocities(velocities_rad_s, limits.velocity_rad_s[places], names)
     return Trajectory(
         places,
         times_s,
         positions_rad,
-        _given('velocity', [point.velocities_rad_s for point in points], names),
+        velocities_rad_s,
         _given('acceleration', [point.accelerations_rad_s2 for point in points], names),
     )
 
@@ -130,6 +133,18 @@ def _check_speed(
             f'point {point + 2} in time, but can do {fastest_rad_s[joint]:.3g} rad/s. '
             'Give it more time.'
         )
+
+
+def _check_velocities(velocities_rad_s: Array, most_rad_s: Array, names: Sequence[str]) -> None:
+    """Refuse velocities at points that joints cannot have."""
+    for number, speed_rad_s in enumerate(np.abs(velocities_rad_s), start=1):
+        too_fast = speed_rad_s > most_rad_s
+        if too_fast.any():
+            joint = int(np.argmax(too_fast))
+            raise CommandError(
+                f"Point {number} lets '{names[joint]}' turn at {speed_rad_s[joint]:.3g} rad/s, "
+                f'but it can do {most_rad_s[joint]:.3g} rad/s. Give less, or leave velocities out.'
+            )
 
 
 def _given(field: str, rows: Sequence[Sequence[float]], names: Sequence[str]) -> Array | None:

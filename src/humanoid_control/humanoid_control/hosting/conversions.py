@@ -4,9 +4,12 @@
 from __future__ import annotations
 
 from geometry_msgs.msg import Twist
-from humanoid_control.controllers import TrajectoryPoint
+from humanoid_control.controllers import CommandError, TrajectoryPoint
 from humanoid_control.walking.velocity_command import VelocityCommand
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+MOST_POINTS = 1000
+"""Of a trajectory: while it is checked, the robot is not controlled."""
 
 
 def velocity_of(message: Twist) -> VelocityCommand:
@@ -15,7 +18,13 @@ def velocity_of(message: Twist) -> VelocityCommand:
 
 
 def points_of(message: JointTrajectory) -> list[TrajectoryPoint]:
-    """Return the points of a trajectory."""
+    """Return the points of a trajectory, or raise CommandError if they are too many."""
+    count = len(message.points)
+    if count > MOST_POINTS:
+        raise CommandError(
+            f'It has {count} points. Give at most {MOST_POINTS}, one after the other if need be: '
+            'what is between points is smooth.'
+        )
     return [_point_of(point) for point in message.points]
 
 

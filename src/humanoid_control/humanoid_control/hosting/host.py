@@ -49,6 +49,8 @@ class Host:
         self._loop, self._pace, self._look, self._tell = loop, pace, look, tell
         self._interval_s = interval_s
         self._paused = False
+        self._owed = 0
+        self._done: Callable[[], None] = _nothing
         self.load = Load(time.monotonic())
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = node.create_timer(interval_s or _AT_ONCE_S, self._run, clock=steady)
@@ -59,8 +61,9 @@ class Host:
         return self._paused
 
     def pause(self, paused: bool) -> None:
-        """Stop the time, or let it go on."""
+        """Stop the time, or let it go on; periods that were still to pass do not."""
         self._paused = paused
+        self._settle()
         if not paused:
             self._pace.restart(time.monotonic())
         self._set_timer()
@@ -75,6 +78,16 @@ class Host:
         self._look()
         self._tell(self._loop.tick())
 
+    def tick_in_pause(self, periods: int, done: Callable[[], None]) -> None:
+        """
+        Let so many periods pass in a pause, as fast as possible, with callbacks between them.
+
+        :param done: called when they have passed, or when `pause` has ended that
+        """
+        self._settle()
+        self._owed, self._done = periods, done
+        self._set_timer()
+
     def reset(self, keyframe: str = 'home') -> None:
         """Put all robots where they began, in a posture that has a name; time goes on."""
         self._loop.reset(keyframe)
@@ -83,6 +96,7 @@ class Host:
         """Do the ticks that are due, for a slice of time at most; in a pause, only look."""
         if self._paused:
             self._look()
+            self._tick_owed()
             return
         now_s = time.monotonic()
         end_s, early_s = now_s + SLICE_S, _EARLY * self._interval_s
@@ -92,8 +106,28 @@ class Host:
             self.load.add(now_s - before_s)
             self._pace.ticked(now_s)
 
+    def _tick_owed(self) -> None:
+        """Let periods pass in a pause, if any are to, for a slice of time at most."""
+        end_s = time.monotonic() + SLICE_S
+        while self._owed and time.monotonic() < end_s:
+            self._owed -= 1
+            self.tick()
+        if not self._owed and self._done is not _nothing:
+            self._settle()
+            self._set_timer()
+
+    def _settle(self) -> None:
+        """Owe no periods any more, and say so to whom they were owed."""
+        done, self._owed, self._done = self._done, 0, _nothing
+        done()
+
     def _set_timer(self) -> None:
         """Let the timer follow a change of the pace, or a pause."""
-        interval_s = PAUSED_INTERVAL_S if self._paused else self._interval_s or _AT_ONCE_S
+        pause_s = _AT_ONCE_S if self._owed else PAUSED_INTERVAL_S
+        interval_s = pause_s if self._paused else self._interval_s or _AT_ONCE_S
         self._timer.timer_period_ns = int(interval_s * 1e9)
         self._timer.reset()
+
+
+def _nothing() -> None:
+    """Tell nobody."""

@@ -10,7 +10,7 @@ from humanoid_common.parameters import parameter, ParameterError
 
 WALKING = 'walking'
 MODES = (WALKING, 'follow', 'hold')
-_NAMESPACE = re.compile(r'[A-Za-z][A-Za-z0-9_]*')
+_NAMESPACE = re.compile(r'[A-Za-z][A-Za-z0-9_]{0,59}')
 
 
 @dataclass(frozen=True)
@@ -68,8 +68,8 @@ class HostParameters:
             if not (name == '' and len(self.robots) == 1) and not _NAMESPACE.fullmatch(name):
                 raise ParameterError(
                     f"Parameter 'robots' contains '{name}', which is no namespace. Give names of "
-                    'letters, digits and underscores, which begin with a letter; a robot alone '
-                    'may have an empty one.',
+                    'at most 60 letters, digits and underscores, which begin with a letter; a '
+                    'robot alone may have an empty one.',
                     'robots',
                 )
             if self.robots.count(name) > 1:

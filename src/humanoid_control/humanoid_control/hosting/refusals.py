@@ -4,15 +4,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import math
 import time
 
 QUIET_S = 5.0
 """A reason that was not heard for so long is said anew."""
-_MOST = 100
+MOST = 10
+"""So many different sentences are said in that time: more are those of a flood."""
 
 
 class Refusals:
-    """Says a sentence when it is new."""
+    """Says a sentence when it is new, and not too many of them."""
 
     def __init__(
         self, say: Callable[[str], None], clock: Callable[[], float] = time.monotonic
@@ -20,13 +22,24 @@ class Refusals:
         """Set to whom it is said."""
         self._say, self._clock = say, clock
         self._heard_s: dict[str, float] = {}
+        self._since_s, self._count = clock(), 0
 
     def add(self, sentence: str) -> None:
         """Say the sentence, unless it was heard a short while ago."""
         now_s = self._clock()
-        is_new = now_s - self._heard_s.get(sentence, -QUIET_S) >= QUIET_S
-        if len(self._heard_s) >= _MOST:
+        is_new = now_s - self._heard_s.get(sentence, -math.inf) >= QUIET_S
+        if len(self._heard_s) > MOST:
             self._heard_s.clear()
         self._heard_s[sentence] = now_s
         if is_new:
+            self._say_some(sentence, now_s)
+
+    def _say_some(self, sentence: str, now_s: float) -> None:
+        """Say a new sentence, unless there have been many of them in a short while."""
+        if now_s - self._since_s >= QUIET_S:
+            self._since_s, self._count = now_s, 0
+        self._count += 1
+        if self._count <= MOST:
             self._say(sentence)
+        if self._count == MOST:
+            self._say(f'That is much to refuse: for {QUIET_S:g} s, no more of it is said.')

@@ -14,6 +14,10 @@ from humanoid_simulation.rotations import inverse, rotated
 import mujoco
 import numpy as np
 
+FARTHEST_M = 1e4
+"""Beyond so far, numbers are too coarse for contacts."""
+FASTEST_M_S, FASTEST_RAD_S = 1e3, 1e3
+
 
 def _zero() -> Array:
     """Return the vector zero."""
@@ -75,7 +79,8 @@ class Entities:
         )
 
     def put(self, name: str, state: EntityState) -> None:
-        """Put an entity somewhere."""
+        """Put an entity somewhere; refuse what the physics could not go on from."""
+        _check_bounds(state)
         at = self._floating[name]
         qpos, qvel = self._data.qpos, self._data.qvel
         orientation = state.orientation.copy()
@@ -83,3 +88,17 @@ class Entities:
         qpos[at.position], qpos[at.orientation] = state.position_m, orientation
         qvel[at.linear] = state.linear_velocity_m_s
         qvel[at.angular] = rotated(state.angular_velocity_rad_s, inverse(orientation))
+
+
+def _check_bounds(state: EntityState) -> None:
+    """Refuse a state that is beyond what can be computed."""
+    for kind, array, most in (
+        ('position_m', state.position_m, FARTHEST_M),
+        ('linear_velocity_m_s', state.linear_velocity_m_s, FASTEST_M_S),
+        ('angular_velocity_rad_s', state.angular_velocity_rad_s, FASTEST_RAD_S),
+    ):
+        if np.abs(array).max() > most:
+            raise SimulationError(
+                f'The {kind} {array} of an entity is too large to be computed with. Give numbers '
+                f'from {-most:g} to {most:g}.'
+            )

@@ -10,6 +10,7 @@ from humanoid_control.backends import Array, JointTargets, Observation
 from humanoid_simulation.backend.contacts import Contact, contacts_in
 from humanoid_simulation.backend.entities import Entities, EntityState
 from humanoid_simulation.backend.hoisting import Hoists
+from humanoid_simulation.backend.last_sound import LastSound
 from humanoid_simulation.backend.names import ALONE, Names
 from humanoid_simulation.backend.robot import SimulatedRobot
 from humanoid_simulation.backend.settings import BackendSettings
@@ -29,8 +30,6 @@ from humanoid_simulation.model.robot_spec import CAMERA
 from humanoid_simulation.scene import Scene
 import mujoco
 import numpy as np
-
-_FASTEST = 1e4
 
 
 class MujocoBackend:
@@ -63,6 +62,7 @@ class MujocoBackend:
         self._entities = Entities(self._model, self._data, self._names.floating)
         self._wrenches = Wrenches(self._model, self._data)
         self._hoists = Hoists(self._model, self._data, self._wrenches)
+        self._sound = LastSound(self._model, self._data)
         self._periods = 0
         self.reset()
         self._standing_m = {
@@ -113,7 +113,8 @@ class MujocoBackend:
         """
         Let a period pass; a robot without targets keeps those that it had.
 
-        Targets that are wrong are refused, all of them, and no time passes.
+        Targets that are wrong are refused, all of them, and no time passes. If the physics becomes
+        unstable, that is an error, and the last state that meant something is there again.
         """
         for name, wanted in targets.items():
             named('robot', name, self._robots).check(wanted)
@@ -121,9 +122,9 @@ class MujocoBackend:
             robot.command(targets.get(name))
         self._hoists.act(self.period_s)
         self._wrenches.act(self.period_s)
-        before = self.snapshot()
+        self._sound.keep()
         mujoco.mj_step(self._model, self._data, self._settings.steps_per_period)
-        self._refuse_explosion(before)
+        self._refuse_explosion()
         self._periods += 1
         self._measure()
 
@@ -227,21 +228,18 @@ class MujocoBackend:
         for robot in self._robots.values():
             robot.measure(self.time_s)
 
-    def _refuse_explosion(self, before: Snapshot) -> None:
-        """Refuse a state that no longer means anything: the world is as it was before."""
-        qvel = self._data.qvel
-        if float(qvel @ qvel) < _FASTEST * _FASTEST:
-            return
-        mujoco.mj_resetData(self._model, self._data)
-        self._data.qpos[:], self._data.qvel[:] = before.qpos, before.qvel
-        self._wrenches.clear()
-        self._hoists.clear()
-        self._look_again()
-        raise SimulationError(
-            f'The physics has become unstable at {self.time_s:.3f} s: velocities are beyond all '
-            'bounds. Reset the simulation. If it happens again, look for huge forces, for bodies '
-            'that are put into each other, and for a physics period that is too long.'
-        )
+    def _refuse_explosion(self) -> None:
+        """Go back from a state that no longer means anything, and raise SimulationError."""
+        if self._sound.is_lost:
+            self._sound.restore()
+            self._wrenches.clear()
+            self._hoists.clear()
+            self._look_again()
+            raise SimulationError(
+                f'The physics has become unstable at {self.time_s:.3f} s: velocities are beyond '
+                'all bounds. Reset the simulation. If it happens again, look for huge forces, for '
+                'bodies that are put into each other, and for a physics period that is too long.'
+            )
 
 
 def _ignore(message: str) -> None:

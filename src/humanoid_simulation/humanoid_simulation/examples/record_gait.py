@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 import signal
 import sys
@@ -24,9 +25,6 @@ def main(argv: Sequence[str] | None = None) -> int:
         _write(recording, arguments)
     except (SimulationError, WalkingError) as error:
         print(error, file=sys.stderr)
-        return 1
-    except OSError as error:
-        print(f'{error.filename} cannot be written: {error.strerror}.', file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return 128 + signal.SIGINT
@@ -72,14 +70,22 @@ def _write(recording: GaitRecording, arguments: argparse.Namespace) -> None:
     from humanoid_simulation.examples.gait_plots import draw_gait  # takes a while to import
     from humanoid_simulation.examples.gait_table import write_table
 
-    draw_gait(recording, arguments.output)
+    _write_file(arguments.output, partial(draw_gait, recording))
     if arguments.csv is not None:
-        write_table(recording, arguments.csv)
+        _write_file(arguments.csv, partial(write_table, recording))
     way_m = recording.com_m[-1] - recording.com_m[0]
     print(
         f'{arguments.output}: {recording.times_s[-1]:.2f} s, {way_m[0]:.2f} m along x, '
         f'{way_m[1]:.2f} m along y'
     )
+
+
+def _write_file(path: Path, write: Callable[[Path], None]) -> None:
+    """Write a file, or raise SimulationError with its name: a full disk has none of its own."""
+    try:
+        write(path)
+    except OSError as error:
+        raise SimulationError(f'{path} cannot be written: {error.strerror}.') from error
 
 
 if __name__ == '__main__':

@@ -16,10 +16,13 @@ from humanoid_simulation.scene import Scene
 from humanoid_simulation.scene.building import add_scene
 import mujoco
 
+ALONE = 'robot'
+"""What a robot without a name is called among the things of the world."""
+
 
 def in_world(robot: str, name: str) -> str:
     """Return what a link, joint, sensor or camera of a robot is called in the world."""
-    return f'{robot or "robot"}/{name}'
+    return f'{robot or ALONE}/{name}'
 
 
 def build_world(
@@ -30,6 +33,7 @@ def build_world(
 ) -> Any:
     """Return the compiled model of a world with robots of one kind."""
     check_placements(placements)
+    _check_names(scene, placements)
     if len(placements) > MOST_ROBOTS:
         raise SimulationError(f'A world has room for {MOST_ROBOTS} robots, not {len(placements)}.')
     world = _empty_world(physics)
@@ -42,6 +46,17 @@ def build_world(
         return world.compile()
     except ValueError as error:
         raise SimulationError(f'MuJoCo cannot make a world of this: {error}.') from error
+
+
+def _check_names(scene: Scene, placements: Sequence[Placement]) -> None:
+    """Refuse a robot and a thing that nobody could tell apart."""
+    robots = {placement.robot or ALONE for placement in placements}
+    for thing in scene.things:
+        if thing.name in robots:
+            raise SimulationError(
+                f"Scene '{scene.name}' has a thing called '{thing.name}', as a robot is. Give the "
+                'thing or the robot another name.'
+            )
 
 
 def _empty_world(physics: Physics) -> Any:

@@ -16,6 +16,8 @@ SIZES = {
 }
 """What the numbers of a size mean, by shape."""
 FLOOR = 'floor'
+WORLD = 'world'
+"""What everything in it hangs on."""
 
 
 @dataclass(frozen=True)
@@ -81,10 +83,10 @@ class Scene:
 
     def __post_init__(self) -> None:
         """Refuse names that several things have."""
-        names = [FLOOR, *(thing.name for thing in self.things)]
+        names = [FLOOR, WORLD, *(thing.name for thing in self.things)]
         for name in names:
             if not name or names.count(name) > 1 or '/' in name:
                 raise SimulationError(
                     f"Scene '{self.name}' cannot call a thing '{name}'. Every thing needs a name "
-                    f"of its own, without a '/'; '{FLOOR}' is the floor."
+                    f"of its own, without a '/'; '{FLOOR}' is the floor, '{WORLD}' is all of it."
                 )

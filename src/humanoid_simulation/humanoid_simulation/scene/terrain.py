@@ -117,8 +117,9 @@ class Plates:
     @property
     def counts(self) -> tuple[int, int]:
         """Return how many plates there is room for, along x and y."""
-        lengths = [(b - a) / edge for a, b, edge in zip(self.from_m, self.to_m, self.edge_m)]
-        return math.floor(lengths[0] + 1e-9), math.floor(lengths[1] + 1e-9)
+        places = [(b - a) / edge for a, b, edge in zip(self.from_m, self.to_m, self.edge_m)]
+        rows, columns = (math.floor(max(-1e9, min(count, 1e9)) + 1e-9) for count in places)
+        return rows, columns
 
 
 def plates_of(plates: Plates) -> Iterator[Thing]:

@@ -96,8 +96,12 @@ class SimulatedRobot:
         """Help a robot that lies onto its feet, and let it stand for a second."""
         self.drive()
         self._ask(self.topics.stand_up, Trigger.Request())
-        self._ros.wait_until(lambda: self.stands, PATIENCE_S, 'a robot that stands')
+        self._ros.wait_until(self._walks, PATIENCE_S, 'a robot that stands by itself')
         self.wait(1.0)
+
+    def _walks(self) -> bool:
+        """Tell whether the robot stands and its walk has it again, not a hoist alone."""
+        return self.stands and self.topics.walking_state == 'stand'
 
     def pause(self, on: bool = True) -> None:
         """Let time stand still, or go on."""

@@ -19,7 +19,7 @@ def simulation(**parameters: str) -> Iterator[RosSandbox]:
     """Run a simulator without a camera, in a domain of its own."""
     values = {**FASTER, 'camera_rate_hz': '0.0', **parameters}
     settings = [text for name, value in values.items() for text in ('-p', f'{name}:={value}')]
-    command = module_command('humanoid_simulation.simulator', '--ros-args', *settings)
+    command = module_command('humanoid_simulation.starting', '--ros-args', *settings)
     with ros_sandbox() as ros, running_program(command) as program:
         program.wait_for_output('Simulator started', timeout_s=60.0)
         yield ros

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Notice that others publish what one node alone may publish."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+
+PERIOD_S = 3.0
+
+
+class Rivals:
+    """
+    Warns when topics have other publishers, such as those of a second simulator.
+
+    They must be there twice in a row: a node that ends may be seen for a moment longer.
+    """
+
+    def __init__(self, node: Node, topics: Sequence[str]) -> None:
+        """Begin to look now and then."""
+        self._node = node
+        self._topics = tuple(node.resolve_topic_name(topic) for topic in topics)
+        self._seen: set[str] = set()
+        self._said: set[str] = set()
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(PERIOD_S, self._look, clock=steady)
+
+    def _look(self) -> None:
+        """Warn of rivals that are there for a while, once as long as they stay."""
+        rivals = {topic for topic in self._topics if self._node.count_publishers(topic) > 1}
+        lasting = rivals & self._seen
+        if lasting - self._said:
+            self._node.get_logger().warning(sentence(sorted(lasting - self._said)))
+        self._seen, self._said = rivals, lasting
+
+
+def sentence(topics: Sequence[str]) -> str:
+    """Return what is wrong, and what to do."""
+    names = ', '.join(f"'{topic}'" for topic in topics)
+    return (
+        f'Another node publishes {names}, too: who listens gets a mixture. Perhaps a second robot '
+        'or simulator runs. End one of them, or give it a namespace (a mock robot) or a '
+        'ROS_DOMAIN_ID (a simulator) of its own. One that was killed is seen for some 20 s more.'
+    )
