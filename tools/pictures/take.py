@@ -30,6 +30,7 @@ SETTLE_MS = 8000
 """A page fades in, and a processor that draws it takes its time."""
 WALK_MS = 4000
 ATTEMPTS = 5
+"""A robot stops when the page of who drives it is silent, as it is where much goes on."""
 ADDRESS = re.compile(r'(RViz is|The sliders are) at (http://\S+)')
 
 
@@ -86,13 +87,14 @@ def show_camera(tab: Any) -> None:
 
 def walk(tab: Any) -> None:
     """Drive forwards and to the left, until the pointer is released."""
-    holds = tab.frame_locator('iframe[title=safety]').locator('#robot')
+    drive, safety = (tab.frame_locator(f'iframe[title={name}]') for name in ('drive', 'safety'))
     for _ in range(ATTEMPTS):
         hold_stick(tab)
-        if 'holds still' not in holds.inner_text():
+        if drive.locator('#stick.held').count() and 'm/s' in drive.locator('#what').inner_text():
             return
         tab.mouse.up()
-        release(tab)
+        if 'holds still' in safety.locator('#robot').inner_text():
+            release(tab)
     raise SystemExit('This machine has too much to do: the page was slow, and the robot stopped.')
 
 

@@ -154,6 +154,8 @@ def test_walk(watch: Watch) -> None:
     assert watch.last['odom'].twist.twist.linear.x > 0.0
     steps = watch.last['footsteps'].markers
     assert len(steps) > 2 and steps[1].header.frame_id == 'odom'
+    colors = {(step.id % 2, step.color.g) for step in steps[1:]}
+    assert len(colors) == 2, 'a number is always of the same side'
     assert 0.15 < steps[1].scale.x < 0.25 and 0.05 < steps[1].scale.y < 0.12
     assert watch.last['walking/dcm'].header.frame_id == 'odom'
     watch.ros.wait_until(lambda: watch.last['walking_state'].data == 'stand', 20.0, 'a stand')

@@ -10,7 +10,7 @@ from humanoid_common.qos import LATCHED, STATE
 from humanoid_control.hosting.topics.filling import fill_stamp, topic
 from humanoid_control.walking.foot_shape import FootShape
 from humanoid_control.walking.footsteps import Footstep
-from humanoid_control.walking.sides import LEFT, outwards
+from humanoid_control.walking.sides import LEFT, outwards, SIDES
 from humanoid_control.walking.status import WalkStatus
 from rclpy.node import Node
 from std_msgs.msg import ColorRGBA, String
@@ -74,8 +74,13 @@ class FootstepsTopic:
         self._publisher.publish(MarkerArray(markers=[clear, *steps]))
 
     def _marker(self, time_s: float, number: int, step: Footstep) -> Marker:
-        """Return the picture of a footstep: a thin plate."""
-        marker = Marker(ns='footsteps', id=number, type=Marker.CUBE)
+        """
+        Return the picture of a footstep: a thin plate.
+
+        Left and right steps take turns, and have numbers of their own: a plate keeps its colour.
+        """
+        own = number - number % len(SIDES) + step.side
+        marker = Marker(ns='footsteps', id=own, type=Marker.CUBE)
         marker.header.frame_id = self._frame
         fill_stamp(marker.header.stamp, time_s)
         marker.lifetime.sec = LIFETIME_S
