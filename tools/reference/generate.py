@@ -10,6 +10,7 @@ import subprocess
 
 import displays
 import launch_names
+import node_parameters
 from own_packages import is_own_package
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -76,6 +77,11 @@ def transforms_page() -> str:
     return '\n'.join(parts)
 
 
+def parameters_page() -> str:
+    """Describe the parameters of the nodes."""
+    return '\n'.join([NOTE, *node_parameters.lines()])
+
+
 def displays_page() -> str:
     """Describe the displays, panels, tools and views of RViz in the browser."""
     return '\n'.join([NOTE, *displays.lines()])
@@ -88,6 +94,7 @@ def pages() -> dict[str, str]:
         'displays.md': displays_page(),
         'launch_files.md': launch_page(),
         'launch_names.md': names_page(),
+        'parameters.md': parameters_page(),
         'transforms.md': transforms_page(),
     }
 

@@ -54,6 +54,13 @@ def test_the_displays_are_described(root: Path, generate: ModuleType) -> None:
     assert '| `Plane` | `XY`, `XZ`, `YZ` | `XY` |' in written
 
 
+def test_the_parameters_are_described(root: Path, generate: ModuleType) -> None:
+    """Each parameter of each node is in the reference, with its limits and its meaning."""
+    written = (root / 'docs' / 'reference' / 'parameters.md').read_text()
+    assert written == generate.parameters_page()
+    assert '| `physics_rate_hz` | a number, from 100 to 5000 | 500.0 |' in written
+
+
 def test_every_verb_is_described(root: Path, generate: ModuleType) -> None:
     """Each command and verb has its section; how options are laid out depends on the Python."""
     written = (root / 'docs' / 'reference' / 'commands.md').read_text()

@@ -20,26 +20,26 @@ import pytest
 LAUNCH_FILE = Path(__file__).parents[1] / 'launch' / 'bringup.launch.py'
 
 ROBOT = "Robot 'humanoid'"
-MOCK = 'Mock robot started'
+STARTED = {'mujoco': 'Simulator started: one robot', 'mock': 'Mock robot started'}
 REPORT = '[sensor_processor]: left_shoulder: '
 ALONE = 'Sensor Processor started'
 
 
 @pytest.mark.rostest
-@parametrize('use_controller', ['true', 'false'])
-def generate_test_description(use_controller: str) -> LaunchDescription:
-    """Launch the humanoid without physics, with or without its controller."""
-    return description_under_test(LAUNCH_FILE, backend='mock', use_controller=use_controller)
+@parametrize(('use_controller', 'backend'), [('true', 'mujoco'), ('false', 'mock')])
+def generate_test_description(use_controller: str, backend: str) -> LaunchDescription:
+    """Launch the humanoid, with and without physics, with and without its controller."""
+    return description_under_test(LAUNCH_FILE, backend=backend, use_controller=use_controller)
 
 
 class TestRun(unittest.TestCase):
     """While it runs."""
 
-    def test_output(self, proc_output: ActiveIoHandler, use_controller: str) -> None:
+    def test_output(self, proc_output: ActiveIoHandler, use_controller: str, backend: str) -> None:
         """The processor reports what the controller sends, and runs without it, too."""
         proc_output.assertWaitFor(REPORT if use_controller == 'true' else ALONE, timeout=20)
         proc_output.assertWaitFor(ROBOT, process='robot_state_publisher', timeout=20)
-        proc_output.assertWaitFor(MOCK, process='mock_robot', timeout=20)
+        proc_output.assertWaitFor(STARTED[backend], timeout=40)
 
 
 @post_shutdown_test()

@@ -217,3 +217,64 @@ def test_a_state_without_joints(robot: Robot) -> None:
     assert state.bias_nm.shape == (0,)
     assert state.com_velocity_m_s == pytest.approx(np.cross(np.ones(3), state.com_m))
     assert state.jacobian('l_sole').shape == (3, 6)
+
+
+@pytest.mark.parametrize('link', ['l_sole', 'head'])
+def test_jacobian_of_some_joints(moving: Moving, link: str) -> None:
+    """The Jacobian of a group has the columns of its joints, zero where they move nothing."""
+    state = moving.at(0.0)
+    group = moving.model.group(['left_ankle_roll', 'left_knee', 'head_yaw'])
+    whole = np.vstack([state.jacobian(link), state.angular_jacobian(link)])
+    assert state.jacobian_of(group, link) == pytest.approx(whole[:, 6 + group.indices])
+
+
+def test_com_jacobian_maps_to_its_velocity(moving: Moving) -> None:
+    """The Jacobian of the centre of mass times all velocities is its velocity."""
+    state = moving.at(0.0)
+    rates = [np.zeros(3), state.base_angular_velocity_rad_s, moving.velocities]
+    assert state.com_jacobian @ np.concatenate(rates) == pytest.approx(state.com_velocity_m_s)
+
+
+def test_drift_is_the_derivative(moving: Moving) -> None:
+    """While nothing accelerates, links and the centre of mass still do: in circles."""
+    state = moving.at(0.0)
+    linear = moving.rate(lambda s: s.velocity_m_s('l_sole'))
+    angular = moving.rate(lambda s: s.angular_velocity_rad_s('l_sole'))
+    assert state.drift('l_sole') == pytest.approx(np.concatenate([linear, angular]), abs=1e-6)
+    of_com = moving.rate(lambda s: s.com_velocity_m_s)
+    assert state.com_drift_m_s2 == pytest.approx(of_com, abs=1e-6)
+
+
+def test_required_without_accelerations_is_the_bias(moving: Moving) -> None:
+    """A robot in which nothing accelerates needs the bias."""
+    state, n = moving.at(0.0), len(moving.model.joints)
+    wrench, efforts = state.required(np.zeros(6), np.zeros(n))
+    assert wrench == pytest.approx(state.bias_wrench)
+    assert efforts == pytest.approx(state.bias_nm)
+
+
+def test_required_force_accelerates_the_com(moving: Moving) -> None:
+    """The force on the root is mass times acceleration of the centre of mass, and the weight."""
+    state, generator = moving.at(0.0), np.random.default_rng(7)
+    accelerations = generator.normal(size=6 + len(moving.model.joints))
+    wrench, _ = state.required(accelerations[:6], accelerations[6:])
+    expected = state.com_jacobian @ accelerations + state.com_drift_m_s2 + [0.0, 0.0, G]
+    assert wrench[:3] == pytest.approx(moving.model.mass_kg * expected)
+
+
+def test_required_efforts_are_those_of_the_inertia(moving: Moving) -> None:
+    """Accelerations of a leg need the bias and the leg's inertia times them."""
+    state, model = moving.at(0.0), moving.model
+    group = model.group([name for name in model.joints if name.startswith('left_hip')])
+    accelerations = np.zeros(len(model.joints))
+    accelerations[group.indices] = (1.0, -2.0, 3.0)
+    _, efforts = state.required(np.zeros(6), accelerations)
+    own = state.inertia_kgm2(group) @ accelerations[group.indices]
+    assert efforts[group.indices] - state.bias_nm[group.indices] == pytest.approx(own)
+
+
+def test_torque_acts_at_the_joints(moving: Moving) -> None:
+    """A torque on a link acts at the joints as the Jacobian of its turning says."""
+    state, torque = moving.at(0.0), np.array([1.0, -2.0, 0.5])
+    efforts = state.efforts_of_force_nm('l_sole', np.zeros(3), np.zeros(3), torque)
+    assert efforts == pytest.approx(state.angular_jacobian('l_sole')[:, 6:].T @ torque)

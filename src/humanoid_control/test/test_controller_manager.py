@@ -30,11 +30,16 @@ class Swinging:
         """Begin without a fault."""
         self.fault = 0.0
         self.at_rest = True
-        self.starts = 0
+        self.trouble = ''
+        self.starts = self.forgets = 0
 
     def start(self, observation: Observation, held: JointTargets) -> None:
         """Count the starts."""
         self.starts += 1
+
+    def forget(self) -> None:
+        """Count how often it is told to forget."""
+        self.forgets += 1
 
     def update(self, observation: Observation) -> JointTargets:
         """Return the targets of the moment."""
@@ -56,6 +61,8 @@ class Robot:
                 self.walking,
                 ('left_elbow', 'right_elbow'),
                 may_end=lambda: self.walking.at_rest,
+                needs_all_because=lambda: self.walking.trouble,
+                forget=self.walking.forget,
             ),
             hold_mode(JOINTS),
             follow_mode(JOINTS),
@@ -152,6 +159,24 @@ def test_switch_to_rest(mode: str) -> None:
     assert robot.largest_step_rad() < 0.01 and robot.largest_jolt_rad_s() < 0.05
 
 
+def test_in_trouble_nothing_is_lent() -> None:
+    """A robot that needs all joints takes back what it has lent, and says why."""
+    robot = Robot()
+    robot.run(1)
+    robot.command('left_elbow', -0.5)
+    robot.run(1)
+    assert robot.manager.owner('left_elbow') == 'joint_commands'
+    robot.walking.trouble = 'the robot has fallen'
+    robot.run(1)
+    assert robot.manager.owner('left_elbow') == 'walking'
+    with pytest.raises(CommandError, match='lends nothing for the moment: the robot has fallen.'):
+        robot.command('left_elbow', -0.5)
+    robot.walking.trouble = ''
+    robot.command('left_elbow', -0.5)
+    robot.run(1)
+    assert robot.manager.owner('left_elbow') == 'joint_commands'
+
+
 def test_switch_waits_for_rest() -> None:
     """A robot in the middle of a step comes to rest first, and may think better of it."""
     robot = Robot()
@@ -212,10 +237,12 @@ def test_reset() -> None:
     """After a reset it begins anew from where the joints are."""
     robot = Robot()
     robot.run(150)
+    before = robot.walking.forgets
     robot.manager.reset()
     told = robot.manager.update(observed(2.0, 0.1, 0.1, 0.1))
     assert told.positions_rad == pytest.approx([0.1] * 3)
     assert robot.walking.starts == 2
+    assert robot.walking.forgets == before + 1
 
 
 def test_late_period() -> None:

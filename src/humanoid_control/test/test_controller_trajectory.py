@@ -82,6 +82,12 @@ def test_successor() -> None:
         ([(1.0, [0.1]), (1.0, [0.2])], 'Point 2 is at 1 s, not after the one before it, at 1 s'),
         ([(1.0, [math.nan])], "position of 'left_elbow' is nan"),
         ([(1.0, [0.1, 0.2])], "field 'position' has length 2"),
+        ([(1.0, [0.1]), (2.0, [math.inf])], "position of 'left_elbow' is inf"),
+        ([(1.0, [0.1]), (2.0, [0.1, 0.2])], "field 'position' has length 2"),
+        (
+            [(0.1 * number, [0.0]) for number in range(1001)],
+            'It has 1001 points. Give at most 1000',
+        ),
         ([(1.0, [])], "field 'position' has length 0"),
         ([(1.0, [1.5])], "Point 1 has 'left_elbow' at 1.5 rad, which it does not reach"),
         ([(1.0, [1.0]), (1.1, [-1.0])], "'left_elbow' would have to turn at 20 rad/s to be at p"),
@@ -95,3 +101,14 @@ def test_refused(points: list[tuple[Any, ...]], reason: str) -> None:
             NAMES, LIMITS, ['left_elbow'], [TrajectoryPoint(*point) for point in points]
         )
     assert reason in str(refusal.value)
+
+
+def test_some_velocities() -> None:
+    """Points that give no velocity among others that do are passed at rest."""
+    points = TrajectoryPoint(1.0, [0.2], [0.3]), TrajectoryPoint(2.0, [0.5])
+    trajectory = checked_trajectory(NAMES, LIMITS, ['left_elbow'], points)
+    assert trajectory.velocities_rad_s is not None
+    assert trajectory.velocities_rad_s.tolist() == [[0.3], [0.0]]
+    with pytest.raises(CommandError, match="velocity of 'left_elbow' is nan"):
+        bad = [TrajectoryPoint(1.0, [0.2], [math.nan])]
+        checked_trajectory(NAMES, LIMITS, ['left_elbow'], bad)

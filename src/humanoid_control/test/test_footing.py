@@ -8,6 +8,7 @@ from humanoid_control.walking.footing import Foothold, Footing, loads_for
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
+from humanoid_control.walking.terrain import Facet
 from humanoid_description.robot import Robot
 import numpy as np
 import pytest
@@ -20,8 +21,8 @@ RANDOM = np.random.default_rng(5)
 def test_shape_is_that_of_the_model(robot: Robot) -> None:
     """The area of the sole is the foot's box less the margins."""
     shape = FootShape.of(robot, WalkParameters())
-    assert (shape.front_m, shape.back_m) == pytest.approx((0.115, -0.065))
-    assert (shape.outer_m, shape.inner_m) == pytest.approx((0.043, -0.043))
+    assert (shape.front_m, shape.back_m) == pytest.approx((0.125, -0.075))
+    assert (shape.outer_m, shape.inner_m) == pytest.approx((0.047, -0.047))
 
 
 def test_feet_mirror_each_other() -> None:
@@ -71,10 +72,10 @@ def test_rest_is_between_the_feet() -> None:
     assert footing.middle.yaw_rad == pytest.approx(0.05)
 
 
-def test_lift_settles() -> None:
-    """A foot that landed too high is told to go down; where it stands does not change."""
-    footing = Footing(SHAPE, [Foothold(FEET[0].pose, 0.01), FEET[1]])
-    footing.settle(0.25)
-    assert footing[LEFT].lift_m == pytest.approx(0.0075)
-    assert footing[RIGHT].lift_m == 0.0
-    assert footing.pose(LEFT) == FEET[0].pose
+def test_feet_conform_where_they_stand() -> None:
+    """What a foot stands on may change; the feet share heights as they share the weight."""
+    footing = Footing(SHAPE, FEET)
+    footing.conform(LEFT, Foothold(FEET[LEFT].pose, Facet(0.02, 0.1j)))
+    assert footing.height_m((0.25, 0.75)) == pytest.approx(0.005)
+    assert footing.tilt == pytest.approx(0.05j)
+    assert footing.pose(LEFT) == FEET[LEFT].pose

@@ -13,6 +13,7 @@ from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion, Pendulum
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.sides import LEFT, other, outwards, SIDES
+from humanoid_control.walking.terrain import Facet, LEVEL
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 import numpy as np
 import pytest
@@ -73,9 +74,9 @@ class IdealRobot:
         """Return a sole that is where it was told to be at the tick before."""
         swing = self.output.swing if self.output else None
         if swing and swing.side == side:
-            height_m = max(0.0, swing.sole.height_m)
-            return SoleReading(swing.sole.pose, height_m, 0.0 if height_m else 0.5)
-        return SoleReading(self.footing.pose(side), 0.0, 0.5)
+            facet = Facet(max(0.0, swing.sole.facet.height_m))
+            return SoleReading(swing.sole.pose, facet, 0.0 if facet.height_m else 0.5)
+        return SoleReading(self.footing.pose(side), LEVEL, 0.5)
 
 
 def test_standing_stands() -> None:
@@ -105,7 +106,7 @@ def test_walk_and_stop(command: VelocityCommand) -> None:
     way = robot.go(command, time_s)
     assert way.yaw_rad == pytest.approx(command.turn_rad_s * time_s, rel=0.2, abs=0.02)
     straight_m = abs(command.linear_m_s) * time_s
-    assert abs(way.position_m) == pytest.approx(straight_m, rel=0.2, abs=0.02)
+    assert abs(way.position_m) == pytest.approx(straight_m, rel=0.2, abs=0.04)
     assert max(robot.errors_m) < 0.04
     robot.go(STANDING, 5.0)
     assert robot.phases[-1] == 'stand'

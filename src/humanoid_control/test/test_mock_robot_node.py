@@ -154,6 +154,9 @@ def test_walk(watch: Watch) -> None:
     assert watch.last['odom'].twist.twist.linear.x > 0.0
     steps = watch.last['footsteps'].markers
     assert len(steps) > 2 and steps[1].header.frame_id == 'odom'
+    colors = {(step.id % 2, step.color.g) for step in steps[1:]}
+    assert len(colors) == 2, 'a number is always of the same side'
+    assert 0.15 < steps[1].scale.x < 0.25 and 0.05 < steps[1].scale.y < 0.12
     assert watch.last['walking/dcm'].header.frame_id == 'odom'
     watch.ros.wait_until(lambda: watch.last['walking_state'].data == 'stand', 20.0, 'a stand')
 
@@ -297,7 +300,11 @@ def test_rates(watch: Watch) -> None:
     robot = watch.start()
     assert robot.set_parameters([Parameter('joint_states_rate_hz', value=0.0)])[0].successful
     watch.listen(Odometry, 'odom')
-    for _ in range(5):  # What is under way already may still come.
-        watch.last.clear()
-        watch.wait_for('odom')
-    assert 'joint_states' not in watch.last
+    watch.wait_for('odom')
+
+    def behind_s() -> float:
+        stamps = [watch.last[topic].header.stamp for topic in ('odom', 'joint_states')]
+        odom_s, joints_s = (stamp.sec + stamp.nanosec * 1e-9 for stamp in stamps)
+        return float(odom_s - joints_s)
+
+    watch.ros.wait_until(lambda: behind_s() > 0.3, what='the silence of joint_states')

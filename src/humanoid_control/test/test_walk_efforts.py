@@ -8,18 +8,18 @@ from dataclasses import dataclass
 from humanoid_control.dynamics import BodyState
 from humanoid_control.dynamics.rotations import from_rpy
 from humanoid_control.walking.attitude import Attitude, hip_efforts
-from humanoid_control.walking.base_estimate import base_on, sole_reading
-from humanoid_control.walking.feed_forward import (
-    add_swing_efforts,
-    carrying_efforts,
-    ground_force,
-)
+from humanoid_control.walking.base_estimate import base_on
+from humanoid_control.walking.feed_forward import ground_efforts
 from humanoid_control.walking.foot_shape import FootShape
-from humanoid_control.walking.footing import Foothold, Footing, Loads, loads_for
+from humanoid_control.walking.footing import Footing, Loads, loads_for
+from humanoid_control.walking.ground_reaction import GroundReaction
 from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import GRAVITY_M_S2
-from humanoid_control.walking.sides import LEFT, SIDES
+from humanoid_control.walking.senses import Sensed
+from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.soles import footing_below
+from humanoid_control.walking.turning import Turning
 from humanoid_control.walking.walking_robot import WalkingRobot
 from humanoid_description.drives import load_drives
 from humanoid_description.robot import Robot
@@ -53,25 +53,34 @@ def _stance(robot: Robot) -> Stance:
     home = HomePosture.of(walking, P)
     still = np.zeros(len(drives))
     state = walking.body.state(np.eye(3), np.zeros(3), home.positions_rad, still)
-    readings = [sole_reading(leg.sole, np.zeros(3), state, 0.5) for leg in walking.legs]
-    footing = Footing(FootShape.of(robot, P), [Foothold(reading.pose) for reading in readings])
+    level = Attitude(0.0, 0.0, 0.0, (0.0, 0.0, 0.0))
+    sensed = Sensed(0.0, state, level, (0.5, 0.5))
+    footing = footing_below(0j, walking, FootShape.of(robot, P), P, sensed)
     return Stance(walking, home, state, footing, loads_for(footing, SIDES, footing.rest_point))
 
 
+def standing_efforts(stance: Stance) -> np.ndarray:
+    """Return the efforts of a robot that stands still."""
+    reaction = GroundReaction.of(stance.state.bias_wrench, stance.base_m)
+    loads = loads_for(stance.footing, SIDES, reaction.point_m)
+    on_joints = ground_efforts(stance.robot, stance.state, stance.base_m, loads, reaction)
+    efforts: np.ndarray = stance.state.bias_nm - on_joints
+    return efforts
+
+
 def test_ground_carries_all(stance: Stance) -> None:
-    """At rest the ground's force below the centre of mass is all that the root needs."""
-    force = ground_force(stance.robot.body.mass_kg, 0j)
-    wrench = np.zeros(6)
-    for share, point in zip(stance.loads.shares, stance.loads.points_m):
-        place = np.array([point.real, point.imag, 0.0]) - stance.base_m
-        wrench += share * np.concatenate([force, np.cross(place, force)])
-    assert wrench == pytest.approx(stance.state.bias_wrench, abs=1e-4)
+    """At rest the ground carries the weight, below the centre of mass, and turns nothing."""
+    reaction = GroundReaction.of(stance.state.bias_wrench, stance.base_m)
+    weight_n = stance.robot.body.mass_kg * GRAVITY_M_S2
+    assert reaction.force_n == pytest.approx([0.0, 0.0, weight_n])
+    com = stance.state.com_m
+    assert reaction.point_m == pytest.approx(complex(com[0], com[1]))
+    assert reaction.turn_nm == pytest.approx(0.0, abs=1e-9)
 
 
 def test_ankles_carry_the_load_before_them(stance: Stance) -> None:
     """An ankle holds the ground's force at its lever, less the weight of the foot."""
-    force = ground_force(stance.robot.body.mass_kg, 0j)
-    efforts = carrying_efforts(stance.robot, stance.state, stance.base_m, stance.loads, force)
+    efforts = standing_efforts(stance)
     half_weight_n = stance.robot.body.mass_kg * GRAVITY_M_S2 / 2
     foot_kg, foot_forward_m = 1.0, 0.025
     expected = half_weight_n * P.zmp_forward_m - foot_kg * GRAVITY_M_S2 * foot_forward_m
@@ -82,20 +91,9 @@ def test_ankles_carry_the_load_before_them(stance: Stance) -> None:
 
 def test_efforts_mirror_each_other(stance: Stance) -> None:
     """A robot that stands on both feet pushes alike with both legs."""
-    force = ground_force(stance.robot.body.mass_kg, 0j)
-    efforts = carrying_efforts(stance.robot, stance.state, stance.base_m, stance.loads, force)
+    efforts = standing_efforts(stance)
     left, right = (efforts[stance.robot.legs[side].indices] for side in SIDES)
     assert left == pytest.approx(right * [-1, -1, 1, 1, 1, -1], abs=1e-6)
-
-
-def test_swing_leg_alone_gets_its_acceleration(stance: Stance) -> None:
-    """What accelerates a leg acts on its joints, in the direction of the acceleration."""
-    efforts = np.zeros(len(stance.home.positions_rad))
-    accelerations = np.ones_like(efforts)
-    add_swing_efforts(stance.robot, stance.state, LEFT, accelerations, efforts)
-    left, right = (stance.robot.legs[side].indices for side in SIDES)
-    assert efforts[left] @ accelerations[left] > 0.0
-    assert not efforts[right].any()
 
 
 @pytest.mark.parametrize('rpy', [(0.0, 0.0, 0.0), (0.05, -0.1, 0.4)])
@@ -121,15 +119,10 @@ def test_base_is_above_feet_that_stand(
 
 def test_hips_turn_the_pelvis_back(stance: Stance) -> None:
     """A pelvis that leans is pushed upright; a leg on the ground turns it the other way."""
-    upright = hip_efforts(P, Attitude(0.0, 0.0, 0.3, (0.0, 0.0, 0.0)), 0.3)
+    upright = hip_efforts(P, Attitude(0.0, 0.0, 0.3, (0.0, 0.0, 0.2)), Turning(0.3, 0.2))
     assert upright == pytest.approx(0.0)
-    leaning = hip_efforts(P, Attitude(0.02, -0.03, 0.4, (0.1, 0.0, 0.0)), 0.3)
+    leaning = hip_efforts(P, Attitude(0.02, -0.03, 0.4, (0.1, 0.0, 0.0)), Turning(0.3))
     yaw, roll, pitch = leaning
     assert yaw > 0.0
     assert roll > P.attitude_stiffness_nm_rad * 0.02
     assert pitch < 0.0
-
-
-def test_force_accelerates(stance: Stance) -> None:
-    """The ground's force carries the weight and accelerates the centre of mass."""
-    assert ground_force(2.0, 0.5 - 1j) == pytest.approx([1.0, -2.0, 2.0 * GRAVITY_M_S2])

@@ -121,7 +121,7 @@ def test_mode_changes_at_rest(humanoid: Humanoid) -> None:
 
 
 def test_reset(humanoid: Humanoid) -> None:
-    """A reset in the middle of a walk makes it stand at home."""
+    """A reset in the middle of a walk makes it stand at home, where odometry begins."""
     humanoid.run(200, 0.2)
     humanoid.loop.reset()
     humanoid.run(60)
@@ -129,3 +129,5 @@ def test_reset(humanoid: Humanoid) -> None:
     assert humanoid.joint_rad('left_knee') == pytest.approx(
         humanoid.robot.home_rad['left_knee'], abs=0.05
     )
+    status = humanoid.walker.status
+    assert status is not None and abs(status.odometry.pose.position_m) < 0.01

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read a URDF by yourdfpy."""
+"""Read a URDF."""
 
 from __future__ import annotations
 
-import io
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from humanoid_description.errors import DescriptionError
 from humanoid_description.robot import Array, Body, Joint, Limits, Link, Robot, Shape
-from humanoid_description.urdf_text import lines_of, refuse_what_is_unreadable
+from humanoid_description.urdf_text import readable
 import numpy as np
+
+FORWARD = (1.0, 0.0, 0.0)
+"""The axis of a joint that names none."""
 
 
 def load_robot(text: str, source: str, folder: Path = Path()) -> Robot:
@@ -20,70 +22,100 @@ def load_robot(text: str, source: str, folder: Path = Path()) -> Robot:
     :param source: what error messages call it
     :param folder: where the files are that it names without a folder
     """
-    refuse_what_is_unreadable(text, source)
-    try:
-        from yourdfpy import URDF
-    except ModuleNotFoundError as error:
-        raise DescriptionError(
-            f"Models are read by the Python package 'yourdfpy', but {error.name} is not there."
-        ) from error
-
-    read = URDF.load(io.BytesIO(text.encode()), build_scene_graph=False, load_meshes=False).robot
+    robot = readable(text, source)
     return Robot(
-        read.name,
-        tuple(map(_link, read.links, lines_of(text, 'link'))),
-        tuple(map(_joint, read.joints, lines_of(text, 'joint'))),
+        robot.get('name'),
+        tuple(map(_link, robot.findall('link'))),
+        tuple(map(_joint, robot.findall('joint'))),
         folder,
     )
 
 
-def _pose(origin: Any) -> Array:
-    """Return the pose of an element that may lack an origin."""
-    return np.eye(4) if origin is None else np.asarray(origin, dtype=np.float64)
-
-
-def _link(link: Any, line: int) -> Link:
+def _link(link: Any) -> Link:
     """Build a link."""
+    inertial = link.find('inertial')
     return Link(
-        link.name,
-        _body(link.inertial),
-        tuple(map(_shape, link.visuals)),
-        tuple(map(_shape, link.collisions)),
-        line,
+        link.get('name'),
+        None if inertial is None else _body(inertial),
+        tuple(map(_shape, link.findall('visual'))),
+        tuple(map(_shape, link.findall('collision'))),
+        link.sourceline,
     )
 
 
-def _body(inertial: Any) -> Body | None:
+def _body(inertial: Any) -> Body:
     """Build what a link weighs."""
-    if inertial is None:
-        return None
-    return Body(inertial.mass, _pose(inertial.origin), inertial.inertia)
+    inertia = inertial.find('inertia')
+    xx, xy, xz, yy, yz, zz = (
+        float(inertia.get(name)) for name in ('ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz')
+    )
+    return Body(
+        float(inertial.find('mass').get('value')),
+        _pose(inertial),
+        np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]),
+    )
 
 
 def _shape(element: Any) -> Shape:
     """Build the shape of a visual or collision element."""
-    geometry, pose = element.geometry, _pose(element.origin)
-    if geometry.box:
-        return Shape('box', tuple(map(float, geometry.box.size)), pose)
-    if geometry.cylinder:
-        return Shape('cylinder', (geometry.cylinder.radius, geometry.cylinder.length), pose)
-    if geometry.sphere:
-        return Shape('sphere', (geometry.sphere.radius,), pose)
-    return Shape('mesh', (), pose, geometry.mesh.filename)
+    geometry, pose = element.find('geometry')[0], _pose(element)
+    if geometry.tag == 'box':
+        return Shape('box', tuple(_numbers(geometry.get('size'))), pose)
+    if geometry.tag == 'cylinder':
+        size_m = float(geometry.get('radius')), float(geometry.get('length'))
+        return Shape('cylinder', size_m, pose)
+    if geometry.tag == 'sphere':
+        return Shape('sphere', (float(geometry.get('radius')),), pose)
+    return Shape('mesh', (), pose, geometry.get('filename'))
 
 
-def _joint(joint: Any, line: int) -> Joint:
+def _joint(joint: Any) -> Joint:
     """Build a joint."""
-    limit = joint.limit
+    axis, limit, mimic = (joint.find(tag) for tag in ('axis', 'limit', 'mimic'))
     return Joint(
-        joint.name,
-        joint.type,
-        joint.parent,
-        joint.child,
-        _pose(joint.origin),
-        joint.axis,
-        # URDF takes an end of the range that is not given as zero.
-        limit and Limits(limit.lower or 0.0, limit.upper or 0.0, limit.effort, limit.velocity),
-        joint.mimic and joint.mimic.joint,
-        line,
+        joint.get('name'),
+        joint.get('type'),
+        joint.find('parent').get('link'),
+        joint.find('child').get('link'),
+        _pose(joint),
+        np.array(FORWARD if axis is None else _numbers(axis.get('xyz'), FORWARD)),
+        None if limit is None else _limits(limit),
+        None if mimic is None else mimic.get('joint'),
+        joint.sourceline,
     )
+
+
+def _limits(limit: Any) -> Limits:
+    """Build the limits of a joint; an end of the range that is not given is zero."""
+    lower, upper, effort, velocity = (
+        None if limit.get(name) is None else float(limit.get(name))
+        for name in ('lower', 'upper', 'effort', 'velocity')
+    )
+    return Limits(lower or 0.0, upper or 0.0, effort, velocity)
+
+
+def _pose(element: Any) -> Array:
+    """Return the pose of an element, (4, 4), which may lack an origin."""
+    pose: Array = np.eye(4)
+    origin = element.find('origin')
+    if origin is not None:
+        pose[:3, :3] = _turned(*_numbers(origin.get('rpy'), (0.0, 0.0, 0.0)))
+        pose[:3, 3] = _numbers(origin.get('xyz'), (0.0, 0.0, 0.0))
+    return pose
+
+
+def _turned(roll: float, pitch: float, yaw: float) -> Array:
+    """Return a rotation about the fixed axes x, then y, then z."""
+    (cr, cp, cy), (sr, sp, sy) = np.cos((roll, pitch, yaw)), np.sin((roll, pitch, yaw))
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
+
+
+def _numbers(text: str | None, default: Sequence[float] = ()) -> Sequence[float]:
+    """Return the numbers of an attribute, which may be missing."""
+    return default if text is None else [float(part) for part in text.split()]

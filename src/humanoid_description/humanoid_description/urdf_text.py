@@ -54,8 +54,8 @@ FOREIGN = ('gazebo', 'transmission', 'ros2_control', 'mujoco')
 SHAPES = ('box', 'cylinder', 'sphere', 'mesh')
 
 
-def refuse_what_is_unreadable(text: str, source: str) -> None:
-    """Raise an error that names file and line if the text is no URDF."""
+def readable(text: str, source: str) -> Any:
+    """Return the outermost element; raise an error that names file and line for no URDF."""
     from lxml import etree
 
     try:
@@ -70,13 +70,7 @@ def refuse_what_is_unreadable(text: str, source: str) -> None:
         for problem in _problems(element):
             where = f'{source}, line {element.sourceline}'
             raise DescriptionError(f'{where}: {_owner(element)}{problem}')
-
-
-def lines_of(text: str, tag: str) -> list[int]:
-    """Return the lines on which the links or the joints of a readable text begin."""
-    from lxml import etree
-
-    return [element.sourceline for element in etree.fromstring(text.encode()).findall(tag)]
+    return robot
 
 
 def _elements(element: Any) -> Iterator[Any]:

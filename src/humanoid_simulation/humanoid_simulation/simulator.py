@@ -57,7 +57,7 @@ class Simulator(Node):
         )
         self._host.pause(parameters.start_paused)
         self._control = SimulatorServices(
-            self, backend, loop, self._host, simulated.controls, parameters.steps_per_period
+            self, backend, loop, self._host, parameters.steps_per_period
         )
         self._factor_topic = RealTimeFactorTopic(self, self._pacer)
         joint_states = [topic(name, 'joint_states') for name in backend.robots]

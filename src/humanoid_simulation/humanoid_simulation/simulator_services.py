@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable
 from functools import partial
 import math
 from typing import Any
 
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.topics.filling import topic
-from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_interfaces.srv import (
     ApplyWrench,
     ResetSimulation,
@@ -39,12 +38,11 @@ class SimulatorServices:
         backend: MujocoBackend,
         loop: GuardedLoop,
         host: Host,
-        controls: Mapping[str, WalkingRobotControl],
         steps_per_period: int,
     ) -> None:
         """Offer the services."""
         self._backend, self._loop, self._host = backend, loop, host
-        self._controls, self._steps_per_period = controls, steps_per_period
+        self._steps_per_period = steps_per_period
         self._pause_is_wanted = host.paused
         for kind, name, do in (
             (SetBool, '~/set_pause', self._set_pause),
@@ -103,7 +101,7 @@ class SimulatorServices:
     def _put(self, request: SetEntityState.Request) -> str:
         """Put a robot or a thing somewhere."""
         self._refuse_after_failure()
-        self._backend.set_entity_state(self._backend.entity(request.entity), entity_state(request))
+        self._backend.set_entity_state(request.entity, entity_state(request))
         return 'Done.'
 
     def _push(self, request: ApplyWrench.Request) -> str:
@@ -119,11 +117,10 @@ class SimulatorServices:
         return 'The push begins.'
 
     def _stand_up(self, robot: str, request: Trigger.Request) -> str:
-        """Put a robot onto its feet, where it is."""
+        """Lift a robot onto its feet; its walker takes over when it stands."""
         self._refuse_after_failure()
-        self._backend.stand_up(robot)
-        self._controls[robot].control.reset()
-        return 'The robot was put onto its feet.'
+        self._backend.hoist(robot)
+        return 'The robot is being put onto its feet.'
 
     def _refuse_after_failure(self) -> None:
         """Refuse what has no effect before a reset."""

@@ -173,24 +173,3 @@ def test_the_links_of_a_robot_are_its_own(make_backend) -> None:
     assert all(link.startswith('b/') for link in links)
     assert backend.body('b', 'torso') == 'b/torso'
     assert backend.body('b') == 'b/base_link'
-
-
-@pytest.mark.parametrize(
-    ('keyframe', 'turn_rad', 'heading_rad'),
-    [('lying_on_back', 0.5, 0.5), ('lying_on_face', -1.0, -1.0), ('home', 2.0, 2.0)],
-)
-def test_a_fallen_robot_is_put_onto_its_feet(
-    make_backend, keyframe: str, turn_rad: float, heading_rad: float
-) -> None:
-    """It stands where it lay, upright and at rest, and stays so."""
-    backend = make_backend(placements=[Placement(x_m=1.0, yaw_rad=turn_rad)])
-    backend.reset(keyframe)
-    run(backend, 0.5)
-    lay = backend.ground_truth().position_m
-    backend.stand_up()
-    stands = backend.ground_truth()
-    assert stands.position_m[:2] == pytest.approx(lay[:2])
-    assert not stands.linear_velocity_m_s.any()
-    assert stands.orientation == pytest.approx(from_rpy(0.0, 0.0, heading_rad), abs=0.02)
-    run(backend, 1.0)
-    assert backend.ground_truth().position_m[2] > 0.68

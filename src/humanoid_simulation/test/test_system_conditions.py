@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check by its topics that the robot walks with late sensors, and each time the same."""
+"""Check by its topics that the robot walks with late sensors, each time the same, and for two."""
 
 from __future__ import annotations
 
 from humanoid_control.walking import PlanarPose
-from humanoid_simulation.testing.simulators import simulated_robot
+from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+from humanoid_simulation.testing.simulators import simulated_robot, simulation
 import pytest
 
 pytestmark = pytest.mark.timeout(600)
@@ -46,3 +47,18 @@ def test_the_same_seed_is_the_same_walk() -> None:
     first = end_of_walk()
     assert abs(first.position_m) > 0.2
     assert end_of_walk() == first
+
+
+def test_two_robots_walk_each_for_itself() -> None:
+    """What one of them is told is nothing to the other."""
+    with simulation(robots='[robot1, robot2]') as ros:
+        first, second = (SimulatedRobot(ros, name) for name in ('robot1', 'robot2'))
+        places = first.pose, second.pose
+        first.drive()
+        second.drive(0.25)
+        assert second.wait_until(lambda: places[1].local(second.pose.position_m).real > 0.8, 8.0)
+        assert first.stands
+        assert abs(first.pose.position_m - places[0].position_m) < 0.05
+        second.drive()
+        first.push('forward', 10.0)
+        first.wait(3.0)

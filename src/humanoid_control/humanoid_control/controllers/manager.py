@@ -59,6 +59,11 @@ class ControllerManager:
         return self._next is not self._mode
 
     @property
+    def trouble(self) -> str:
+        """Return why the mode needs all joints for the moment, or nothing."""
+        return self._mode.needs_all_because()
+
+    @property
     def modes(self) -> tuple[str, ...]:
         """Return the names of all modes."""
         return tuple(self._modes)
@@ -76,6 +81,8 @@ class ControllerManager:
         """Begin anew with the next observation, from where the joints are then."""
         for guest in self._guests:
             guest.cancel()
+        for mode in self._modes.values():
+            mode.forget()
         self._last: JointTargets | None = None
         self._last_s = 0.0
         self._owners: Owners = np.full(len(self.joints), _MODE)
@@ -95,6 +102,10 @@ class ControllerManager:
         """Refuse that a guest moves joints which belong to the mode or to a guest before it."""
         for place in places[~self._may_lend[places]]:
             raise CommandError(self._not_lent(self.joints[place]))
+        if self.trouble:
+            raise CommandError(
+                f"The mode '{self.mode}' lends nothing for the moment: {self.trouble}."
+            )
         rank = self._guests.index(guest)
         owners = self._owners[places]
         for place in places[(owners >= 0) & (owners < rank)]:
@@ -149,6 +160,8 @@ class ControllerManager:
     def _owners_at(self, now_s: float) -> Owners:
         """Return who owns each joint, (n,): the rank of a guest, or _MODE."""
         owners = np.full(len(self.joints), _MODE)
+        if self.trouble:
+            return owners
         for rank in reversed(range(len(self._guests))):
             owners[self._guests[rank].wanted(now_s) & self._may_lend] = rank
         return owners

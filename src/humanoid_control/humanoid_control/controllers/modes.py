@@ -15,9 +15,18 @@ def _nothing(joints: Mask, held: JointTargets) -> None:
     """Take joints back without more ado."""
 
 
+def _no_memory() -> None:
+    """Have nothing to forget."""
+
+
 def _always() -> bool:
     """Tell that a mode can be left at any time."""
     return True
+
+
+def _no_reason() -> str:
+    """Tell that nothing is wrong."""
+    return ''
 
 
 @dataclass(frozen=True)
@@ -26,7 +35,8 @@ class Mode:
     A controller of all joints, and the joints that it lends.
 
     `take_back` is told which joints come back, (n,) true, and what they were told last. The mode
-    can be left when `may_end` says so.
+    can be left when `may_end` says so, and lends nothing while `needs_all_because` gives a reason.
+    `forget` is called when the robot has been put somewhere.
     """
 
     name: str
@@ -34,6 +44,8 @@ class Mode:
     lends: tuple[str, ...]
     take_back: Callable[[Mask, JointTargets], None] = _nothing
     may_end: Callable[[], bool] = _always
+    needs_all_because: Callable[[], str] = _no_reason
+    forget: Callable[[], None] = _no_memory
 
 
 def hold_mode(joints: Sequence[str]) -> Mode:

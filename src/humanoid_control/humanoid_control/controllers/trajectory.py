@@ -12,10 +12,13 @@ from humanoid_control.controllers.commands import (
     CommandError,
     Indices,
     JointNames,
-    optional_values,
 )
 from humanoid_control.limits import JointLimits
 import numpy as np
+from numpy.typing import NDArray
+
+MOST_POINTS = 1000
+"""More would keep the robot from its next tick for too long."""
 
 
 @dataclass(frozen=True)
@@ -51,10 +54,10 @@ def checked_trajectory(
     places = joints.places(names)
     if not points:
         raise CommandError('It has no points. Give at least one.')
+    if len(points) > MOST_POINTS:
+        raise CommandError(f'It has {len(points)} points. Give at most {MOST_POINTS}.')
     times_s = _checked_times(points)
-    positions_rad = np.array(
-        [checked_values('position', point.positions_rad, names) for point in points]
-    )
+    positions_rad = _checked_rows('position', [point.positions_rad for point in points], names)
     _check_range(positions_rad, places, limits, names)
     _check_speed(times_s, positions_rad, places, limits, names)
     velocities_rad_s = _given('velocity', [point.velocities_rad_s for point in points], names)
@@ -76,13 +79,26 @@ def _checked_times(points: Sequence[TrajectoryPoint]) -> Array:
         raise CommandError(f'Its first point is at {times_s[0]:g} s. Begin at 0 s or later.')
     if len(times_s) == 1 and times_s[0] == 0.0:
         raise CommandError('Its only point is at 0 s, which is a jump. Give it some time.')
-    for number, step_s in enumerate(np.diff(times_s), start=2):
-        if step_s <= 0.0:
-            raise CommandError(
-                f'Point {number} is at {times_s[number - 1]:g} s, not after the one before it, '
-                f'at {times_s[number - 2]:g} s. Let the times grow.'
-            )
+    backwards = np.flatnonzero(np.diff(times_s) <= 0.0)
+    if len(backwards):
+        first = int(backwards[0])
+        raise CommandError(
+            f'Point {first + 2} is at {times_s[first + 1]:g} s, not after the one before it, '
+            f'at {times_s[first]:g} s. Let the times grow.'
+        )
     return times_s
+
+
+def _checked_rows(field: str, rows: Sequence[Sequence[float]], names: Sequence[str]) -> Array:
+    """Return one finite value for each point and joint, (k, m), or refuse them."""
+    for row in rows:
+        if len(row) != len(names):
+            checked_values(field, row, names)
+    values = np.array(rows, dtype=np.float64)
+    bad = _first(~np.isfinite(values))
+    if bad is not None:
+        checked_values(field, rows[bad[0]], names)
+    return values
 
 
 def _check_range(
@@ -90,14 +106,13 @@ def _check_range(
 ) -> None:
     """Refuse positions that joints do not reach."""
     lower, upper = limits.lower_rad[places], limits.upper_rad[places]
-    for number, position_rad in enumerate(positions_rad, start=1):
-        outside = (position_rad < lower) | (position_rad > upper)
-        if outside.any():
-            joint = int(np.argmax(outside))
-            raise CommandError(
-                f"Point {number} has '{names[joint]}' at {position_rad[joint]:g} rad, which it "
-                f'does not reach: its range is {lower[joint]:g} to {upper[joint]:g} rad.'
-            )
+    outside = _first((positions_rad < lower) | (positions_rad > upper))
+    if outside is not None:
+        point, joint = outside
+        raise CommandError(
+            f"Point {point + 1} has '{names[joint]}' at {positions_rad[outside]:g} rad, which it "
+            f'does not reach: its range is {lower[joint]:g} to {upper[joint]:g} rad.'
+        )
 
 
 def _check_speed(
@@ -110,15 +125,14 @@ def _check_speed(
     """Refuse points that joints cannot get to in time, even at full speed."""
     fastest_rad_s = limits.velocity_rad_s[places]
     speeds_rad_s = np.abs(np.diff(positions_rad, axis=0)) / np.diff(times_s)[:, None]
-    for number, speed_rad_s in enumerate(speeds_rad_s, start=2):
-        too_fast = speed_rad_s > fastest_rad_s
-        if too_fast.any():
-            joint = int(np.argmax(too_fast))
-            raise CommandError(
-                f"'{names[joint]}' would have to turn at {speed_rad_s[joint]:.3g} rad/s to be at "
-                f'point {number} in time, but can do {fastest_rad_s[joint]:.3g} rad/s. '
-                'Give it more time.'
-            )
+    too_fast = _first(speeds_rad_s > fastest_rad_s)
+    if too_fast is not None:
+        point, joint = too_fast
+        raise CommandError(
+            f"'{names[joint]}' would have to turn at {speeds_rad_s[too_fast]:.3g} rad/s to be at "
+            f'point {point + 2} in time, but can do {fastest_rad_s[joint]:.3g} rad/s. '
+            'Give it more time.'
+        )
 
 
 def _check_velocities(velocities_rad_s: Array, most_rad_s: Array, names: Sequence[str]) -> None:
@@ -137,4 +151,11 @@ def _given(field: str, rows: Sequence[Sequence[float]], names: Sequence[str]) ->
     """Return what points give, zero at those that do not; None if none does."""
     if not any(len(row) for row in rows):
         return None
-    return np.array([optional_values(field, row, names) for row in rows])
+    nothing = [0.0] * len(names)
+    return _checked_rows(field, [row if len(row) else nothing for row in rows], names)
+
+
+def _first(true: NDArray[np.bool_]) -> tuple[int, int] | None:
+    """Return row and column of the first element that is true, None if there is none."""
+    found = np.argwhere(true)
+    return (int(found[0, 0]), int(found[0, 1])) if len(found) else None

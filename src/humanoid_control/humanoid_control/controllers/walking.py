@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.controllers.modes import Mode
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_control.walking.walker import Walker
 
 LENT = ('head_', 'shoulder', 'elbow', 'wrist', 'gripper')
 """A joint whose name contains one of these is not needed to walk."""
 
-MOVING = ('walk', 'stop')
+MOVING = ('walk', 'stop', 'stand_up')
+DOWN = 'the robot has fallen, and is not on its feet again'
 
 
 class WalkingController:
@@ -23,12 +24,10 @@ class WalkingController:
         """Take the walker."""
         self.walker = walker
         self.joints = tuple(walker.robot.body.joints)
-        self._velocity = STANDING
 
     def start(self, observation: Observation, held: JointTargets) -> None:
         """Begin from where the feet are, without a velocity."""
         self.walker.restart()
-        self._velocity = STANDING
 
     def update(self, observation: Observation) -> JointTargets:
         """Return the targets for the coming period."""
@@ -39,14 +38,24 @@ class WalkingController:
         status = self.walker.status
         return status is None or status.phase not in MOVING
 
+    def needs_all_because(self) -> str:
+        """Return why it lends nothing for the moment, or nothing."""
+        return DOWN if self.walker.has_fallen else ''
+
     def drive(self, velocity: VelocityCommand) -> None:
         """Walk at a velocity; the same one again costs nothing."""
-        if velocity != self._velocity:
-            self._velocity = velocity
+        if velocity != self.walker.velocity:
             self.walker.command(velocity)
 
 
 def walking_mode(controller: WalkingController) -> Mode:
     """Return the mode in which the robot walks; legs and waist are not lent."""
     lent = tuple(joint for joint in controller.joints if any(part in joint for part in LENT))
-    return Mode(controller.name, controller, lent, may_end=controller.is_at_rest)
+    return Mode(
+        controller.name,
+        controller,
+        lent,
+        may_end=controller.is_at_rest,
+        needs_all_because=controller.needs_all_because,
+        forget=controller.walker.reset,
+    )

@@ -106,6 +106,25 @@ class BodyMatrices:
         momentum: Array = (self.twists @ self.inertias).sum(axis=0)
         return momentum
 
+    def forces_of(self, base: Array, joints_rad_s2: Array) -> Array:
+        """
+        Return (n + 1, 4, 4) what `forces` are while the robot accelerates, too.
+
+        :param base: linear (m/s2) and angular (rad/s2) acceleration of the root, (6,)
+        :param joints_rad_s2: accelerations of the joints, (n,)
+        """
+        n = len(self.tree.joints)
+        own = (self.screws * joints_rad_s2[:, None, None]).reshape(n, 16)
+        added: Array = (self.tree.moves @ own).reshape(n + 1, 4, 4)
+        root = (base[3:] @ _SKEW).reshape(4, 4)
+        root[:3, 3] = base[:3]
+        return self._hanging((self.accelerations + added + root) @ self.inertias)
+
+    def efforts(self, forces: Array) -> Array:
+        """Return what the joints exert, (n,), for forces (n + 1, 4, 4) on all that they carry."""
+        powers: Array = (self.screws * forces[1:]).reshape(-1, 16)
+        return powers @ np.ones(16)
+
     def _hanging(self, values: Array) -> Array:
         """Return the sums over the bodies and all that hangs from each."""
         sums: Array = self.tree.carries @ values.reshape(-1, 16)

@@ -126,7 +126,7 @@ class BodyModel:
             positions_rad,
             velocities_rad_s,
         )
-        return BodyState(self.tree, matrices)
+        return BodyState(self.tree, matrices, self.armature_kgm2)
 
 
 def _armature(joints: tuple[str, ...], given: ArrayLike) -> Array:

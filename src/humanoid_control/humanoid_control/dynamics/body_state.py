@@ -30,6 +30,8 @@ class BodyState:
 
     tree: Tree
     matrices: BodyMatrices
+    armature_kgm2: Array
+    """(n,)"""
 
     @property
     def base_rotation(self) -> Array:
@@ -99,15 +101,56 @@ class BodyState:
         That is with all accelerations zero: neither the joints nor the root accelerate, and
         nothing touches the robot.
         """
-        n = len(self.tree.joints)
-        powers = (self.matrices.screws * self.matrices.forces[1:]).reshape(n, 16)
-        return _kept(powers @ np.ones(16))
+        return _kept(self.matrices.efforts(self.matrices.forces))
 
     @cached_property
     def bias_wrench(self) -> Array:
         """Return what holds the root meanwhile: force (N) and torque (Nm) at its origin, (6,)."""
-        total = self.matrices.forces[0]
-        return _kept(np.concatenate([total[:3, 3], axial(total)]))
+        return _kept(_wrench(self.matrices.forces[0]))
+
+    def required(self, base: Array, joints_rad_s2: Array) -> tuple[Array, Array]:
+        """
+        Return what accelerates the robot: the wrench (6,) on its root, and the efforts (n,).
+
+        This is inverse dynamics, with the armature. The wrench is force and torque at the origin
+        of the root; without accelerations the answer is the bias.
+
+        :param base: linear (m/s2) and angular (rad/s2) acceleration of the root, (6,)
+        :param joints_rad_s2: accelerations of the joints, (n,)
+        """
+        forces = self.matrices.forces_of(base, joints_rad_s2)
+        efforts = self.matrices.efforts(forces) + self.armature_kgm2 * joints_rad_s2
+        return _wrench(forces[0]), efforts
+
+    @cached_property
+    def com_jacobian(self) -> Array:
+        """Return the Jacobian (3, 6 + n) of the velocity of the centre of mass."""
+        n = len(self.tree.joints)
+        jacobian = np.empty((3, 6 + n))
+        jacobian[:, :3] = np.eye(3)
+        jacobian[:, 3:6] = -skew(self.com_m)
+        momenta = self.matrices.screws[:, :3] @ self.matrices.composites[1:, :, 3:]
+        np.divide(momenta[:, :, 0].T, self.tree.mass_kg, out=jacobian[:, 6:])
+        return _kept(jacobian)
+
+    @cached_property
+    def com_drift_m_s2(self) -> Array:
+        """Return the acceleration (3,) of the centre of mass while no joint accelerates."""
+        drift: Array = self.matrices.forces[0, :3, 3] / self.tree.mass_kg
+        drift[2] -= self.matrices.gravity_m_s2
+        return _kept(drift)
+
+    def drift(self, link: str) -> Array:
+        """
+        Return the acceleration (6,) of a link while neither the root nor the joints accelerate.
+
+        Linear (m/s2) of its origin, then angular (rad/s2): what their Jacobians leave out.
+        """
+        mount = self._mount(link)
+        acceleration = self.matrices.accelerations[mount.body]
+        linear: Array = acceleration[:3] @ self._point(mount, None)
+        linear[2] -= self.matrices.gravity_m_s2
+        return np.concatenate([linear, 0.5 * axial(acceleration)])
 
     def jacobian(self, link: str, point_m: Array | None = None) -> Array:
         """
@@ -136,17 +179,35 @@ class BodyState:
         )
         return jacobian
 
-    def efforts_of_force_nm(self, link: str, point_m: Array, force_n: Array) -> Array:
+    def jacobian_of(self, group: JointGroup, link: str) -> Array:
+        """
+        Return the Jacobian (6, k) of a link for the joints of a group alone.
+
+        Rows: the linear velocity of its origin, then its angular velocity.
+        """
+        mount, k = self._mount(link), len(group.indices)
+        moved = self.matrices.screws[group.indices].reshape(-1, 4) @ self._point(mount, None)
+        jacobian = np.empty((6, k))
+        jacobian[:3] = moved.reshape(k, 4).T[:3]
+        jacobian[3:] = self.matrices.poses[group.indices + 1, :3, 2].T
+        jacobian *= self.tree.moves[mount.body, group.indices]
+        return jacobian
+
+    def efforts_of_force_nm(
+        self, link: str, point_m: Array, force_n: Array, torque_nm: Array | None = None
+    ) -> Array:
         """
         Return the efforts (n,) that a force (3,) on a point (3,) of a link has at the joints.
 
         It is the Jacobian's transpose times the force, without the Jacobian. To stand on the
-        point, joints exert the bias less this.
+        point, joints exert the bias less this. A torque (3,) on the link is added if given.
         """
         mount = self._mount(link)
         point = self._point(mount, point_m)
         wrench = np.zeros((4, 4))
         np.multiply(force_n[:, None], point, out=wrench[:3])
+        if torque_nm is not None:
+            wrench[:3, :3] += 0.5 * skew(torque_nm)
         efforts: Array = self.matrices.screws.reshape(-1, 16) @ wrench.ravel()
         efforts *= self.tree.moves[mount.body]
         return efforts
@@ -180,6 +241,11 @@ class BodyState:
         point = np.ones(4)
         point[:3] = point_m
         return point
+
+
+def _wrench(forces: Array) -> Array:
+    """Return force and torque (6,) of forces (4, 4)."""
+    return np.concatenate([forces[:3, 3], axial(forces)])
 
 
 def _kept(values: Array) -> Array:

@@ -10,6 +10,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from humanoid_common.qos import STATE
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots, RobotHealth
+from humanoid_control.hosting.topics.filling import fill_stamp
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
@@ -17,11 +18,11 @@ PERIOD_S = 1.0
 
 
 class HostDiagnostics:
-    """The topic `diagnostics`: one status of the control loop, and one of each robot."""
+    """The topic `diagnostics`, in the robots' time: the control loop, and each robot."""
 
     def __init__(self, node: Node, host: Host, robots: HostedRobots) -> None:
         """Begin to publish, once a second."""
-        self._node, self._host, self._robots = node, host, robots
+        self._host, self._robots = host, robots
         self._name = node.get_fully_qualified_name().lstrip('/')
         self._publisher = node.create_publisher(DiagnosticArray, 'diagnostics', STATE)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -31,7 +32,7 @@ class HostDiagnostics:
         """Publish all statuses."""
         robots = [self._robot(*entry) for entry in self._robots.health().items()]
         message = DiagnosticArray(status=[self._loop(), *robots])
-        message.header.stamp = self._node.get_clock().now().to_msg()
+        fill_stamp(message.header.stamp, self._robots.time_s)
         self._publisher.publish(message)
 
     def _loop(self) -> DiagnosticStatus:
@@ -51,13 +52,8 @@ class HostDiagnostics:
 
     def _robot(self, robot: str, health: RobotHealth) -> DiagnosticStatus:
         """Return the status of a robot."""
-        stopped = health.holds_because
-        return self._status(
-            robot or 'robot',
-            DiagnosticStatus.WARN if stopped else DiagnosticStatus.OK,
-            f'holds still: {stopped}' if stopped else health.mode,
-            {'mode': health.mode, 'walk': health.walk, **health.lent},
-        )
+        values = {'mode': health.mode, 'walk': health.walk, **health.lent}
+        return self._status(robot or 'robot', *_verdict(health), values)
 
     def _status(
         self, part: str, level: bytes, message: str, values: Mapping[str, str]
@@ -69,3 +65,12 @@ class HostDiagnostics:
             message=message,
             values=[KeyValue(key=key, value=value) for key, value in values.items()],
         )
+
+
+def _verdict(health: RobotHealth) -> tuple[bytes, str]:
+    """Return how bad it is, and what to say of it."""
+    if health.trouble:
+        return DiagnosticStatus.ERROR, health.trouble
+    if health.holds_because:
+        return DiagnosticStatus.WARN, f'holds still: {health.holds_because}'
+    return DiagnosticStatus.OK, health.mode

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from humanoid_control.backends import Observation
+from humanoid_control.hosting.fall_report import FallReport
 from humanoid_control.hosting.parameters import HostParameters
 from humanoid_control.hosting.robot_inputs import RobotInputs
 from humanoid_control.hosting.robot_outputs import RobotOutputs
@@ -20,6 +21,8 @@ class RobotHealth:
 
     mode: str
     walk: str
+    trouble: str
+    """Why the mode cannot do what it should, empty if it can."""
     holds_because: str
     lent: Mapping[str, str]
     """The joints that belong to others than the mode, and these."""
@@ -33,6 +36,7 @@ class HostedRobots:
     ) -> None:
         """Make the topics."""
         self._robots = dict(robots)
+        self.time_s = 0.0
         timeout_s = parameters.heartbeat_timeout_s
         self._inputs = {
             name: RobotInputs(node, name, robot.control, timeout_s)
@@ -41,6 +45,8 @@ class HostedRobots:
         self._outputs = {
             name: RobotOutputs(node, name, robot, parameters) for name, robot in robots.items()
         }
+        log = node.get_logger()
+        self._falls = {name: FallReport(log, name) for name in robots}
         self.change(parameters)
 
     def change(self, parameters: HostParameters) -> None:
@@ -61,6 +67,8 @@ class HostedRobots:
         """Publish what is due, after each tick."""
         for name, outputs in self._outputs.items():
             outputs.publish(observations[name])
+            self.time_s = observations[name].time_s
+            self._falls[name].look(self._robots[name].walker.has_fallen)
 
     def health(self) -> dict[str, RobotHealth]:
         """Return how each robot is."""
@@ -72,6 +80,7 @@ class HostedRobots:
         return RobotHealth(
             mode=manager.mode,
             walk='' if status is None else status.phase,
+            trouble=manager.trouble,
             holds_because=self._inputs[name].stop.guard.reason,
             lent=manager.lent(),
         )

@@ -14,9 +14,6 @@ from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_control.walking.status import WalkStatus
 from rclpy.node import Node
 
-FOOT_M = (0.22, 0.11)
-"""Length and width of a foot at scale 1, as it is drawn."""
-
 
 class RobotOutputs:
     """Publishes what was observed and how the robot walks, each at its own rate."""
@@ -26,14 +23,13 @@ class RobotOutputs:
     ) -> None:
         """Prepare all topics of a robot that has a name."""
         odom = parameters.prefix + ODOM
-        foot_m = (FOOT_M[0] * parameters.scale, FOOT_M[1] * parameters.scale)
         self._robot = robot
         self._joint_states = JointStatesTopic(node, name, robot.control.manager.joints)
         self._imu = ImuTopic(node, name, parameters.prefix)
         self._odometry = OdometryTopics(node, name, parameters.prefix)
         self._state = WalkingStateTopic(node, name)
         self._balance = BalanceTopics(node, name, odom)
-        self._footsteps = FootstepsTopic(node, name, odom, foot_m)
+        self._footsteps = FootstepsTopic(node, name, odom, robot.walker.shape)
         self.change(parameters)
 
     def change(self, parameters: HostParameters) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from humanoid_control.dynamics.rotations import wrap_angle
 from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.turning import Turning
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,17 +24,18 @@ class Attitude:
     rates_rad_s: tuple[float, float, float]
 
 
-def hip_efforts(parameters: WalkParameters, attitude: Attitude, heading_rad: float) -> Array:
+def hip_efforts(parameters: WalkParameters, attitude: Attitude, turning: Turning) -> Array:
     """Return efforts (3,) of hip yaw, roll and pitch of a leg that carries all of the weight."""
     stiffness, damping = (
         parameters.attitude_stiffness_nm_rad,
         parameters.attitude_damping_nms_rad,
     )
     roll, pitch, yaw = attitude.rates_rad_s
-    off_course_rad = wrap_angle(attitude.yaw_rad - heading_rad)
+    off_course_rad = wrap_angle(attitude.yaw_rad - turning.heading_rad)
     return np.array(
         [
-            parameters.heading_share * (stiffness * off_course_rad + damping * yaw),
+            parameters.heading_share
+            * (stiffness * off_course_rad + damping * (yaw - turning.rate_rad_s)),
             stiffness * attitude.roll_rad + damping * roll,
             stiffness * attitude.pitch_rad + damping * pitch,
         ]

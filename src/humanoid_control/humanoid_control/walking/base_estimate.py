@@ -6,11 +6,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from humanoid_control.dynamics import BodyState
-from humanoid_control.dynamics.rotations import yaw_of
+from humanoid_control.dynamics.frames import Frame, Twist
+from humanoid_control.walking.base_motion import BaseMotion
 from humanoid_control.walking.footing import Footing
-from humanoid_control.walking.gear import SoleReading
 from humanoid_control.walking.pendulum import Motion
-from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.walking_robot import WalkingRobot
 import numpy as np
@@ -27,6 +26,13 @@ class BaseEstimate:
     """(3,)"""
     velocity_m_s: Array
     """(3,)"""
+
+    def motion(self, state: BodyState) -> BaseMotion:
+        """Return how the base moves, with its turning."""
+        return BaseMotion(
+            Frame(self.position_m, state.base_rotation),
+            Twist(self.velocity_m_s, state.base_angular_velocity_rad_s),
+        )
 
     def com_motion(self, state: BodyState) -> Motion:
         """Return the motion of the centre of mass over the ground."""
@@ -46,14 +52,7 @@ def base_on(
     position, velocity = np.zeros(3), np.zeros(3)
     for side in SIDES:
         if shares[side] > 0.0:
-            point, sole = footing.pose(side).position_m, robot.legs[side].sole
-            anchor = np.array([point.real, point.imag, 0.0])
-            position += shares[side] * (anchor - state.position_m(sole))
+            sole = robot.legs[side].sole
+            position += shares[side] * (footing[side].sole_m - state.position_m(sole))
             velocity -= shares[side] * state.velocity_m_s(sole)
     return BaseEstimate(position, velocity)
-
-
-def sole_reading(sole: str, base_m: Array, state: BodyState, load: float) -> SoleReading:
-    """Return where a sole is measured, with a load as a share of the weight."""
-    x, y, z = (base_m + state.position_m(sole)).tolist()
-    return SoleReading(PlanarPose(complex(x, y), yaw_of(state.rotation(sole))), z, load)

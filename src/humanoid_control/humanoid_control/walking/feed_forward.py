@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The efforts that carry the robot and swing its leg, before any error shows."""
+"""The part of the ground in the efforts of the joints."""
 
 from __future__ import annotations
 
 from humanoid_control.dynamics import BodyState
 from humanoid_control.walking.footing import Loads
-from humanoid_control.walking.pendulum import GRAVITY_M_S2
-from humanoid_control.walking.planar import Point
+from humanoid_control.walking.ground_reaction import GroundReaction
 from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.walking_robot import WalkingRobot
 import numpy as np
@@ -15,41 +14,21 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-def ground_force(mass_kg: float, com_acceleration_m_s2: Point) -> Array:
-    """Return the force (3,) of the ground that carries a mass and accelerates it in the plane."""
-    along = com_acceleration_m_s2
-    return mass_kg * np.array([along.real, along.imag, GRAVITY_M_S2])
-
-
-def carrying_efforts(
-    robot: WalkingRobot,
-    state: BodyState,
-    base_m: Array,
-    loads: Loads,
-    force_n: Array,
+def ground_efforts(
+    robot: WalkingRobot, state: BodyState, base_m: Array, loads: Loads, reaction: GroundReaction
 ) -> Array:
     """
-    Return the efforts (n,) with which the feet exert a force on the ground.
-
-    These are the efforts of gravity and motion, less those that the ground's force has through
-    the points of load.
+    Return the efforts (n,) that the ground has on the joints through the feet.
 
     :param base_m: the origin of the base (3,) in the frame of the load points
-    :param force_n: of the ground on both feet together, (3,)
+    :param loads: how the feet share what the ground does
     """
-    efforts: Array = state.bias_nm.copy()
+    efforts: Array = np.zeros(len(robot.body.joints))
+    turn = np.array([0.0, 0.0, reaction.turn_nm])
     for side in SIDES:
         share, point = loads.shares[side], loads.points_m[side]
         if share > 0.0:
             place = np.array([point.real, point.imag, 0.0]) - base_m
             sole = robot.legs[side].sole
-            efforts -= share * state.efforts_of_force_nm(sole, place, force_n)
+            efforts += share * state.efforts_of_force_nm(sole, place, reaction.force_n, turn)
     return efforts
-
-
-def add_swing_efforts(
-    robot: WalkingRobot, state: BodyState, side: int, accelerations_rad_s2: Array, efforts: Array
-) -> None:
-    """Add what accelerates the leg in the air; all arrays are (n,)."""
-    group = robot.legs[side].group
-    efforts[group.indices] += state.inertia_kgm2(group) @ accelerations_rad_s2[group.indices]

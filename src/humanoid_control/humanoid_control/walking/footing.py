@@ -10,14 +10,25 @@ from humanoid_control.walking.foot_shape import FootShape
 from humanoid_control.walking.planar import dot, limited, PlanarPose, Point
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
 from humanoid_control.walking.support_polygon import SupportPolygon
+from humanoid_control.walking.terrain import Facet, LEVEL
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Foothold:
-    """Where a sole stands, and how high above the ground it still is told to be."""
+    """Where a sole stands, and on what."""
 
     pose: PlanarPose
-    lift_m: float = 0.0
+    facet: Facet = LEVEL
+
+    @property
+    def sole_m(self) -> Array:
+        """Return where the origin of the sole is, (3,)."""
+        point = self.pose.position_m
+        return np.array([point.real, point.imag, self.facet.height_m])
 
 
 class Footing:
@@ -42,17 +53,25 @@ class Footing:
         """Return where a foot is in the plane."""
         return self._footholds[side].pose
 
-    def settle(self, share: float) -> None:
-        """Bring the feet by a share of the way nearer to the ground."""
-        for side, foothold in enumerate(self._footholds):
-            if foothold.lift_m:
-                lift_m = (1.0 - share) * foothold.lift_m
-                self._footholds[side] = Foothold(foothold.pose, lift_m)
+    def conform(self, side: int, foothold: Foothold) -> None:
+        """Note how a foot stands that is where it was in the plane."""
+        self._footholds[side] = foothold
+
+    def height_m(self, shares: tuple[float, float]) -> float:
+        """Return how high the feet are, by their shares in the weight."""
+        left, right = self._footholds
+        return shares[LEFT] * left.facet.height_m + shares[RIGHT] * right.facet.height_m
 
     @property
     def middle(self) -> PlanarPose:
         """Return the pose in the middle between the feet."""
         return self.pose(LEFT).halfway(self.pose(RIGHT))
+
+    @property
+    def tilt(self) -> Point:
+        """Return the mean tilt of what the feet stand on."""
+        left, right = self._footholds
+        return (left.facet.tilt + right.facet.tilt) / 2
 
     def load_point(self, side: int, pose: PlanarPose | None = None) -> Point:
         """Return where the load of a foot is planned, here or where the foot will be."""

@@ -29,23 +29,43 @@ class FootstepPlanner:
     parameters: WalkParameters
 
     def next_foot(self, support: PlanarPose, side: int, command: VelocityCommand) -> PlanarPose:
+        """Return where the foot lands that swings while the foot of a side supports the robot."""
+        start = self.middle_beside(support, side)
+        return self.landing(support, side, self.next_middle(start, side, command))
+
+    def middle_beside(self, support: PlanarPose, side: int) -> PlanarPose:
+        """Return the middle between the feet if the other one stood beside a support."""
+        half_width_m = self.parameters.step_width_m / 2 * outwards(side)
+        return PlanarPose(support.at(0.0, -half_width_m), support.yaw_rad)
+
+    def next_middle(
+        self,
+        middle: PlanarPose,
+        side: int,
+        command: VelocityCommand,
+        time_s: float | None = None,
+    ) -> PlanarPose:
         """
-        Return where the foot lands that swings while the foot of a side supports the robot.
+        Return where the middle between the feet goes in a step on the foot of a side.
 
         Sideways and in turns the foot on the side of the motion does the whole way of two
         steps, and the other one closes up: so they never cross.
+
+        :param time_s: how long the step takes; without it, as long as planned
         """
-        half_width_m = self.parameters.step_width_m / 2 * outwards(side)
+        step_s = self.parameters.step_s if time_s is None else time_s
         leads = outwards(other(side))
         left_m, turn_rad = (
-            2 * speed * self.parameters.step_s if speed * leads > 0 else 0.0
+            2 * speed * step_s if speed * leads > 0 else 0.0
             for speed in (command.left_m_s, command.turn_rad_s)
         )
-        way_m = complex(command.forward_m_s * self.parameters.step_s, left_m)
-        heading = cmath.rect(1.0, support.yaw_rad + turn_rad / 2)
-        middle = PlanarPose(
-            support.at(0.0, -half_width_m) + way_m * heading, support.yaw_rad + turn_rad
-        )
+        way_m = complex(command.forward_m_s * step_s, left_m)
+        heading = cmath.rect(1.0, middle.yaw_rad + turn_rad / 2)
+        return PlanarPose(middle.position_m + way_m * heading, middle.yaw_rad + turn_rad)
+
+    def landing(self, support: PlanarPose, side: int, middle: PlanarPose) -> PlanarPose:
+        """Return where the foot lands so that the middle is in a place, as far as it can."""
+        half_width_m = self.parameters.step_width_m / 2 * outwards(side)
         place = support.local(middle.at(0.0, -half_width_m))
         reached = self.reachable(place, side)
         return PlanarPose(support.at(reached.real, reached.imag), middle.yaw_rad)

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from humanoid_control.walking.dcm_plan import BalanceReference
-from humanoid_control.walking.footing import Loads, loads_for
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.gear import GaitInput, Gear
 from humanoid_control.walking.phases import Phase, Standing
@@ -24,7 +23,6 @@ class GaitOutput:
     reference: BalanceReference
     zmp_m: Point
     """The zero-moment point with feedback, within the support polygon."""
-    loads: Loads
     turning: Turning
     """Where the pelvis is to face."""
     swing: Swing | None
@@ -66,7 +64,6 @@ class Gait:
         return GaitOutput(
             reference,
             zmp,
-            loads_for(footing, phase.sides, zmp),
             phase.turning,
             phase.swing(),
             phase.sides,

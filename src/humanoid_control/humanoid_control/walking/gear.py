@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from humanoid_control.walking.course import Course
 from humanoid_control.walking.dcm_plan import DcmPlan, ZmpSegment
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.footsteps import Footstep, FootstepPlanner
@@ -12,6 +13,7 @@ from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Pendulum
 from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.step_adjustment import StepAdjuster
+from humanoid_control.walking.terrain import Facet
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
 
@@ -20,7 +22,7 @@ class SoleReading:
     """Where a sole is measured to be, and the weight on it."""
 
     pose: PlanarPose
-    height_m: float
+    facet: Facet
     load: float
     """As a share of the robot's weight."""
 
@@ -46,17 +48,25 @@ class Gear:
     footing: Footing
     target: VelocityCommand = STANDING
     command: VelocityCommand = STANDING
+    slope: Point = 0j
+    """The tilt of the ground ahead."""
     planner: FootstepPlanner = field(init=False)
     adjuster: StepAdjuster = field(init=False)
+    course: Course = field(init=False)
 
     def __post_init__(self) -> None:
         """Make what plans with the parameters."""
         self.planner = FootstepPlanner(self.parameters)
         self.adjuster = StepAdjuster(self.planner, self.pendulum.rate_1_s)
+        self.course = Course(self.planner)
 
     def approach_target(self, time_s: float) -> None:
         """Bring the velocity nearer to what is wanted, by what is allowed in a time."""
         self.command = self.command.towards(self.target, self.parameters.velocity_change(time_s))
+
+    def learn_slope(self, tilt: Point) -> None:
+        """Expect that the ground ahead is tilted like that under a foot, by and by."""
+        self.slope += self.parameters.slope_share * (tilt - self.slope)
 
     @property
     def is_stopping(self) -> bool:

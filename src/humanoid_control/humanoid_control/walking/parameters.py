@@ -41,7 +41,7 @@ class WalkParameters:
     """
 
     # Rhythm.
-    swing_s: float = _time(0.42)
+    swing_s: float = _time(0.36)
     """How long one foot alone carries the robot in a step."""
     shift_s: float = _time(0.10)
     """How long the weight takes from foot to foot, both on the ground."""
@@ -61,32 +61,39 @@ class WalkParameters:
     """How far a foot may land before or behind the other one when it has to catch the robot."""
     preview_steps: int = 4
     """How many steps the plan looks ahead beyond the present one."""
+    course_gain: float = 0.5
+    """How much of the way back to its course the robot goes in a step."""
+    course_distance_m: float = _length(0.06)
+    """How far from its course it may be; what is more is forgotten."""
+    course_turn_rad: float = 0.15
     parallel_length_m: float = _length(0.025)
     """How far from side by side feet may be that the robot stops on."""
     parallel_width_m: float = _length(0.03)
     parallel_turn_rad: float = 0.06
 
     # Velocity.
-    forward_limit_m_s: float = _speed(0.35)
-    backward_limit_m_s: float = _speed(0.25)
-    left_limit_m_s: float = _speed(0.15)
-    turn_limit_rad_s: float = _rate(0.8)
+    forward_limit_m_s: float = _speed(0.5)
+    backward_limit_m_s: float = _speed(0.3)
+    left_limit_m_s: float = _speed(0.2)
+    turn_limit_rad_s: float = _rate(1.0)
     sum_of_shares: float = 1.5
     """What the shares of the limits may come to together."""
-    forward_acceleration_m_s2: float = 0.3
+    forward_acceleration_m_s2: float = 0.4
     left_acceleration_m_s2: float = 0.2
     turn_acceleration_rad_s2: float = _growing(-1.0, 0.8)
 
     # Posture.
-    crouch_m: float = _length(0.035)
+    crouch_m: float = _length(0.05)
     """How far the hips hang below stretched legs."""
+    leg_reach: float = 0.97
+    """To which share of its length a leg on the ground is stretched before the pelvis sinks."""
     zmp_forward_m: float = _length(0.015)
     """Where under a foot its load is planned: before the sole's frame ..."""
     zmp_inward_m: float = _length(0.005)
     """... and on the inner side."""
-    margin_length_m: float = _length(0.02)
+    margin_length_m: float = _length(0.01)
     """What the load keeps from toe and heel ..."""
-    margin_width_m: float = _length(0.012)
+    margin_width_m: float = _length(0.008)
     """... and from the sides."""
     elbow_rad: float = -0.5
     shoulder_roll_rad: float = 0.12
@@ -103,6 +110,8 @@ class WalkParameters:
     """How far the reference may be from the estimate."""
     attitude_stiffness_nm_rad: float = _growing(4.0, 400.0)
     attitude_damping_nms_rad: float = _growing(4.5, 25.0)
+    ground_turn_nm: float = _growing(4.0, 15.0)
+    """The torque about the vertical that the feet may exert on the ground."""
     heading_share: float = 0.5
     """How much of them there is against errors of the heading."""
     push_forward_m: float = _length(0.065)
@@ -123,29 +132,72 @@ class WalkParameters:
     unreachable_width_m: float = _length(0.03)
 
     # Swing foot.
-    swing_height_m: float = _length(0.045)
+    swing_height_m: float = _length(0.055)
     early_arrival: float = 0.94
     """At which share of the swing the foot is above its landing."""
     reach_down_m_s: float = _speed(0.2)
     """How fast it goes on down when the ground is late."""
-    swing_follow: float = 0.7
-    """How much of what the pelvis moves beside its plan the foot's velocity makes up for."""
-    touchdown_phase: float = 0.6
-    """From which share of the swing on a load means that the foot stands."""
+    deepest_m: float = _length(0.06)
+    """How far below the expected ground it goes."""
+    touchdown_phase: float = 0.5
+    """From which share of the swing on a foot that meets something stays there."""
     touchdown_load: float = 0.12
-    """How much of the weight that load is."""
-    touchdown_height_m: float = _length(0.02)
-    late_touchdown_s: float = _time(0.12)
+    """How much of the weight it has to carry for that ..."""
+    touch_load: float = 0.06
+    """... and how much near the end of the swing, ..."""
+    gentle_phase: float = 0.75
+    """... which begins at this share."""
+    landing_phase: float = 0.85
+    """From which share of the swing on a foot that stands may take the weight."""
+    late_touchdown_s: float = _time(0.16)
     """How late a landing may be until the step ends without it."""
-    settle_s: float = _time(0.06)
-    """The time constant in which a foot that landed too high or low is brought to the ground."""
+
+    # Ground that is not level.
+    conform_early_1_s: float = _rate(25.0)
+    """How fast a sole with weight on it gives way to the tilt of the ground at first ..."""
+    conform_early_s: float = _time(0.15)
+    """... for so long, ..."""
+    conform_1_s: float = _rate(10.0)
+    """... and later."""
+    conform_load: float = 0.4
+    """The share of the weight at which it does so fully; with less it is stiffer."""
+    conform_height_1_s: float = _rate(10.0)
+    """How fast a foot without weight on it gives way to the height of the ground."""
+    press_m_s: float = _speed(0.1)
+    """How fast a foot that only touches is pressed down."""
+    most_tilt_rad: float = 0.2
+    """Ground that is steeper is taken for so steep."""
+    slope_share: float = 0.5
+    """How much of the tilt under a foot is expected of the ground ahead."""
+    level_rate_1_s: float = _rate(6.0)
+    """How fast the height of the pelvis follows that of the feet ..."""
+    level_leak_1_s: float = _rate(8.0)
+    """... and gives way to where it is measured, ..."""
+    level_distance_m: float = _length(0.04)
+    """... by so much at most."""
+
+    # Falls.
+    fall_tilt_rad: float = 0.6
+    """A robot that leans more than this falls ..."""
+    fall_foresight_s: float = _time(0.2)
+    """... or one that will so soon."""
+    fall_height: float = 0.7
+    """So does one whose base is lower than this share of its height when it stands."""
+    upright_tilt_rad: float = 0.3
+    """A robot that leans less, its legs below it, is held by somebody and can stand up."""
+    collapse_s: float = _time(1.5)
+    """How long a fall is made soft; then the joints are loose."""
+    collapse_stiffness: float = 0.15
+    """The share of their stiffness with which the joints pull meanwhile."""
+    stand_up_s: float = _time(1.5)
+    """How long the joints take to the posture of standing."""
+    standing_load: float = 0.6
+    """The share of the weight on the soles at which a robot that has stood up walks again."""
 
     # Joints.
-    acceleration_filter_1_s: float = _rate(40.0)
-    """How fast the acceleration of the joints' targets follows their differences."""
     velocity_limit_rad_s: float = _rate(12.0)
-    acceleration_limit_rad_s2: float = _growing(-1.0, 150.0)
-    arm_swing: float = 0.5
+    acceleration_limit_rad_s2: float = _growing(-1.0, 250.0)
+    arm_swing: float = 1.0
     """How many radians a shoulder turns for a foot that is a leg's length ahead."""
 
     def scaled(self, scale: float) -> WalkParameters:

@@ -82,6 +82,8 @@ class Standing(_OnBothFeet):
         """Go on standing, or step."""
         self._elapsed_s += now.passed_s
         self._gear.approach_target(now.passed_s)
+        self._gear.course.restart()
+        self._gear.slope = self._gear.footing.tilt
         if not self._gear.target.is_zero:
             shift_s = self._gear.parameters.first_shift_s
             return Stepping(
@@ -144,10 +146,11 @@ class Stepping:
         """Go on with the step; when the foot has landed, with the next one, or stop."""
         step = self._step
         step.advance(now.passed_s)
+        step.feel(now)
         if not step.has_landed(now):
             return self
-        feet = self._gear.footing
-        feet.put(step.side, step.foothold(now))
+        self._gear.learn_slope(self._gear.footing[step.support].facet.tilt)
+        self._gear.course.advance(step.support, self._gear.command, step.duration_s)
         self._gear.approach_target(self._gear.parameters.step_s)
         if self._gear.is_stopping and self._may_rest():
             return Stopping(self._gear, step.side, now.zmp_m)

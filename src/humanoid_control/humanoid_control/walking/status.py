@@ -16,7 +16,7 @@ class WalkStatus:
     """The walk at a moment; points are on the ground in the frame of the odometry."""
 
     phase: str
-    """'stand', 'walk' or 'stop'."""
+    """'stand', 'walk', 'stop', 'fallen' or 'stand_up'."""
     support: tuple[int, ...]
     """The sides whose feet carry the robot: 0 left, 1 right."""
     feet: tuple[PlanarPose, PlanarPose]

@@ -6,11 +6,12 @@ from __future__ import annotations
 from humanoid_control.walking.dcm_plan import BalanceReference, DcmPlan
 from humanoid_control.walking.footing import Foothold
 from humanoid_control.walking.footsteps import Footstep
-from humanoid_control.walking.gear import GaitInput, Gear
-from humanoid_control.walking.planar import limited, PlanarPose, Point
+from humanoid_control.walking.gear import GaitInput, Gear, SoleReading
+from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.sides import other, SIDES
 from humanoid_control.walking.step_adjustment import Residual
 from humanoid_control.walking.swing_foot import Lift, SoleMotion, Swing, SwingFoot
+from humanoid_control.walking.terrain import Facet
 from humanoid_control.walking.turning import smooth_turn, Turning
 
 _INSTANT_S = 1e-4
@@ -28,13 +29,16 @@ class Step:
         self._shift_s = shift_s
         self._start_m = zmp
         self._passed_s = 0.0
+        self._real_s = 0.0
         self.elapsed_s = 0.0
         self.rate = 1.0
         self.error_m = 0.0
         self._lift_off = gear.footing.pose(self.side)
         self._foot = SwingFoot(self._lift_off)
         p = gear.parameters
-        self._lift = Lift(p.swing_height_m, p.swing_s, p.reach_down_m_s)
+        self._lift = Lift(p.swing_height_m, p.swing_s, p.reach_down_m_s, p.deepest_m)
+        self._tilt = gear.slope
+        self._has_touched = False
         self._nominal = self._next_landing()
         self._planned_for = gear.is_stopping
         self._nominal_plan = self._planned(self._nominal)
@@ -45,6 +49,11 @@ class Step:
     def end_s(self) -> float:
         """Return the time at which the foot lands by plan."""
         return self._shift_s + self._gear.parameters.swing_s
+
+    @property
+    def duration_s(self) -> float:
+        """Return how long it has taken in fact, apart from a longer or shorter begin."""
+        return self._real_s + self._gear.parameters.shift_s - self._shift_s
 
     @property
     def swing_phase(self) -> float:
@@ -64,22 +73,23 @@ class Step:
     def advance(self, passed_s: float) -> None:
         """Let time pass."""
         self._passed_s = passed_s
+        self._real_s += passed_s
         self.elapsed_s += passed_s * self.rate
 
-    def has_landed(self, now: GaitInput) -> bool:
-        """Tell whether the foot stands, or should have stood long ago."""
-        p, sole = self._gear.parameters, now.soles[self.side]
-        touches = (
-            self.swing_phase > p.touchdown_phase
-            and sole.load > p.touchdown_load
-            and sole.height_m < p.touchdown_height_m
-        )
-        return touches or self.elapsed_s > self.end_s + p.late_touchdown_s
+    def feel(self, now: GaitInput) -> None:
+        """Leave the foot where it touches the ground, early or late, until the step ends."""
+        sole = now.soles[self.side]
+        if self._has_touched or not (self._touches(sole) or self._is_late):
+            return
+        self._has_touched = True
+        facet = Facet(sole.facet.height_m, self._tilt)
+        self._gear.footing.put(self.side, Foothold(sole.pose, facet))
 
-    def foothold(self, now: GaitInput) -> Foothold:
-        """Return where the foot has landed."""
-        sole, most_m = now.soles[self.side], self._gear.parameters.touchdown_height_m
-        return Foothold(sole.pose, limited(sole.height_m, -most_m, most_m))
+    def has_landed(self, now: GaitInput) -> bool:
+        """Tell whether the foot can take the weight, or should have long ago."""
+        p, phase = self._gear.parameters, self.swing_phase
+        bears = now.soles[self.side].load > p.touchdown_load or phase > 1.0
+        return self._is_late or (self._has_touched and phase > p.landing_phase and bears)
 
     def reference(self, now: GaitInput) -> BalanceReference:
         """Return where the divergent component and the zero-moment point should be now."""
@@ -102,22 +112,55 @@ class Step:
     def swing(self) -> Swing | None:
         """Return where the sole in the air is to be; to be asked once a tick."""
         p, in_air_s = self._gear.parameters, self.elapsed_s - self._shift_s
-        if in_air_s <= 0.0:
+        if in_air_s <= 0.0 or self._has_touched:
             return None
         passed_s = min(self._passed_s, in_air_s / self.rate)
         remaining_s = (p.early_arrival * p.swing_s - in_air_s) / self.rate + passed_s
         foot = self._foot
         foot.advance(self.landing, remaining_s, passed_s)
-        height_m, climb_m_s = self._lift.at(in_air_s)
+        start, rise_m = self._gear.footing[self.side].facet, self._rise_m
+        height_m, climb_m_s, climb_m_s2 = self._lift.at(in_air_s, rise_m)
+        share = min(1.0, self.swing_phase)
+        self._tilt = start.tilt + share * (self._gear.slope - start.tilt)
         motion = SoleMotion(
-            foot.pose, height_m, foot.velocity_m_s, climb_m_s * self.rate, foot.turn_rad_s
+            foot.pose,
+            Facet(start.height_m + height_m, self._tilt),
+            foot.velocity_m_s,
+            climb_m_s * self.rate,
+            foot.turn_rad_s,
+            foot.acceleration_m_s2,
+            climb_m_s2 * self.rate**2,
+            foot.turn_rad_s2,
         )
         return Swing(self.side, motion)
 
+    @property
+    def _rise_m(self) -> float:
+        """Return how much higher the ground is expected at the landing than at the lift-off."""
+        footing, slope = self._gear.footing, self._gear.slope
+        way_m = self.landing.position_m - footing.pose(self.support).position_m
+        landing_m = footing[self.support].facet.height_beside(way_m, slope)
+        return landing_m - footing[self.side].facet.height_m
+
+    @property
+    def _is_late(self) -> bool:
+        """Tell whether the foot should have landed long ago."""
+        return self.elapsed_s > self.end_s + self._gear.parameters.late_touchdown_s
+
+    def _touches(self, sole: SoleReading) -> bool:
+        """Tell whether the foot meets the ground while it goes down."""
+        p, phase = self._gear.parameters, self.swing_phase
+        enough = p.touch_load if phase > p.gentle_phase else p.touchdown_load
+        return phase > p.touchdown_phase and sole.load > enough
+
     def _next_landing(self) -> PlanarPose:
-        """Return where the foot lands by plan."""
-        support = self._gear.footing.pose(self.support)
-        return self._gear.planner.next_foot(support, self.support, self._gear.command)
+        """Return where the foot lands by plan, on the robot's course unless it stops."""
+        planner, support = self._gear.planner, self._gear.footing.pose(self.support)
+        start = planner.middle_beside(support, self.support)
+        if not self._gear.is_stopping:
+            start = self._gear.course.corrected(start)
+        goal = planner.next_middle(start, self.support, self._gear.command)
+        return planner.landing(support, self.support, goal)
 
     def _planned(self, landing: PlanarPose) -> DcmPlan:
         """Return the plan from the begin of the step to rest for a landing."""

@@ -3,34 +3,28 @@
 
 from __future__ import annotations
 
-import math
-
 from humanoid_control.backends import JointTargets
-from humanoid_control.dynamics.frames import Frame, Twist
-from humanoid_control.dynamics.rotations import about_z, skew
-from humanoid_control.walking.attitude import hip_efforts
-from humanoid_control.walking.base_estimate import base_on, sole_reading
+from humanoid_control.walking.base_estimate import base_on, BaseEstimate
+from humanoid_control.walking.base_motion import BaseMotion
 from humanoid_control.walking.com_observer import ComObserver
 from humanoid_control.walking.com_reference import ComReference
-from humanoid_control.walking.feed_forward import (
-    add_swing_efforts,
-    carrying_efforts,
-    ground_force,
-)
+from humanoid_control.walking.conforming import Conforming
 from humanoid_control.walking.foot_shape import FootShape
-from humanoid_control.walking.footing import Foothold, Footing
+from humanoid_control.walking.footing import Footing, loads_for
 from humanoid_control.walking.gait import Gait, GaitOutput
-from humanoid_control.walking.gear import GaitInput, Gear
+from humanoid_control.walking.gear import GaitInput, Gear, SoleReading
 from humanoid_control.walking.home_posture import HomePosture
+from humanoid_control.walking.inverse_dynamics import InverseDynamics
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion, Pendulum
 from humanoid_control.walking.planar import Point
+from humanoid_control.walking.planned_acceleration import PlannedAcceleration, within
 from humanoid_control.walking.senses import Sensed
-from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
-from humanoid_control.walking.target_acceleration import TargetAcceleration, within
-from humanoid_control.walking.turning import Turning
+from humanoid_control.walking.soles import footing_below, soles_below
+from humanoid_control.walking.terrain import GroundLevel
 from humanoid_control.walking.walking_robot import WalkingRobot
-from humanoid_control.walking.whole_body import BaseMotion, WholeBody
+from humanoid_control.walking.wanted_base import base_below, within_reach
+from humanoid_control.walking.whole_body import JointMotion, WholeBody
 import numpy as np
 from numpy.typing import NDArray
 
@@ -53,14 +47,18 @@ class Walk:
         self._robot = robot
         self._parameters = parameters
         self._pendulum = Pendulum(home.com_height_m)
-        self._footing = _footing_below(start_m, robot, shape, sensed)
+        self._footing = footing_below(start_m, robot, shape, parameters, sensed)
         self.gait = Gait(Gear(parameters, self._pendulum, self._footing))
         self._observer = ComObserver(self._pendulum, parameters.observer_rate_1_s)
         self._reference = ComReference(
             self._pendulum, parameters.reference_leak_1_s, parameters.reference_distance_m
         )
         self._whole_body = WholeBody(robot, home, parameters)
-        self._acceleration = TargetAcceleration(parameters)
+        self._dynamics = InverseDynamics(robot, parameters, self._footing)
+        self._conforming = Conforming(parameters)
+        self._level = GroundLevel(
+            parameters.level_rate_1_s, parameters.level_leak_1_s, parameters.level_distance_m
+        )
         self._shares = (0.5, 0.5)
         self._zmp_m = self._footing.rest_point
         self._last_s = sensed.time_s
@@ -84,20 +82,29 @@ class Walk:
         passed_s = sensed.time_s - self._last_s
         self._last_s, self.sensed = sensed.time_s, sensed
         self._estimate(passed_s)
-        output = self.output = self.gait.update(self._gait_input(passed_s))
-        self._shares, self._zmp_m = output.loads.shares, output.zmp_m
+        soles = soles_below(self.base.position_m, self._robot, sensed, self._parameters)
+        output = self.output = self.gait.update(
+            GaitInput(passed_s, self.dcm_m, self._zmp_m, soles)
+        )
+        self._zmp_m = output.zmp_m
         wanted = self._reference.update(self.com, output.zmp_m, passed_s)
-        self._footing.settle(1.0 - math.exp(-passed_s / self._parameters.settle_s))
+        self._give_way(soles, output, passed_s)
         joints = self._whole_body.motion(
-            self._wanted_base(wanted, output.turning),
-            self._measured_base(),
+            self._wanted_base(wanted, output),
+            self.base.motion(sensed.state),
             self._footing,
             output.swing,
         )
+        plan = self._planned(output, joints)
+        exertion = self._dynamics.exertion(sensed, self._base_above_ground_m, output, plan)
+        self._shares = exertion.shares
         velocities = within(joints.velocities_rad_s, self._parameters.velocity_limit_rad_s)
-        accelerations = self._acceleration.update(velocities, passed_s)
-        efforts = self._efforts(output, accelerations)
-        return JointTargets(joints.positions_rad, velocities, efforts)
+        return JointTargets(joints.positions_rad, velocities, exertion.efforts_nm)
+
+    def lie(self, sensed: Sensed) -> None:
+        """Note that the robot does not walk now: it is where it was last, turned as it is."""
+        self._last_s, self.sensed = sensed.time_s, sensed
+        self.base = BaseEstimate(self.base.position_m, np.zeros(3))
 
     def _estimate(self, passed_s: float) -> None:
         """Find base and centre of mass from the feet that carried weight until now."""
@@ -106,67 +113,42 @@ class Walk:
         measured = self.base.com_motion(state)
         self.com = self._observer.update(measured, self._zmp_m, passed_s)
 
-    def _gait_input(self, passed_s: float) -> GaitInput:
-        """Return what the gait is to know."""
-        left, right = (
-            sole_reading(
-                self._robot.legs[side].sole,
-                self.base.position_m,
-                self.sensed.state,
-                self.sensed.loads[side],
-            )
-            for side in SIDES
-        )
-        return GaitInput(passed_s, self.dcm_m, self._zmp_m, (left, right))
-
-    def _measured_base(self) -> BaseMotion:
-        """Return the base as estimated."""
-        state = self.sensed.state
-        return BaseMotion(
-            Frame(self.base.position_m, state.base_rotation),
-            Twist(self.base.velocity_m_s, state.base_angular_velocity_rad_s),
+    def _give_way(
+        self, soles: tuple[SoleReading, SoleReading], output: GaitOutput, passed_s: float
+    ) -> None:
+        """Adapt to the ground under the feet."""
+        in_air = output.swing.side if output.swing else None
+        shares = loads_for(self._footing, output.sides, output.zmp_m).shares
+        self._conforming.update(self._footing, soles, shares, in_air, passed_s)
+        com_m = float(self.base.position_m[2] + self.sensed.state.com_m[2])
+        self._level.update(
+            self._footing.height_m(shares),
+            com_m - self._pendulum.height_m,
+            passed_s,
         )
 
-    def _wanted_base(self, com: Motion, turning: Turning) -> BaseMotion:
-        """Return the base that is upright, faces a heading and has the centre of mass right."""
-        state, point, speed = self.sensed.state, self.com.position_m, com.velocity_m_s
-        rotation = about_z(turning.heading_rad)
-        upright = rotation @ state.base_rotation.T
-        from_base = np.array([point.real, point.imag, 0.0]) - self.base.position_m
-        from_base[2] = state.com_m[2]
-        to_com = upright @ from_base
-        shifting = upright @ (
-            state.com_velocity_m_s - skew(state.base_angular_velocity_rad_s) @ state.com_m
+    @property
+    def _base_above_ground_m(self) -> Array:
+        """Return where the base is (3,), above the level of the ground."""
+        above_m: Array = self.base.position_m - (0.0, 0.0, self._level.height_m)
+        return above_m
+
+    def _wanted_base(self, com: Motion, output: GaitOutput) -> BaseMotion:
+        """Return the base that has the centre of mass where it is wanted."""
+        height_m = self._pendulum.height_m + self._level.height_m
+        base = base_below(com, height_m, output.turning, self.com, self.base, self.sensed.state)
+        reach = self._parameters.leg_reach
+        return within_reach(base, self._robot, self._footing, output.sides, reach)
+
+    def _planned(self, output: GaitOutput, motion: JointMotion) -> PlannedAcceleration:
+        """Return what is planned: a pendulum, upright, over feet that stand or swing."""
+        along = self._pendulum.acceleration_m_s2(self.com.position_m, output.zmp_m)
+        soles = [np.zeros(6), np.zeros(6)]
+        if output.swing:
+            soles[output.swing.side] = output.swing.sole.acceleration
+        return PlannedAcceleration(
+            np.array([along.real, along.imag, 0.0]),
+            np.zeros(3),
+            soles,
+            motion.accelerations_rad_s2,
         )
-        goal = np.array([com.position_m.real, com.position_m.imag, self._pendulum.height_m])
-        turn = np.array([0.0, 0.0, turning.rate_rad_s])
-        velocity = np.array([speed.real, speed.imag, 0.0]) - shifting - skew(turn) @ to_com
-        return BaseMotion(Frame(goal - to_com, rotation), Twist(velocity, turn))
-
-    def _efforts(self, output: GaitOutput, accelerations: Array) -> Array:
-        """Return the efforts (n,) that carry the robot and keep it upright."""
-        acceleration = self._pendulum.acceleration_m_s2(self.com.position_m, output.zmp_m)
-        state = self.sensed.state
-        efforts = carrying_efforts(
-            self._robot,
-            state,
-            self.base.position_m,
-            output.loads,
-            ground_force(self._robot.body.mass_kg, acceleration),
-        )
-        if len(output.sides) == 1:
-            swinging = RIGHT if output.sides[0] == LEFT else LEFT
-            add_swing_efforts(self._robot, state, swinging, accelerations, efforts)
-        upright = hip_efforts(self._parameters, self.sensed.attitude, output.turning.heading_rad)
-        for side in SIDES:
-            efforts[self._robot.legs[side].indices[:3]] += output.loads.shares[side] * upright
-        return efforts
-
-
-def _footing_below(
-    start_m: Point, robot: WalkingRobot, shape: FootShape, sensed: Sensed
-) -> Footing:
-    """Return the feet where they are while the base is above a point."""
-    base = np.array([start_m.real, start_m.imag, 0.0])
-    readings = [sole_reading(leg.sole, base, sensed.state, 0.5) for leg in robot.legs]
-    return Footing(shape, [Foothold(reading.pose) for reading in readings])

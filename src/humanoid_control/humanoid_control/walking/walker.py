@@ -6,14 +6,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from humanoid_control.backends import JointTargets, Observation
+from humanoid_control.backends import Array, JointTargets, Observation
+from humanoid_control.walking.fall_detector import Stance
 from humanoid_control.walking.foot_shape import FootShape
 from humanoid_control.walking.heading import quaternion_of
 from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.odometry import Odometry, Uncertainty
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import PlanarPose, Point
-from humanoid_control.walking.senses import Senses
+from humanoid_control.walking.recovery import Recovery
+from humanoid_control.walking.senses import Sensed, Senses
 from humanoid_control.walking.sides import LEFT, RIGHT
 from humanoid_control.walking.status import WalkStatus
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
@@ -42,10 +44,12 @@ class Walker:
     _targets: JointTargets | None = field(init=False, default=None)
     _start_m: Point = field(init=False, default=0j)
     _uncertainty: Uncertainty = field(init=False, default_factory=Uncertainty)
+    _recovery: Recovery = field(init=False)
 
     def __post_init__(self) -> None:
         """Begin."""
         self._senses = Senses(self.robot)
+        self._recovery = Recovery(self.robot, self.home, self.parameters)
 
     @classmethod
     def of(
@@ -72,6 +76,7 @@ class Walker:
     def reset(self) -> None:
         """Forget everything: the robot has been put somewhere, and odometry begins anew."""
         self._senses = Senses(self.robot)
+        self._recovery = Recovery(self.robot, self.home, self.parameters)
         self._uncertainty = Uncertainty()
         self._start_m = 0j
         self._walk = self._targets = None
@@ -84,6 +89,11 @@ class Walker:
             self._start_m = complex(x, y)
         self._walk = self._targets = None
         self._velocity = STANDING
+
+    @property
+    def velocity(self) -> VelocityCommand:
+        """Return the velocity at which to go; none after a reset, a restart or a fall."""
+        return self._velocity
 
     def command(self, velocity: VelocityCommand) -> None:
         """Go at a velocity, within the limits of the gait; zero stops."""
@@ -101,14 +111,38 @@ class Walker:
         if self._targets and last_s is not None and observation.time_s <= last_s:
             return self._targets
         sensed = self._senses.read(observation)
-        if self._walk is None:
-            self._walk = Walk(
-                self.robot, self.shape, self.home, self.parameters, sensed, self._start_m
-            )
-            self._walk.gait.command(self._velocity)
-        self._targets = self._walk.update(sensed)
-        self._uncertainty.update(self._pose(self._walk))
-        return self._targets
+        walk = self._walk or self._begin(sensed)
+        targets = self._recover(walk, sensed, observation.positions_rad)
+        if targets is None:
+            walk = self._walk or self._begin(sensed)
+            targets = walk.update(sensed)
+            self._uncertainty.update(self._pose(walk))
+        self._targets = targets
+        return targets
+
+    @property
+    def has_fallen(self) -> bool:
+        """Tell whether the robot lies, falls or is being put onto its feet."""
+        return self._recovery.phase is not None
+
+    def _begin(self, sensed: Sensed) -> Walk:
+        """Begin to walk from where the feet are."""
+        self._walk = Walk(
+            self.robot, self.shape, self.home, self.parameters, sensed, self._start_m
+        )
+        self._walk.gait.command(self._velocity)
+        return self._walk
+
+    def _recover(self, walk: Walk, sensed: Sensed, positions_rad: Array) -> JointTargets | None:
+        """Return the targets of a robot that has fallen; None if it walks, maybe from now on."""
+        was_down = self.has_fallen
+        stance = Stance.of(self.robot, sensed)
+        targets = self._recovery.update(sensed.time_s, stance, positions_rad)
+        if targets is not None:
+            walk.lie(sensed)
+        elif was_down:
+            self.restart()
+        return targets
 
     @property
     def status(self) -> WalkStatus | None:
@@ -117,7 +151,7 @@ class Walker:
         if walk is None or walk.output is None:
             return None
         return WalkStatus(
-            phase=walk.gait.phase,
+            phase=self._recovery.phase or walk.gait.phase,
             support=walk.output.sides,
             feet=(walk.footing.pose(LEFT), walk.footing.pose(RIGHT)),
             footsteps=walk.gait.footsteps,

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.dynamics.leg_ik import leg_posture
 from humanoid_control.dynamics.leg_rates import leg_rates
-from humanoid_control.dynamics.rotations import about_z
+from humanoid_control.walking.base_motion import BaseMotion
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.parameters import WalkParameters
@@ -23,21 +23,15 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class BaseMotion:
-    """Where the base is in the odometry's frame and how it moves, measured or wanted."""
-
-    frame: Frame
-    twist: Twist
-
-
-@dataclass(frozen=True, eq=False)
 class JointMotion:
-    """Positions and velocities of all joints."""
+    """Positions, velocities and accelerations of all joints."""
 
     positions_rad: Array
     """(n,)"""
     velocities_rad_s: Array
     """(n,)"""
+    accelerations_rad_s2: Array
+    """(n,); those of the legs are zero here: they follow from the soles"""
 
 
 class WholeBody:
@@ -48,7 +42,6 @@ class WholeBody:
         self._robot = robot
         self._home = home
         self._shoulders = [robot.index(f'{name}_shoulder') for name in NAMES]
-        self._follow = parameters.swing_follow
         self._swing_rad_m = parameters.arm_swing / home.base_height_m
 
     def motion(
@@ -58,38 +51,29 @@ class WholeBody:
         Return how the joints are to move.
 
         Feet on the ground move the pelvis where it is wanted. A foot in the air is placed from
-        where the pelvis is, so that it lands where planned even if the pelvis is elsewhere. Its
-        velocity follows that of the pelvis in part only: all of it would feed back any shaking.
+        where the pelvis is, so that it lands where planned even if the pelvis is elsewhere.
         """
         positions: Array = self._home.positions_rad.copy()
-        joints = JointMotion(positions, np.zeros_like(positions))
-        soles = [SoleMotion(footing.pose(side), footing[side].lift_m) for side in SIDES]
+        joints = JointMotion(positions, np.zeros_like(positions), np.zeros_like(positions))
+        soles = [SoleMotion(footing.pose(side), footing[side].facet) for side in SIDES]
         bases = [wanted, wanted]
         if swing:
             soles[swing.side] = swing.sole
-            bases[swing.side] = BaseMotion(measured.frame, self._followed(wanted, measured))
+            bases[swing.side] = measured
         for side in SIDES:
             self._move_leg(side, bases[side], soles[side], joints)
         self._swing_arms(soles, joints)
         return joints
 
-    def _followed(self, wanted: BaseMotion, measured: BaseMotion) -> Twist:
-        """Return the motion of the pelvis that a foot in the air makes up for."""
-        a, b = wanted.twist, measured.twist
-        return Twist(
-            a.linear_m_s + self._follow * (b.linear_m_s - a.linear_m_s),
-            a.angular_rad_s + self._follow * (b.angular_rad_s - a.angular_rad_s),
-        )
-
     def _move_leg(
         self, side: int, base: BaseMotion, sole: SoleMotion, joints: JointMotion
     ) -> None:
-        """Set the joints of a leg so that its sole is level in a place."""
+        """Set the joints of a leg so that its sole is in a place."""
         leg, point, speed = self._robot.legs[side], sole.pose.position_m, sole.velocity_m_s
-        place = np.array([point.real, point.imag, sole.height_m])
+        place = np.array([point.real, point.imag, sole.facet.height_m])
         velocity = np.array([speed.real, speed.imag, sole.climb_m_s])
         turn = np.array([0.0, 0.0, sole.turn_rad_s])
-        frame = Frame(place, about_z(sole.pose.yaw_rad)).seen_from(base.frame)
+        frame = Frame(place, sole.facet.rotation(sole.pose.yaw_rad)).seen_from(base.frame)
         twist = Twist(velocity, turn).seen_from(base.frame, base.twist, place)
         posture = leg_posture(leg.geometry, frame)
         joints.positions_rad[leg.indices] = posture.positions_rad
@@ -101,7 +85,9 @@ class WholeBody:
         middle = left.pose.halfway(right.pose)
         ahead_m = 2.0 * middle.local(left.pose.position_m).real
         speed_m_s = middle.seen(left.velocity_m_s - right.velocity_m_s).real
+        gain_m_s2 = middle.seen(left.acceleration_m_s2 - right.acceleration_m_s2).real
         for side, direction in ((LEFT, 1.0), (RIGHT, -1.0)):
             shoulder, gain = self._shoulders[side], direction * self._swing_rad_m
             joints.positions_rad[shoulder] += gain * ahead_m
             joints.velocities_rad_s[shoulder] = gain * speed_m_s
+            joints.accelerations_rad_s2[shoulder] = gain * gain_m_s2

@@ -3,8 +3,9 @@
 
 from humanoid_simulation.backend.contacts import Contact
 from humanoid_simulation.backend.entities import EntityState
-from humanoid_simulation.backend.mujoco_backend import BackendSettings, MujocoBackend
+from humanoid_simulation.backend.mujoco_backend import MujocoBackend
 from humanoid_simulation.backend.noise import SensorNoise
+from humanoid_simulation.backend.settings import BackendSettings
 from humanoid_simulation.backend.snapshot import Snapshot
 
 __all__ = [

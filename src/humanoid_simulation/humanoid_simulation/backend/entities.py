@@ -66,11 +66,6 @@ class Entities:
         self._data = data
         self._floating = {name: floating_body(model, joint) for name, joint in joints.items()}
 
-    @property
-    def names(self) -> Mapping[str, object]:
-        """Return the names."""
-        return self._floating
-
     def state(self, name: str) -> EntityState:
         """Return where an entity is."""
         at = self._floating[name]

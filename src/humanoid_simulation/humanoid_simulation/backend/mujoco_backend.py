@@ -4,15 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 from humanoid_control.backends import Array, JointTargets, Observation
 from humanoid_simulation.backend.contacts import Contact, contacts_in
 from humanoid_simulation.backend.entities import Entities, EntityState
+from humanoid_simulation.backend.hoisting import Hoists
 from humanoid_simulation.backend.last_sound import LastSound
-from humanoid_simulation.backend.noise import SensorNoise
+from humanoid_simulation.backend.names import ALONE, Names
 from humanoid_simulation.backend.robot import SimulatedRobot
+from humanoid_simulation.backend.settings import BackendSettings
 from humanoid_simulation.backend.snapshot import Snapshot
 from humanoid_simulation.backend.wrenches import Wrench, Wrenches
 from humanoid_simulation.choosing import named
@@ -22,51 +23,13 @@ from humanoid_simulation.model import (
     build_world,
     humanoid,
     in_world,
-    Physics,
     Placement,
     RobotDescription,
 )
-from humanoid_simulation.model.robot_spec import CAMERA, FLOATING_BASE
-from humanoid_simulation.model.world import ALONE
+from humanoid_simulation.model.robot_spec import CAMERA
 from humanoid_simulation.scene import Scene
 import mujoco
 import numpy as np
-
-
-@dataclass(frozen=True)
-class BackendSettings:
-    """How the world is computed, and how good sensors and drives are."""
-
-    physics: Physics = field(default_factory=Physics)
-    steps_per_period: int = 5
-    """Physics steps from one observation to the next."""
-    noise: SensorNoise = field(default_factory=SensorNoise)
-    seed: int = 0
-    """Of the noise: the same seed gives the same trajectory, bit for bit."""
-    latency_periods: int = 0
-    """How old observations are."""
-    extrapolation_s: float = 0.0
-    """For so long positions go on with their velocities when no new targets come."""
-
-    def __post_init__(self) -> None:
-        """Refuse settings that no world can have."""
-        if not 1 <= self.steps_per_period <= 100:
-            raise SimulationError(
-                f'A period cannot have {self.steps_per_period} physics steps. Give 1 to 100.'
-            )
-        if not 0 <= self.latency_periods <= 100:
-            raise SimulationError(
-                f'Observations cannot be {self.latency_periods} periods old. Give 0 to 100.'
-            )
-        if not 0.0 <= self.extrapolation_s <= 1.0:
-            raise SimulationError(
-                f'Targets cannot go on for {self.extrapolation_s:g} s. Give 0 to 1.'
-            )
-
-    @property
-    def period_s(self) -> float:
-        """Return the time from one observation to the next."""
-        return self.steps_per_period * self.physics.period_s
 
 
 class MujocoBackend:
@@ -84,7 +47,7 @@ class MujocoBackend:
         description = description or humanoid()
         self._settings = settings
         self._keyframes = load_keyframes() if keyframes is None else keyframes
-        self._joints, self._base = tuple(description.drives), description.base
+        self._joints = tuple(description.drives)
         mujoco.set_mju_user_warning(_ignore)
         self._model = build_world(description, scene, placements, settings.physics)
         self._data = mujoco.MjData(self._model)
@@ -95,12 +58,17 @@ class MujocoBackend:
             )
             for place, seed in zip(placements, seeds)
         }
-        self._entities = Entities(self._model, self._data, self._floating_joints(scene))
+        self._names = Names(self._model, scene, self.robots, description.base)
+        self._entities = Entities(self._model, self._data, self._names.floating)
         self._wrenches = Wrenches(self._model, self._data)
+        self._hoists = Hoists(self._model, self._data, self._wrenches)
         self._sound = LastSound(self._model, self._data)
-        self._body_names = [self._public(self._model.body(i).name) for i in self._bodies]
         self._periods = 0
         self.reset()
+        self._standing_m = {
+            place.robot: float(self.ground_truth(place.robot).position_m[2]) - place.z_m
+            for place in placements
+        }
 
     @property
     def robots(self) -> tuple[str, ...]:
@@ -135,7 +103,7 @@ class MujocoBackend:
     @property
     def entities(self) -> tuple[str, ...]:
         """Return the names of what can be put somewhere: robots, and things that are not fixed."""
-        return tuple(self._entities.names)
+        return tuple(self._names.floating)
 
     def observe(self) -> Mapping[str, Observation]:
         """Return what the sensors of every robot say now, the same until time passes."""
@@ -152,11 +120,12 @@ class MujocoBackend:
             named('robot', name, self._robots).check(wanted)
         for name, robot in self._robots.items():
             robot.command(targets.get(name))
+        self._hoists.act(self.period_s)
         self._wrenches.act(self.period_s)
         self._sound.keep()
         mujoco.mj_step(self._model, self._data, self._settings.steps_per_period)
-        self._periods += 1
         self._refuse_explosion()
+        self._periods += 1
         self._measure()
 
     def reset(self, keyframe: str = 'home') -> None:
@@ -164,8 +133,8 @@ class MujocoBackend:
         posture = named('keyframe', keyframe, self._keyframes)
         positions = {name: robot.posture(posture) for name, robot in self._robots.items()}
         mujoco.mj_resetData(self._model, self._data)
-        self._data.time = self.time_s
         self._wrenches.clear()
+        self._hoists.clear()
         for name, robot in self._robots.items():
             robot.put(posture, positions[name])
         self._look_again()
@@ -176,8 +145,7 @@ class MujocoBackend:
 
     def entity_state(self, entity: str) -> EntityState:
         """Return where an entity truly is."""
-        named('entity', entity, self._entities.names)
-        return self._entities.state(entity)
+        return self._entities.state(self._names.entity(entity))
 
     def ground_truth(self, robot: str = '') -> EntityState:
         """Return where the base of a robot truly is."""
@@ -185,8 +153,7 @@ class MujocoBackend:
 
     def set_entity_state(self, entity: str, state: EntityState) -> None:
         """Put a robot or a thing somewhere; the joints of a robot stay as they are."""
-        named('entity that can be moved', entity, self._entities.names)
-        self._entities.put(entity, state)
+        self._entities.put(self._names.entity(entity), state)
         self._look_again()
 
     def apply_wrench(
@@ -205,10 +172,9 @@ class MujocoBackend:
         :param force_n: in world axes
         :param point_m: where the force acts, in the axes of the body
         """
-        number = named('body', body, {name: i for i, name in enumerate(self._body_names)})
         self._wrenches.add(
             Wrench(
-                number,
+                self._names.number(body),
                 np.array(force_n, dtype=np.float64),
                 np.array(torque_nm, dtype=np.float64),
                 np.array(point_m, dtype=np.float64),
@@ -216,58 +182,42 @@ class MujocoBackend:
             )
         )
 
-    def stand_up(self, robot: str = '') -> None:
-        """Put a robot onto its feet, at rest, where it is and looking where it looks."""
-        fallen, home = named('robot', robot, self._robots), self._keyframes['home']
-        fallen.put(home, fallen.posture(home), fallen.here)
-        self._look_again()
+    def hoist(self, robot: str = '') -> None:
+        """Begin to lift a robot onto its feet, as if by a rope and by hand, where it is."""
+        fallen = named('robot', robot, self._robots)
+        self._hoists.begin(fallen.base, self._standing_m[robot], lambda: self.ground_truth(robot))
+
+    def is_hoisted(self, robot: str = '') -> bool:
+        """Tell whether a robot is still being lifted onto its feet."""
+        return self._hoists.is_lifting(named('robot', robot, self._robots).base)
 
     def contacts(self) -> Iterator[Contact]:
         """Yield what touches what, as of the last physics step."""
-        return contacts_in(self._model, self._data, self._body_names)
+        return contacts_in(self._model, self._data, self._names.bodies)
 
     def snapshot(self) -> Snapshot:
         """Return a copy of the state."""
         return Snapshot(self.time_s, self._data.qpos.copy(), self._data.qvel.copy())
 
-    def entity(self, name: str) -> str:
-        """Return the entity that is meant: an empty name means the robot, if it is alone."""
-        return name or ALONE
-
     def body(self, entity: str, link: str = '') -> str:
-        """Return the body of an entity: a link of a robot, by default its base, or a thing."""
-        known = {**self._robots, **dict.fromkeys(self.entities)}
-        named('entity that can be moved', entity, known)
-        robot = '' if entity == ALONE and '' in self._robots else entity
-        if robot not in self._robots:
-            return '/'.join(filter(None, (entity, link)))
-        return '/'.join(filter(None, (robot, link or self._base)))
+        """
+        Return the body of an entity: a link of a robot, by default its base, or a thing.
+
+        An empty entity is the robot that is alone.
+        """
+        return self._names.body(entity, link)
 
     def links(self, robot: str = '') -> list[str]:
         """Return what the links of a robot are called among the bodies."""
-        base = self._model.body_rootid[self._robots[robot].base]
-        return [self._body_names[i] for i in self._bodies if self._model.body_rootid[i] == base]
+        return self._names.links(robot)
 
     def camera(self, robot: str = '') -> str:
         """Return what the camera of a robot is called in the model."""
         return in_world(robot, CAMERA)
 
-    @property
-    def _bodies(self) -> range:
-        """Return the numbers of all bodies."""
-        return range(self._model.nbody)
-
-    def _floating_joints(self, scene: Scene) -> dict[str, str]:
-        """Return the joint of each entity that floats."""
-        robots = {name or ALONE: in_world(name, FLOATING_BASE) for name in self._robots}
-        return robots | {thing.name: thing.name for thing in scene.things if not thing.is_fixed}
-
-    def _public(self, name: str) -> str:
-        """Return what a body is called outside: a robot without a name is not mentioned."""
-        return name.removeprefix(f'{ALONE}/') if '' in self._robots else name
-
     def _look_again(self) -> None:
         """Compute what follows from a state that was set, and measure it."""
+        self._data.time = self.time_s
         mujoco.mj_forward(self._model, self._data)
         for robot in self._robots.values():
             robot.forget()
@@ -283,6 +233,7 @@ class MujocoBackend:
         if self._sound.is_lost:
             self._sound.restore()
             self._wrenches.clear()
+            self._hoists.clear()
             self._look_again()
             raise SimulationError(
                 f'The physics has become unstable at {self.time_s:.3f} s: velocities are beyond '

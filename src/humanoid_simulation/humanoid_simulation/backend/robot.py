@@ -4,8 +4,7 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import replace
-from typing import Any, TYPE_CHECKING
+from typing import Any
 
 from humanoid_control.backends import Array, JointTargets, Observation
 from humanoid_simulation.backend.layout import layout_of
@@ -13,13 +12,10 @@ from humanoid_simulation.backend.noise import NoiseSource
 from humanoid_simulation.backend.posing import pose
 from humanoid_simulation.backend.sensing import Sensors
 from humanoid_simulation.backend.servos import check_targets, Servos
+from humanoid_simulation.backend.settings import BackendSettings
 from humanoid_simulation.keyframes import Keyframe
 from humanoid_simulation.model import Placement, RobotDescription
-from humanoid_simulation.rotations import heading_rad
 import numpy as np
-
-if TYPE_CHECKING:
-    from humanoid_simulation.backend.mujoco_backend import BackendSettings
 
 
 class SimulatedRobot:
@@ -65,20 +61,10 @@ class SimulatedRobot:
         """Return the number of the link that floats."""
         return self._layout.base
 
-    @property
-    def here(self) -> Placement:
-        """Return where the robot is, and looks: on the ground where it began."""
-        floating, qpos = self._layout.floating, self._data.qpos
-        x_m, y_m, _ = qpos[floating.position].tolist()
-        yaw_rad = heading_rad(qpos[floating.orientation])
-        return replace(self._place, x_m=x_m, y_m=y_m, yaw_rad=yaw_rad)
-
-    def put(
-        self, keyframe: Keyframe, positions_rad: Array, place: Placement | None = None
-    ) -> None:
-        """Put the robot into a posture, at rest, and hold it; by default where it began."""
+    def put(self, keyframe: Keyframe, positions_rad: Array) -> None:
+        """Put the robot where it began, into a posture, at rest, and hold it."""
         layout, data = self._layout, self._data
-        pose(self._model, data, layout, place or self._place, keyframe, positions_rad)
+        pose(self._model, data, layout, self._place, keyframe, positions_rad)
         data.qvel[layout.floating.linear] = data.qvel[layout.floating.angular] = 0.0
         data.qvel[layout.velocities] = 0.0
         self._servos.reset(positions_rad)

@@ -8,7 +8,7 @@ import math
 from geometry_msgs.msg import Twist
 from humanoid_common.qos import COMMAND, LATCHED, STATE
 from humanoid_control.walking.planar import PlanarPose
-from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_interfaces.srv import ApplyWrench, ResetSimulation, StepSimulation
 from humanoid_simulation.examples.conversions import (
     height_and_tilt,
@@ -18,25 +18,29 @@ from humanoid_simulation.examples.conversions import (
 )
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
-from std_msgs.msg import String
-from std_srvs.srv import SetBool
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Bool, String
+from std_srvs.srv import SetBool, Trigger
 
 REPEAT_S = 0.1
-"""How often, on the computer's clock, the velocity is sent again, so that it does not time out."""
+"""How often, on the computer's clock, commands are sent again, so that they do not time out."""
 
 
 class RobotTopics:
-    """Keeps the newest of what the robot says, and goes on to send the velocity."""
+    """Keeps the newest of what the robot says, and goes on to send commands."""
 
     def __init__(self, node: Node, simulator: str) -> None:
         """Take part; the names are in the namespace of the node."""
         self.velocity: VelocityCommand | None = None
+        self.joint_commands: dict[str, float] = {}
+        """Positions of joints that are sent, in radians; none if it is empty."""
         self.sent = 0
         """How many velocities were sent."""
         self.time_s = -math.inf
         self.pose = PlanarPose()
         self.odometry = PlanarPose()
         self.height_m = self.tilt_rad = math.nan
+        self.positions_rad: dict[str, float] = {}
         self.walking_state = ''
         self.went_back = False
         """Whether a stamp was older than the one before it."""
@@ -44,9 +48,13 @@ class RobotTopics:
         self.steps = node.create_client(StepSimulation, f'{simulator}/step_simulation')
         self.reset = node.create_client(ResetSimulation, f'{simulator}/reset_simulation')
         self.push = node.create_client(ApplyWrench, f'{simulator}/apply_wrench')
+        self.stand_up = node.create_client(Trigger, 'stand_up')
+        self.emergency_stop = node.create_publisher(Bool, 'emergency_stop', LATCHED)
+        self._joints = node.create_publisher(JointState, 'joint_commands', COMMAND)
         self._publisher = node.create_publisher(Twist, 'cmd_vel', COMMAND)
         node.create_subscription(Odometry, 'ground_truth/odom', self._take_truth, STATE)
         node.create_subscription(Odometry, 'odom', self._take_odometry, STATE)
+        node.create_subscription(JointState, 'joint_states', self._take_joints, STATE)
         node.create_subscription(String, 'walking_state', self._take_state, LATCHED)
         node.create_timer(REPEAT_S, self.send)
 
@@ -58,19 +66,18 @@ class RobotTopics:
         return is_heard and all(each.service_is_ready() for each in clients)
 
     def send(self) -> None:
-        """Send the velocity, if there is one."""
+        """Send the commands that there are."""
         if self.velocity is not None:
             self._publisher.publish(twist_message(self.velocity))
             self.sent += 1
+        if self.joint_commands:
+            names, positions = list(self.joint_commands), list(self.joint_commands.values())
+            self._joints.publish(JointState(name=names, position=positions))
 
     def drive(self, velocity: VelocityCommand | None) -> None:
         """Send a velocity from now on; None lets the others drive."""
         self.velocity = velocity
         self.send()
-
-    def stand(self) -> None:
-        """Let the robot stand."""
-        self.drive(STANDING)
 
     def _take_truth(self, message: Odometry) -> None:
         """Keep where the robot is."""
@@ -82,6 +89,10 @@ class RobotTopics:
     def _take_odometry(self, message: Odometry) -> None:
         """Keep where the robot believes to be."""
         self.odometry = planar_pose(message)
+
+    def _take_joints(self, message: JointState) -> None:
+        """Keep where the joints are."""
+        self.positions_rad = dict(zip(message.name, message.position))
 
     def _take_state(self, message: String) -> None:
         """Keep what the robot says that it does."""

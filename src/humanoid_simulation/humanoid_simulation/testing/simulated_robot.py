@@ -16,7 +16,7 @@ from humanoid_simulation.examples.push_series import Push
 from humanoid_simulation.testing.robot_topics import RobotTopics
 from rclpy.client import Client
 from rclpy.node import Node
-from std_srvs.srv import SetBool
+from std_srvs.srv import SetBool, Trigger
 
 PATIENCE_S = 60.0
 """How long, on the computer's clock, something may take that should come at once."""
@@ -92,6 +92,17 @@ class SimulatedRobot:
         self._spin(lambda: self.topics.time_s > begin_s + 0.1, 0.1)
         self.wait(1.0)
 
+    def stand_up(self) -> None:
+        """Help a robot that lies onto its feet, and let it stand for a second."""
+        self.drive()
+        self._ask(self.topics.stand_up, Trigger.Request())
+        self._ros.wait_until(self._walks, PATIENCE_S, 'a robot that stands by itself')
+        self.wait(1.0)
+
+    def _walks(self) -> bool:
+        """Tell whether the robot stands and its walk has it again, not a hoist alone."""
+        return self.stands and self.topics.walking_state == 'stand'
+
     def pause(self, on: bool = True) -> None:
         """Let time stand still, or go on."""
         self._ask(self.topics.pause, SetBool.Request(data=on))
@@ -106,7 +117,7 @@ class SimulatedRobot:
 
     def step_commanded(self, steps: int) -> None:
         """
-        Step, with a velocity that has certainly come just before.
+        Step a paused simulation, with a velocity that has certainly come just before.
 
         What a paused simulation does in fewer steps than the velocity lasts is the same each time.
         """

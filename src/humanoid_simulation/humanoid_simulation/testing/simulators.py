@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from humanoid_common.testing.processes import module_command, running_program
-from humanoid_common.testing.ros import ros_sandbox
+from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_simulation.testing.simulated_robot import SimulatedRobot
 
 FASTER = {'real_time_factor': '4.0'}
@@ -15,11 +15,18 @@ FASTER = {'real_time_factor': '4.0'}
 
 
 @contextmanager
-def simulated_robot(**parameters: str) -> Iterator[SimulatedRobot]:
-    """Run a simulator without a camera, in a domain of its own, and hand out its robot."""
+def simulation(**parameters: str) -> Iterator[RosSandbox]:
+    """Run a simulator without a camera, in a domain of its own."""
     values = {**FASTER, 'camera_rate_hz': '0.0', **parameters}
     settings = [text for name, value in values.items() for text in ('-p', f'{name}:={value}')]
     command = module_command('humanoid_simulation.starting', '--ros-args', *settings)
     with ros_sandbox() as ros, running_program(command) as program:
         program.wait_for_output('Simulator started', timeout_s=60.0)
-        yield SimulatedRobot(ros, runs=values.get('start_paused') != 'true')
+        yield ros
+
+
+@contextmanager
+def simulated_robot(**parameters: str) -> Iterator[SimulatedRobot]:
+    """Run a simulator, and hand out its robot."""
+    with simulation(**parameters) as ros:
+        yield SimulatedRobot(ros, runs=parameters.get('start_paused') != 'true')

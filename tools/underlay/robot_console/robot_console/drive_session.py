@@ -60,6 +60,7 @@ class DriveSession(Session):
             'velocity': velocity,
             'refusal': refusal,
             'listeners': self._count_listeners(),
+            'holdsBecause': self.link.holds_because,
         }
 
     def lose(self) -> None:

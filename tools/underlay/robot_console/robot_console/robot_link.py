@@ -15,7 +15,7 @@ from robot_console.namespaces import below
 from robot_console.people import People
 from rviz_common.context import Context
 from rviz_common.page import Page
-from std_msgs.msg import Bool
+from std_msgs.msg import Bool, String
 
 __all__ = ['COMMAND', 'LATCHED', 'RobotLink', 'link_of']
 
@@ -31,7 +31,7 @@ BEAT_PERIOD_S = 0.08
 
 class RobotLink:
     """
-    The emergency stop of a robot, and the heartbeat of the console for it.
+    The emergency stop of a robot, its answer, and the heartbeat of the console for it.
 
     What is published goes out at once, from the thread that asks for it. The link stays as long
     as the node, so that a stop is heard also by those who join late.
@@ -43,6 +43,9 @@ class RobotLink:
         self.stop = EmergencyStop()
         self.people = People()
         self.stop_topic = below(namespace, 'emergency_stop')
+        self.state_topic = below(namespace, 'stop_state')
+        self.holds_because = ''
+        """What the robot said last: why it holds still, empty if it moves or says nothing."""
         self._beat_s = -1.0
         self._stop_publisher = node.create_publisher(Bool, self.stop_topic, LATCHED)
         self._beat_publisher = node.create_publisher(
@@ -51,6 +54,7 @@ class RobotLink:
         quiet = SubscriptionEventCallbacks(use_default_callbacks=False)
         for qos in (LATCHED, NEWEST):  # as the second one also those are heard who keep nothing
             node.create_subscription(Bool, self.stop_topic, self._hear, qos, event_callbacks=quiet)
+        node.create_subscription(String, self.state_topic, self._hear_answer, LATCHED)
 
     def say_stop(self, pressed: bool, by: str) -> None:
         """Press or release the emergency stop."""
@@ -66,6 +70,9 @@ class RobotLink:
 
     def _hear(self, message: Bool) -> None:
         self.stop.hear(message.data)
+
+    def _hear_answer(self, message: String) -> None:
+        self.holds_because = message.data
 
 
 _LINKS: WeakKeyDictionary[Page, dict[str, RobotLink]] = WeakKeyDictionary()

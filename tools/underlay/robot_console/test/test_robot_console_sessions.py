@@ -23,6 +23,7 @@ class Link:
         self.beats: list[bool] = []
         self.said: list[Velocity] = []
         self.facts = Facts()
+        self.holds_because = ''
 
     def beat(self, in_control: bool) -> None:
         """Note down a heartbeat."""
@@ -69,6 +70,12 @@ def test_drive(link: Link) -> None:
         page.take({'do': 'beat'})
     assert link.beats == [True, True, False, False, False], 'said thrice, then silence'
     assert len(link.said) == 3
+
+
+def test_robot_that_holds_still(link: Link) -> None:
+    """Who drives a robot that does not move is told why."""
+    link.holds_because = 'the battery is low'
+    assert link.drive('ann').take(push())['holdsBecause'] == 'the battery is low'
 
 
 def test_lost_driver(link: Link) -> None:

@@ -18,6 +18,16 @@ DELAY = rf'average delay: \d+\.\d{{3}}\n{SPREAD}'
 WAITING = 'WARNING: topic [/nope] does not appear to be published yet\n'
 
 
+@pytest.mark.parametrize(('sent', 'status'), [(signal.SIGINT, 2), (signal.SIGTERM, 15)])
+def test_signal_while_nobody_publishes(sent: int, status: int, start_ros2: Start) -> None:
+    """The wait for a publisher ends at once at Ctrl-C and SIGTERM."""
+    process = start_ros2('topic', 'hz', '/nobody')
+    assert process.stdout.readline().startswith('WARNING: topic [/nobody] does not appear')
+    process.send_signal(sent)
+    assert process.wait(timeout=20.0) == status
+    assert 'Traceback' not in process.stderr.read()
+
+
 @pytest.mark.usefixtures('talker')
 @pytest.mark.parametrize(('sent', 'status'), [(signal.SIGINT, 2), (signal.SIGTERM, 15)])
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ['GridSize', 'lines']
+__all__ = ['GridSize', 'in_pieces', 'lines']
 
 AXES = {'XY': (0, 1, 2), 'XZ': (0, 2, 1), 'YZ': (1, 2, 0)}
 """Which coordinates go along the grid, and which across it."""
@@ -54,6 +54,17 @@ def lines(size: GridSize, plane: str) -> NDArray[np.float32]:
     if size.layers:
         groups.append(_group(across, heights[[0, -1]], first, steps, second, steps))
     return np.concatenate(groups)
+
+
+def in_pieces(whole: NDArray[np.float32], count: int) -> NDArray[np.float32]:
+    """
+    Cut each of N lines into as many pieces of the same length; N x 2 x 3 become N count x 2 x 3.
+
+    A browser finds the depth of a line wrong that begins behind the viewer: short ones stay right.
+    """
+    shares = np.linspace(0.0, 1.0, count + 1, dtype=np.float32)[:, None]
+    points = whole[:, None, 0] + shares * (whole[:, None, 1] - whole[:, None, 0])
+    return np.stack([points[:, :-1], points[:, 1:]], axis=2).reshape(-1, 2, 3)
 
 
 def _steps(count: int, length: float) -> NDArray[np.float32]:

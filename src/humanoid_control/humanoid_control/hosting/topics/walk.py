@@ -8,9 +8,9 @@ import math
 from geometry_msgs.msg import PointStamped
 from humanoid_common.qos import LATCHED, STATE
 from humanoid_control.hosting.topics.filling import fill_stamp, topic
+from humanoid_control.walking.foot_shape import FootShape
 from humanoid_control.walking.footsteps import Footstep
-from humanoid_control.walking.planar import Point
-from humanoid_control.walking.sides import LEFT
+from humanoid_control.walking.sides import LEFT, outwards, SIDES
 from humanoid_control.walking.status import WalkStatus
 from rclpy.node import Node
 from std_msgs.msg import ColorRGBA, String
@@ -59,11 +59,11 @@ class BalanceTopics:
 
 
 class FootstepsTopic:
-    """The topic `footsteps`: where the feet are to land next."""
+    """The topic `footsteps`: where the parts of the feet that carry load are to land next."""
 
-    def __init__(self, node: Node, robot: str, frame: str, foot_m: tuple[float, float]) -> None:
-        """Set how long and wide a foot is."""
-        self._frame, self._foot_m = frame, foot_m
+    def __init__(self, node: Node, robot: str, frame: str, foot: FootShape) -> None:
+        """Take what a foot looks like from below."""
+        self._frame, self._foot = frame, foot
         self._publisher = node.create_publisher(MarkerArray, topic(robot, 'footsteps'), STATE)
 
     def publish(self, time_s: float, status: WalkStatus) -> None:
@@ -74,16 +74,23 @@ class FootstepsTopic:
         self._publisher.publish(MarkerArray(markers=[clear, *steps]))
 
     def _marker(self, time_s: float, number: int, step: Footstep) -> Marker:
-        """Return the picture of a footstep: a thin plate."""
-        marker = Marker(ns='footsteps', id=number, type=Marker.CUBE)
+        """
+        Return the picture of a footstep: a thin plate.
+
+        Left and right steps take turns, and have numbers of their own: a plate keeps its colour.
+        """
+        own = number - number % len(SIDES) + step.side
+        marker = Marker(ns='footsteps', id=own, type=Marker.CUBE)
         marker.header.frame_id = self._frame
         fill_stamp(marker.header.stamp, time_s)
         marker.lifetime.sec = LIFETIME_S
-        position_m: Point = step.pose.position_m
+        foot = self._foot
+        left_m = outwards(step.side) * (foot.outer_m + foot.inner_m) / 2.0
+        position_m = step.pose.at((foot.front_m + foot.back_m) / 2.0, left_m)
         marker.pose.position.x, marker.pose.position.y = position_m.real, position_m.imag
         marker.pose.orientation.z = math.sin(step.pose.yaw_rad / 2.0)
         marker.pose.orientation.w = math.cos(step.pose.yaw_rad / 2.0)
-        marker.scale.x, marker.scale.y = self._foot_m
+        marker.scale.x, marker.scale.y = foot.front_m - foot.back_m, foot.outer_m - foot.inner_m
         marker.scale.z = THICK_M
         marker.color = LEFT_COLOR if step.side == LEFT else RIGHT_COLOR
         return marker

@@ -8,15 +8,14 @@ import time
 from typing import Any
 
 from robot_console.connections import Connections
-from robot_console.namespaces import below, NAMESPACE
+from robot_console.namespaces import NAMESPACE
 from robot_console.robot_kind import AUTO, KINDS, robot_kind
-from robot_console.robot_link import LATCHED, link_of
+from robot_console.robot_link import link_of
 from robot_console.safety_session import Facts, SafetySession
 from robot_console.small_page import SmallPage
 from rviz_common.panel import Panel
 from rviz_common.panels.order import ALWAYS_ORDER
 from rviz_common.properties import Choice
-from std_msgs.msg import String
 
 __all__ = ['Safety']
 
@@ -47,11 +46,9 @@ class Safety(Panel):
         """Add the page with the button."""
         namespace, node = self.values['Namespace'], self.context.node
         self._link = link_of(self.context, namespace)
-        self._state_topic = below(namespace, 'stop_state')
         self._facts = Facts()
-        self._says = ''
+        self._heard = ''
         self._looked_s = -PERIOD_S
-        self._ear = node.create_subscription(String, self._state_topic, self._hear, LATCHED)
         settings = {
             'domain': node.context.get_domain_id(),
             'topic': node.resolve_topic_name(self._link.stop_topic),
@@ -61,23 +58,18 @@ class Safety(Panel):
         self._page = SmallPage(self.context, 'safety', namespace, settings, talks, ALWAYS_ORDER)
 
     def update(self) -> None:
-        """Look who is there, now and then."""
-        now_s = time.monotonic()
-        if now_s - self._looked_s >= PERIOD_S:
-            self._looked_s = now_s
+        """Look who is there, now and then, and at once when the robot has said something."""
+        now_s, heard = time.monotonic(), self._link.holds_because
+        if now_s - self._looked_s >= PERIOD_S or heard != self._heard:
+            self._looked_s, self._heard = now_s, heard
             self._facts = self._look()
 
     def close(self) -> None:
         """End the page: the robot notices if this console was in control."""
         self._page.close()
-        self.context.node.destroy_subscription(self._ear)
 
     def _session(self, person: str) -> SafetySession:
         return SafetySession(self._link, person, lambda: self._facts)
-
-    def _hear(self, message: String) -> None:
-        self._says = message.data
-        self._looked_s = -PERIOD_S
 
     def _look(self) -> Facts:
         """Return what the graph of nodes says about the robot."""
@@ -85,12 +77,12 @@ class Safety(Panel):
         own = node.get_fully_qualified_name()
         speakers = _names(node.get_publishers_info_by_topic(topic)) - {own}
         listeners = _names(node.get_subscriptions_info_by_topic(topic)) - {own}
-        is_said = node.count_publishers(self._state_topic) > 0
+        is_said = node.count_publishers(self._link.state_topic) > 0
         return Facts(
             robot_kind(self.values['Robot'], node.count_publishers('/clock')),
             tuple(sorted(filter(_may_be_robot, listeners))),
             tuple(sorted(speakers)),
-            self._says if is_said else None,
+            self._link.holds_because if is_said else None,
         )
 
 

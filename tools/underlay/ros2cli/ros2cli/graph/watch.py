@@ -31,8 +31,17 @@ INCOMPLETE = (
 class GraphWatch:
     """Knows the graph; rclpy is not needed. Use it in a `with` statement, or close it."""
 
-    def __init__(self, spin_time_s: float = DEFAULT_SPIN_TIME_S) -> None:
-        """Choose how long to wait for those who cannot be counted: nodes on other machines."""
+    def __init__(
+        self,
+        spin_time_s: float = DEFAULT_SPIN_TIME_S,
+        check: Callable[[], object] = lambda: None,
+    ) -> None:
+        """
+        Choose how long to wait for those who cannot be counted: nodes on other machines.
+
+        `check` is called again and again during each wait, and may raise what ends it.
+        """
+        self._check = check
         self._reach = read_reach()
         self._spin_time_s = spin_time_s
         self._link: Link | None = None
@@ -132,6 +141,7 @@ class GraphWatch:
 
     def _exchange(self, *, waits: bool) -> None:
         """Hear what is new; after a pause, in which others have given us up, ask all anew."""
+        self._check()
         now_s = time.monotonic()
         if self._link and now_s - self._latest_s > LEASE_S / 2:
             self.close()

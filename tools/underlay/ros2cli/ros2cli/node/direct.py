@@ -50,7 +50,7 @@ class DirectNode:
 
     def __enter__(self) -> DirectNode:
         """Start rclpy and the node; nobody is waited for."""
-        self.watch = GraphWatch(self._spin_time_s)
+        self.watch = GraphWatch(self._spin_time_s, _check_rclpy)
         rclpy.init(args=[], signal_handler_options=self._signals)
         self.node = rclpy.create_node(
             self._node_name,
@@ -95,3 +95,9 @@ class DirectNode:
             rclpy.try_shutdown()
         if terminated:
             raise ExternalShutdownException from None
+
+
+def _check_rclpy() -> None:
+    """End a wait in which no ROS takes part: SIGTERM ends rclpy, and that only."""
+    if not rclpy.ok():
+        raise ExternalShutdownException

@@ -8,7 +8,7 @@ from rviz_common.frames import FIXED_FRAME
 from rviz_common.properties import Choice, ColorOf, Frame, Number, Vector, Whole
 from rviz_common.status import Level
 from rviz_default_plugins.following import follow
-from rviz_default_plugins.grid_lines import AXES, GridSize, lines
+from rviz_default_plugins.grid_lines import AXES, GridSize, in_pieces, lines
 
 __all__ = ['Grid']
 
@@ -42,10 +42,12 @@ class Grid(Display):
     def start(self) -> None:
         """Add the grid."""
         self._frame = self.context.scene.add_frame(self.root, show_axes=False)
+        size = self._size()
+        pieces = max(1, min(size.cells, MAX_LINES // size.line_count))
         is_thin = self.values['Line Style/Value'] == LINES
         self.context.scene.add_line_segments(
             f'{self.root}/lines',
-            lines(self._size(), self.values['Plane']),
+            in_pieces(lines(size, self.values['Plane']), pieces),
             self._color(),
             thickness=1.0 if is_thin else self.values['Line Style/Line Width'],
             thickness_units='screen' if is_thin else 'world',

@@ -57,11 +57,12 @@ class MarkerScene:
         self._say()
 
     def _take_inbox(self) -> None:
+        """Do what has come; a marker that is deleted and comes again stays, and changes."""
         inbox = self._inbox
         if inbox.deletes_all:
             inbox.deletes_all = False
             self._left_out.clear()
-            for key in list(self._shown):
+            for key in self._shown.keys() - inbox.coming.keys():
                 self._remove(key)
         for key, coming in inbox.take_some(MOST_PER_FRAME):
             if coming.marker.action == Marker.DELETE:

@@ -215,6 +215,19 @@ def test_modify_and_delete(message_stage):
     assert message_stage.drawn(display) == ['4', '4/marker']
 
 
+def test_markers_that_are_deleted_and_sent_again_stay(message_stage):
+    """A list that replaces the one before is not drawn anew, but moved: nothing flickers."""
+    display = message_stage.listen(Marker)
+    message_stage.tell(display, marker(number=1), marker(number=2))
+    before = message_stage.at(display, '1/marker')
+    moved = marker(number=1)
+    moved.pose.position.y = 3.0
+    message_stage.tell(display, marker(action=Message.DELETEALL), moved)
+    assert message_stage.drawn(display) == ['1', '1/marker']
+    assert message_stage.at(display, '1/marker') is before
+    assert near(message_stage.at(display, '1').position, 0, 3, 0)
+
+
 def test_marker_that_only_moves_is_not_drawn_anew(message_stage):
     """What looks the same keeps its body, which is moved."""
     display = message_stage.listen(Marker)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from rviz_default_plugins.displays.grid import Grid
-from rviz_default_plugins.grid_lines import GridSize, lines
+from rviz_default_plugins.grid_lines import GridSize, in_pieces, lines
 from stage import sentence, Stage
 
 
@@ -27,6 +27,15 @@ def test_line_count(size: GridSize) -> None:
     found = lines(size, 'XY')
     assert len(found) == size.line_count
     assert len(np.unique(found.reshape(-1, 6), axis=0)) == len(found)
+
+
+def test_pieces() -> None:
+    """The pieces of a line follow each other from its one end to the other."""
+    whole = np.array([[[0, 0, 0], [4, 0, 2]], [[1, 1, 1], [1, 5, 1]]], np.float32)
+    found = in_pieces(whole, 4)
+    assert found.shape == (8, 2, 3)
+    assert found[:4, 0, 0].tolist() == [0, 1, 2, 3] and found[:4, 1, 0].tolist() == [1, 2, 3, 4]
+    assert found[4].tolist() == [[1, 1, 1], [1, 2, 1]] and found[7, 1].tolist() == [1, 5, 1]
 
 
 @pytest.mark.parametrize('size', [GridSize(10**9, 0, 1.0), GridSize(10**9, 10**9, 1.0)])
@@ -50,7 +59,7 @@ def test_grid(stage: Stage) -> None:
         },
     )
     node = stage.node_at('/display_0/lines')
-    assert len(node.points) == 6
+    assert len(node.points) == 6 * 2, 'each line has a piece for each cell'
     assert (node.thickness, node.thickness_units) == (0.05, 'world')
     assert node.position.tolist() == [1.0, 2.0, 3.0]
     assert node.colors.tolist() == [148, 48, 48]

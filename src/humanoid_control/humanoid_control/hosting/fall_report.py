@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say in the log that a robot has fallen, and that it stands again."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+FALLEN = (
+    'has fallen, and its joints give way until it is put onto its feet. '
+    "In a simulation, call the service 'stand_up'."
+)
+
+
+class Log(Protocol):
+    """What sentences are told to."""
+
+    def error(self, message: str) -> object:
+        """Say what is bad."""
+
+    def info(self, message: str) -> object:
+        """Say what is good to know."""
+
+
+class FallReport:
+    """Says it once when a robot falls, and once when it stands again."""
+
+    def __init__(self, log: Log, robot: str) -> None:
+        """Begin with a robot that stands; the only robot of a node may have no name."""
+        self._log = log
+        self._who = f"The robot '{robot}'" if robot else 'The robot'
+        self._was_down = False
+
+    def look(self, is_down: bool) -> None:
+        """Take note of whether the robot is down."""
+        if is_down == self._was_down:
+            return
+        self._was_down = is_down
+        if is_down:
+            self._log.error(f'{self._who} {FALLEN}')
+        else:
+            self._log.info(f'{self._who} stands again.')

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Going down softly: the joints give way, towards a posture that protects the robot."""
+
+from __future__ import annotations
+
+from humanoid_control.backends import Array, JointTargets
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.sides import NAMES, outwards, SIDES
+from humanoid_control.walking.walking_robot import WalkingRobot
+import numpy as np
+
+_CROUCHED_RAD = {'hip_pitch': -1.1, 'knee': 1.9, 'ankle_pitch': -0.8}
+_ARMS_RAD = {'shoulder': -0.6, 'elbow': -1.2}
+_ARM_ROLL_RAD = 0.4
+
+
+class Collapse:
+    """
+    A fall that is under way, and the rest after it.
+
+    The servos only pull with a share of their stiffness, since their targets are near to where
+    the joints are; their damping is whole. So the knees give way and the robot sinks. Later the
+    share is zero: the robot lies still, and its joints can be moved by hand.
+    """
+
+    name = 'fallen'
+
+    def __init__(self, robot: WalkingRobot, parameters: WalkParameters, time_s: float) -> None:
+        """Begin to fall."""
+        self._parameters = parameters
+        self._start_s = time_s
+        self._posture_rad = _protective_posture(robot)
+
+    def targets(self, time_s: float, positions_rad: Array) -> JointTargets:
+        """Return the targets at a time; positions are those measured, (n,)."""
+        p, zeros = self._parameters, np.zeros(len(positions_rad))
+        falls = time_s - self._start_s < p.collapse_s
+        share = p.collapse_stiffness if falls else 0.0
+        wanted = positions_rad + share * (self._posture_rad - positions_rad)
+        return JointTargets(wanted, zeros, zeros.copy())
+
+
+def _protective_posture(robot: WalkingRobot) -> Array:
+    """Return the posture (n,): crouched, the arms before the body."""
+    posture = np.zeros(len(robot.body.joints))
+    for side in SIDES:
+        for joint, angle_rad in {**_CROUCHED_RAD, **_ARMS_RAD}.items():
+            posture[robot.index(f'{NAMES[side]}_{joint}')] = angle_rad
+        roll = robot.index(f'{NAMES[side]}_shoulder_roll')
+        posture[roll] = outwards(side) * _ARM_ROLL_RAD
+    return posture

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Feet give way to the ground that they stand on."""
+
+from __future__ import annotations
+
+import math
+
+from humanoid_control.walking.footing import Foothold, Footing
+from humanoid_control.walking.gear import SoleReading
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.terrain import Facet
+
+
+class Conforming:
+    """
+    Takes over the tilt and the height at which soles come to rest.
+
+    A sole that lands tilted is turned by the ground until it lies flat. Its target follows what is
+    measured, the faster the more weight it carries: the ankle then has no stiffness against the
+    ground, and the centre of pressure comes from the efforts alone. A sole in the air follows
+    nothing. That of a foot that touched but carries too little is pressed down.
+    """
+
+    def __init__(self, parameters: WalkParameters) -> None:
+        """Begin with feet that have just landed."""
+        self._parameters = parameters
+        self._since_s = [0.0, 0.0]
+
+    def update(
+        self,
+        footing: Footing,
+        soles: tuple[SoleReading, SoleReading],
+        shares: tuple[float, float],
+        in_air: int | None,
+        passed_s: float,
+    ) -> None:
+        """
+        Let time pass.
+
+        :param shares: of the feet in the weight, as commanded
+        :param in_air: the side whose foot swings
+        """
+        for side in SIDES:
+            if side == in_air:
+                self._since_s[side] = 0.0
+                continue
+            self._since_s[side] += passed_s
+            facet = self._facet(side, footing[side].facet, soles[side], shares[side], passed_s)
+            footing.conform(side, Foothold(footing.pose(side), facet))
+
+    def _facet(
+        self, side: int, told: Facet, sole: SoleReading, share: float, passed_s: float
+    ) -> Facet:
+        """Return the plane in which a sole is to be from now on."""
+        p, height_m = self._parameters, told.height_m
+        if share <= 0.0 and sole.load < p.touchdown_load:
+            height_m -= p.press_m_s * passed_s
+        early = self._since_s[side] < p.conform_early_s
+        rate_1_s = p.conform_early_1_s if early else p.conform_1_s
+        rate_1_s *= min(1.0, max(0.0, sole.load) / p.conform_load)
+        turned = 1.0 - math.exp(-rate_1_s * passed_s)
+        # The base is where the feet that carry say; so only the others can be measured from it.
+        lifted = 1.0 - math.exp(-p.conform_height_1_s * (1.0 - share) * passed_s)
+        return Facet(
+            height_m + lifted * (sole.facet.height_m - height_m),
+            told.tilt + turned * (sole.facet.tilt - told.tilt),
+        )

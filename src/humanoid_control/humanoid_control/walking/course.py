@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The way that the robot was told to go, from which its steps stray."""
+
+from __future__ import annotations
+
+from humanoid_control.dynamics.rotations import wrap_angle
+from humanoid_control.walking.footsteps import FootstepPlanner
+from humanoid_control.walking.planar import limited, PlanarPose
+from humanoid_control.walking.velocity_command import VelocityCommand
+
+
+class Course:
+    """
+    Where the middle between the feet would be if every step landed when and where planned.
+
+    Steps that land a little off would add up to a drift; so each one is planned from a place
+    between where the robot is and its course. The course stays near the robot: a push that
+    moves it farther is not made up for.
+    """
+
+    def __init__(self, planner: FootstepPlanner) -> None:
+        """Begin where the robot is when it first asks."""
+        self._planner = planner
+        self._middle: PlanarPose | None = None
+
+    def restart(self) -> None:
+        """Forget the way: the next one begins where the robot is."""
+        self._middle = None
+
+    def corrected(self, middle: PlanarPose) -> PlanarPose:
+        """Return where to plan a step from while the robot is in a place, nearer to the course."""
+        p = self._planner.parameters
+        if self._middle is None:
+            self._middle = middle
+        off_m = self._middle.position_m - middle.position_m
+        off_m *= min(1.0, p.course_distance_m / max(abs(off_m), p.course_distance_m))
+        turn_rad = wrap_angle(self._middle.yaw_rad - middle.yaw_rad)
+        turn_rad = limited(turn_rad, -p.course_turn_rad, p.course_turn_rad)
+        self._middle = PlanarPose(middle.position_m + off_m, middle.yaw_rad + turn_rad)
+        return PlanarPose(
+            middle.position_m + p.course_gain * off_m, middle.yaw_rad + p.course_gain * turn_rad
+        )
+
+    def advance(self, support: int, command: VelocityCommand, time_s: float) -> None:
+        """Go on by a step on the foot of a side that took some time."""
+        if self._middle is not None:
+            self._middle = self._planner.next_middle(self._middle, support, command, time_s)

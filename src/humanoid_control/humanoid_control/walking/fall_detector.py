@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""When nothing keeps the robot from falling any more."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.senses import Sensed
+from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.walking_robot import WalkingRobot
+
+
+@dataclass(frozen=True)
+class Stance:
+    """How upright the robot is."""
+
+    tilt_rad: float
+    """The angle between the base's z axis and the vertical."""
+    tilting_rad_s: float
+    """How fast the base leans more: negative while it rights itself."""
+    height_m: float
+    """Of the base above the lower one of the soles."""
+    load: float
+    """What the soles carry, as a share of the weight."""
+
+    @classmethod
+    def of(cls, robot: WalkingRobot, sensed: Sensed) -> Stance:
+        """Return how upright the robot is that senses this."""
+        _, _, z = sensed.state.base_rotation.T.tolist()
+        sine = math.hypot(z[0], z[1])
+        rates = sensed.state.base_angular_velocity_rad_s.tolist()
+        # The tip of the z axis moves with the cross product of the rates and the axis.
+        outwards = rates[1] * z[0] - rates[0] * z[1]
+        soles = (sensed.state.position_m(robot.legs[side].sole)[2] for side in SIDES)
+        return cls(
+            math.atan2(sine, z[2]),
+            outwards / sine if sine > 0.0 else math.hypot(rates[0], rates[1]),
+            -float(min(soles)),
+            sum(sensed.loads),
+        )
+
+
+@dataclass(frozen=True)
+class FallDetector:
+    """Tells a fall from what the walk survives."""
+
+    parameters: WalkParameters
+    standing_height_m: float
+
+    def is_falling(self, stance: Stance) -> bool:
+        """
+        Tell whether the robot falls: it leans, or soon will lean, too much, or is too low.
+
+        How fast an upright robot tilts says nothing: the landing of a foot jerks it.
+        """
+        p = self.parameters
+        foresight_s = p.fall_foresight_s if stance.tilt_rad > p.upright_tilt_rad else 0.0
+        soon_rad = stance.tilt_rad + foresight_s * max(0.0, stance.tilting_rad_s)
+        return (
+            soon_rad > p.fall_tilt_rad or stance.height_m < p.fall_height * self.standing_height_m
+        )
+
+    def can_stand(self, stance: Stance) -> bool:
+        """Tell whether the base is upright and the legs are below it."""
+        p = self.parameters
+        return (
+            stance.tilt_rad < p.upright_tilt_rad
+            and stance.height_m > p.fall_height * self.standing_height_m
+        )

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the ground has to do to the robot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from humanoid_control.walking.planar import limited, Point
+from humanoid_control.walking.support_polygon import SupportPolygon
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class GroundReaction:
+    """A force (3,) at a point of the ground, and a torque about the vertical through it."""
+
+    force_n: Array
+    point_m: Point
+    turn_nm: float
+
+    @classmethod
+    def of(cls, wrench: Array, base_m: Array) -> GroundReaction:
+        """
+        Return what of the ground amounts to a wrench (6,) on the base, force and torque.
+
+        The point is the centre of pressure: other torques the ground cannot have.
+        """
+        x, y, z, about_x, about_y, about_z = wrench.tolist()
+        down_m = -float(base_m[2])
+        from_base = complex(down_m * x - about_y, down_m * y + about_x) / z
+        turn_nm = about_z - (from_base.real * y - from_base.imag * x)
+        return cls(wrench[:3], complex(base_m[0], base_m[1]) + from_base, turn_nm)
+
+    def within(self, polygon: SupportPolygon, most_turn_nm: float) -> GroundReaction:
+        """
+        Return what of it the feet on the ground can do: the same force, at a point below them.
+
+        The torque that is cut thereby turns the robot, but does not move its centre of mass.
+        """
+        turn_nm = limited(self.turn_nm, -most_turn_nm, most_turn_nm)
+        return GroundReaction(self.force_n, polygon.clamped(self.point_m), turn_nm)

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The efforts of the joints that make up what is planned."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from humanoid_control.walking.attitude import hip_efforts
+from humanoid_control.walking.feed_forward import ground_efforts
+from humanoid_control.walking.footing import Footing, loads_for
+from humanoid_control.walking.gait import GaitOutput
+from humanoid_control.walking.ground_reaction import GroundReaction
+from humanoid_control.walking.leg_map import leg_maps
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.planned_acceleration import (
+    PlannedAcceleration,
+    whole_acceleration,
+)
+from humanoid_control.walking.senses import Sensed
+from humanoid_control.walking.sides import SIDES
+from humanoid_control.walking.walking_robot import WalkingRobot
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Exertion:
+    """What the joints exert, and how the feet share the weight thereby."""
+
+    efforts_nm: Array
+    """(n,)"""
+    shares: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class InverseDynamics:
+    """Computes efforts of a robot on its feet."""
+
+    robot: WalkingRobot
+    parameters: WalkParameters
+    footing: Footing
+
+    def exertion(
+        self, sensed: Sensed, base_m: Array, output: GaitOutput, plan: PlannedAcceleration
+    ) -> Exertion:
+        """
+        Return the efforts that move the robot as planned and keep it upright.
+
+        What the ground cannot do is cut: it pushes below the feet only.
+
+        :param base_m: the base (3,) above the level of the ground
+        """
+        p, state = self.parameters, sensed.state
+        maps = leg_maps(self.robot.legs, state)
+        base, joints = whole_acceleration(state, maps, plan, p.acceleration_limit_rad_s2)
+        wrench, efforts = state.required(base, joints)
+        reaction = GroundReaction.of(wrench, base_m).within(
+            self.footing.polygon(output.sides), p.ground_turn_nm
+        )
+        loads = loads_for(self.footing, output.sides, reaction.point_m)
+        efforts -= ground_efforts(self.robot, state, base_m, loads, reaction)
+        upright = hip_efforts(p, sensed.attitude, output.turning)
+        for side in SIDES:
+            efforts[self.robot.legs[side].indices[:3]] += loads.shares[side] * upright
+        return Exertion(efforts, loads.shares)

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How the joints of a leg accelerate for an acceleration of its sole."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from humanoid_control.dynamics import BodyState
+from humanoid_control.dynamics.rotations import skew
+from humanoid_control.walking.walking_robot import Leg
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+_DAMPING = 0.01
+"""As a share of the leg's length: keeps rates finite where the leg is stretched."""
+_ONE: Array = np.eye(6)
+
+
+@dataclass(frozen=True, eq=False)
+class LegMap:
+    """
+    The map from accelerations of sole and base to those of the leg's joints.
+
+    Those of sole and base are (6,): linear, then angular, in the axes of the world.
+    """
+
+    indices: NDArray[np.intp]
+    inverse: Array
+    """(6, 6)"""
+    carry: Array
+    """(6, 6) how the sole goes with the base"""
+    drift: Array
+    """(6,) the acceleration of the sole while base and joints do not accelerate"""
+
+    def accelerations(self, sole: Array, base: Array) -> Array:
+        """Return how the joints accelerate (6,) for accelerations of sole and base."""
+        accelerations: Array = self.inverse @ (sole - self.drift - self.carry @ base)
+        return accelerations
+
+
+def leg_maps(legs: Sequence[Leg], state: BodyState) -> list[LegMap]:
+    """Return the maps of legs in the posture that is measured."""
+    jacobians = np.array([state.jacobian_of(leg.group, leg.sole) for leg in legs])
+    turned = jacobians.transpose(0, 2, 1)
+    damping = np.array([(_DAMPING * leg.geometry.length_m) ** 2 for leg in legs])
+    # Damped least squares (Nakamura and Hanafusa, Inverse kinematic solutions with singularity
+    # robustness, ASME Journal of Dynamic Systems 108, 1986).
+    squares = turned @ jacobians + damping[:, None, None] * _ONE
+    inverses = np.linalg.solve(squares, turned)
+    return [_leg_map(leg, state, inverse) for leg, inverse in zip(legs, inverses)]
+
+
+def _leg_map(leg: Leg, state: BodyState, inverse: Array) -> LegMap:
+    """Return the map of a leg."""
+    carry = _ONE.copy()
+    carry[:3, 3:] = -skew(state.position_m(leg.sole))
+    return LegMap(leg.indices, inverse, carry, state.drift(leg.sole))

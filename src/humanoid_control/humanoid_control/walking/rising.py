@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From any posture to that in which the robot stands, while somebody holds it upright."""
+
+from __future__ import annotations
+
+from humanoid_control.backends import Array, JointTargets
+from humanoid_control.walking.parameters import WalkParameters
+import numpy as np
+
+
+class Rising:
+    """The joints go to the posture of standing, smoothly (minimum jerk: Flash and Hogan 1985)."""
+
+    name = 'stand_up'
+
+    def __init__(
+        self, start_rad: Array, home_rad: Array, parameters: WalkParameters, time_s: float
+    ) -> None:
+        """Begin where the joints are; all arrays are (n,)."""
+        self._start_rad, self._way_rad = start_rad.copy(), home_rad - start_rad
+        self._duration_s = parameters.stand_up_s
+        self._start_s = time_s
+
+    def is_done(self, time_s: float) -> bool:
+        """Tell whether the joints are told to be where they are when the robot stands."""
+        return time_s - self._start_s >= self._duration_s
+
+    def targets(self, time_s: float) -> JointTargets:
+        """Return the targets at a time."""
+        t = min(1.0, (time_s - self._start_s) / self._duration_s)
+        share = t**3 * (10.0 - 15.0 * t + 6.0 * t**2)
+        rate_1_s = 30.0 * t**2 * (1.0 - t) ** 2 / self._duration_s
+        zeros = np.zeros(len(self._start_rad))
+        return JointTargets(
+            self._start_rad + share * self._way_rad, rate_1_s * self._way_rad, zeros
+        )

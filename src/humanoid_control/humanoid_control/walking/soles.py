@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the soles are measured to be."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from humanoid_control.dynamics.rotations import yaw_of
+from humanoid_control.walking.foot_shape import FootShape
+from humanoid_control.walking.footing import Foothold, Footing
+from humanoid_control.walking.gear import SoleReading
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.senses import Sensed
+from humanoid_control.walking.sides import LEFT, RIGHT
+from humanoid_control.walking.terrain import Facet, tilt_of
+from humanoid_control.walking.walking_robot import WalkingRobot
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def soles_below(
+    base_m: Array, robot: WalkingRobot, sensed: Sensed, parameters: WalkParameters
+) -> tuple[SoleReading, SoleReading]:
+    """Return both soles while the base is in a place (3,)."""
+    left, right = (
+        _reading(side, base_m, robot, sensed, parameters.most_tilt_rad) for side in (LEFT, RIGHT)
+    )
+    return left, right
+
+
+def footing_below(
+    start_m: Point,
+    robot: WalkingRobot,
+    shape: FootShape,
+    parameters: WalkParameters,
+    sensed: Sensed,
+) -> Footing:
+    """Return the feet where they are while the base is above a point of level ground."""
+    base_m = np.array([start_m.real, start_m.imag, 0.0])
+    soles = soles_below(base_m, robot, sensed, parameters)
+    middle_m = sum(sole.facet.height_m for sole in soles) / len(soles)
+    return Footing(
+        shape,
+        [
+            Foothold(sole.pose, replace(sole.facet, height_m=sole.facet.height_m - middle_m))
+            for sole in soles
+        ],
+    )
+
+
+def _reading(
+    side: int, base_m: Array, robot: WalkingRobot, sensed: Sensed, most_tilt_rad: float
+) -> SoleReading:
+    """Return one of the soles."""
+    sole = robot.legs[side].sole
+    x, y, z = (base_m + sensed.state.position_m(sole)).tolist()
+    rotation = sensed.state.rotation(sole)
+    facet = Facet(z, tilt_of(rotation, most_tilt_rad))
+    return SoleReading(PlanarPose(complex(x, y), yaw_of(rotation)), facet, sensed.loads[side])

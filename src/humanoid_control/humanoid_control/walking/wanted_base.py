@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the pelvis is to be, and how it is to move."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from humanoid_control.dynamics import BodyState
+from humanoid_control.dynamics.frames import Frame, Twist
+from humanoid_control.dynamics.rotations import about_z, skew
+from humanoid_control.walking.base_estimate import BaseEstimate
+from humanoid_control.walking.base_motion import BaseMotion
+from humanoid_control.walking.footing import Footing
+from humanoid_control.walking.leg_reach import reachable_height_m
+from humanoid_control.walking.pendulum import Motion
+from humanoid_control.walking.turning import Turning
+from humanoid_control.walking.walking_robot import WalkingRobot
+import numpy as np
+
+
+def base_below(
+    wanted: Motion,
+    height_m: float,
+    turning: Turning,
+    com: Motion,
+    base: BaseEstimate,
+    state: BodyState,
+) -> BaseMotion:
+    """
+    Return the base that is upright, faces a heading and has the centre of mass where wanted.
+
+    :param height_m: of the centre of mass
+    :param com: its motion as estimated; with the base it says where in the robot it is
+    """
+    rotation = about_z(turning.heading_rad)
+    upright = rotation @ state.base_rotation.T
+    from_base = np.array([com.position_m.real, com.position_m.imag, 0.0]) - base.position_m
+    from_base[2] = state.com_m[2]
+    to_com = upright @ from_base
+    # The joints move the centre of mass within the base, whose own turning carries it.
+    shifting = upright @ (
+        state.com_velocity_m_s - skew(state.base_angular_velocity_rad_s) @ state.com_m
+    )
+    place, speed = wanted.position_m, wanted.velocity_m_s
+    turn = np.array([0.0, 0.0, turning.rate_rad_s])
+    velocity = np.array([speed.real, speed.imag, 0.0]) - shifting - skew(turn) @ to_com
+    goal = np.array([place.real, place.imag, height_m])
+    return BaseMotion(Frame(goal - to_com, rotation), Twist(velocity, turn))
+
+
+def within_reach(
+    base: BaseMotion, robot: WalkingRobot, footing: Footing, sides: Sequence[int], reach: float
+) -> BaseMotion:
+    """Return the base so low that the legs on the ground are stretched to a share at most."""
+    legs = [robot.legs[side].geometry for side in sides]
+    soles = [footing[side].sole_m for side in sides]
+    x, y, _ = base.frame.position_m.tolist()
+    height_m = reachable_height_m(base.frame, legs, soles, reach)
+    return BaseMotion(Frame(np.array([x, y, height_m]), base.frame.rotation), base.twist)

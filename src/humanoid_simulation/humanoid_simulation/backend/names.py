@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the bodies of a world are called by those who use it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from humanoid_simulation.choosing import named
+from humanoid_simulation.model import in_world
+from humanoid_simulation.model.robot_spec import FLOATING_BASE
+from humanoid_simulation.scene import Scene
+
+ALONE = 'robot'
+"""What a robot without a name is called among the things of the world."""
+
+
+class Names:
+    """
+    The names of bodies and entities.
+
+    Bodies are the links of robots, with the robot's name and '/' in front if it has one, and the
+    things of the scene. Entities are robots, and things that are not fixed.
+    """
+
+    def __init__(self, model: Any, scene: Scene, robots: Sequence[str], base: str) -> None:
+        """Take the compiled world, the names of its robots, and that of their base links."""
+        self._robots, self._base = robots, base
+        self.bodies = [self._public(model.body(number).name) for number in range(model.nbody)]
+        self._numbers = {name: number for number, name in enumerate(self.bodies)}
+        self._roots = model.body_rootid
+        things = {thing.name: thing.name for thing in scene.things if not thing.is_fixed}
+        self.floating: Mapping[str, str] = {
+            **{robot or ALONE: in_world(robot, FLOATING_BASE) for robot in robots},
+            **things,
+        }
+        """The joint that lets an entity float, by the name of the entity."""
+
+    def entity(self, name: str) -> str:
+        """Return the entity that is meant; an empty name means the robot that is alone."""
+        name = name or ALONE
+        named('entity that can be moved', name, self.floating)
+        return name
+
+    def body(self, entity: str, link: str = '') -> str:
+        """Return the body of an entity: a link of a robot, by default its base, or a thing."""
+        entity = self.entity(entity)
+        if entity == ALONE and '' in self._robots:
+            return link or self._base
+        if entity in self._robots:
+            return f'{entity}/{link or self._base}'
+        return f'{entity}/{link}' if link else entity
+
+    def number(self, body: str) -> int:
+        """Return the number of a body."""
+        return named('body', body, self._numbers)
+
+    def links(self, robot: str) -> list[str]:
+        """Return what the links of a robot are called among the bodies."""
+        root = self._roots[self.number(self.body(robot))]
+        return [name for name, of in zip(self.bodies, self._roots) if of == root]
+
+    def _public(self, name: str) -> str:
+        """Return what a body is called outside: a robot without a name is not mentioned."""
+        return name.removeprefix(f'{ALONE}/') if '' in self._robots else name

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How a world is computed, and how good sensors and drives are in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from humanoid_simulation.backend.noise import SensorNoise
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.model import Physics
+
+
+@dataclass(frozen=True)
+class BackendSettings:
+    """How the world is computed, and how good sensors and drives are."""
+
+    physics: Physics = field(default_factory=Physics)
+    steps_per_period: int = 5
+    """Physics steps from one observation to the next."""
+    noise: SensorNoise = field(default_factory=SensorNoise)
+    seed: int = 0
+    """Of the noise: the same seed gives the same trajectory, bit for bit."""
+    latency_periods: int = 0
+    """How old observations are."""
+    extrapolation_s: float = 0.0
+    """For so long positions go on with their velocities when no new targets come."""
+
+    def __post_init__(self) -> None:
+        """Refuse settings that no world can have."""
+        if not 1 <= self.steps_per_period <= 100:
+            raise SimulationError(
+                f'A period cannot have {self.steps_per_period} physics steps. Give 1 to 100.'
+            )
+        if not 0 <= self.latency_periods <= 100:
+            raise SimulationError(
+                f'Observations cannot be {self.latency_periods} periods old. Give 0 to 100.'
+            )
+        if not 0.0 <= self.extrapolation_s <= 1.0:
+            raise SimulationError(
+                f'Targets cannot go on for {self.extrapolation_s:g} s. Give 0 to 1.'
+            )
+
+    @property
+    def period_s(self) -> float:
+        """Return the time from one observation to the next."""
+        return self.steps_per_period * self.physics.period_s
