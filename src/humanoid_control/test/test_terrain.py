@@ -39,7 +39,7 @@ def test_ground_goes_on_beside() -> None:
 def test_level_follows_the_feet() -> None:
     """It ends where they are if nothing is measured against it, whatever the steps of time."""
     for steps in (1, 10):
-        level = GroundLevel(6.0, 0.0, 0.0)
+        level = GroundLevel(6.0, 0.0, 0.1)
         for _ in range(steps):
             level.update(0.02, 0.5, 0.5 / steps)
         assert level.height_m == pytest.approx(0.02 * (1.0 - math.exp(-3.0)))
@@ -47,7 +47,16 @@ def test_level_follows_the_feet() -> None:
 
 def test_level_gives_way_to_what_is_measured() -> None:
     """It comes to rest between the height of the feet and that of the centre of mass."""
-    level = GroundLevel(6.0, 8.0, 0.0)
+    level = GroundLevel(6.0, 8.0, 0.1)
     for _ in range(400):
         level.update(0.02, 0.0, 0.01)
     assert 0.0 < level.height_m < 0.02
+
+
+def test_level_stays_near_the_feet() -> None:
+    """A robot that sinks does not take the level of the ground along, however far it sinks."""
+    level = GroundLevel(6.0, 8.0, 0.04)
+    for sunk_m in (0.1, 0.2, 0.5):
+        for _ in range(100):
+            level.update(0.02, -sunk_m, 0.01)
+        assert level.height_m == pytest.approx(0.02 - 0.04)

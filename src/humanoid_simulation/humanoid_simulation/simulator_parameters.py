@@ -70,7 +70,7 @@ class SimulatorParameters(HostParameters, CameraParameters, NoiseParameters):
         read_only=True,
     )
     extrapolation_s: float = parameter(
-        0.0,
+        0.03,
         'For how long targets that are not renewed go on with their velocity.',
         at_least=0.0,
         at_most=1.0,

@@ -43,6 +43,7 @@ class SimulatorServices:
         """Offer the services."""
         self._backend, self._loop, self._host = backend, loop, host
         self._steps_per_period = steps_per_period
+        self._pause_is_wanted = host.paused
         for kind, name, do in (
             (SetBool, '~/set_pause', self._set_pause),
             (ResetSimulation, '~/reset_simulation', self._reset),
@@ -65,6 +66,7 @@ class SimulatorServices:
         """Stop the time, or let it go on."""
         if not request.data:
             self._refuse_after_failure()
+        self._pause_is_wanted = request.data
         self._host.pause(request.data)
         return 'The simulation is paused.' if request.data else 'The simulation runs.'
 
@@ -88,12 +90,12 @@ class SimulatorServices:
         return f'{periods * self._steps_per_period} steps of physics: {periods} control periods.'
 
     def _reset(self, request: ResetSimulation.Request) -> str:
-        """Put all where it began; what had failed runs again."""
+        """Put all where it began; what had failed runs again, unless a pause was wanted."""
         had_failed = self._loop.has_failed
         keyframe = request.keyframe or 'home'
         self._host.reset(keyframe)
         if had_failed:
-            self._host.pause(False)
+            self._host.pause(self._pause_is_wanted)
         return f"Robots and things are where they began; the keyframe is '{keyframe}'."
 
     def _put(self, request: SetEntityState.Request) -> str:

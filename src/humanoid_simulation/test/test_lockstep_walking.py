@@ -12,7 +12,7 @@ from humanoid_simulation.testing.lockstep_robot import LockstepRobot
 import numpy as np
 import pytest
 
-EXTRAPOLATION_S = 0.1
+EXTRAPOLATION_S = 0.03
 
 
 def walked(robot: LockstepRobot) -> PlanarPose:

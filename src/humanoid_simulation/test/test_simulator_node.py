@@ -242,6 +242,21 @@ def test_physics_that_fails_is_reported_and_a_reset_helps(ros: RosSandbox) -> No
     watch.run(0.5)
 
 
+def test_a_pause_outlasts_a_failure(ros: RosSandbox) -> None:
+    """Physics that fails while it is stepped is still paused after the reset."""
+    watch = Watch(ros, start_paused=True)
+    step = 'simulator/step_simulation'
+    watch.ask(ApplyWrench, 'simulator/apply_wrench', **wrench(x=1e15))
+    answer = watch.ask(StepSimulation, step, steps=500)
+    assert not answer.success and 'failed meanwhile' in answer.message
+    for name, kind in (('simulator/set_entity_state', SetEntityState), ('stand_up', Trigger)):
+        answer = watch.ask(kind, name)
+        assert not answer.success
+    assert watch.ask(ResetSimulation, 'simulator/reset_simulation').success
+    assert watch.simulator._host.paused
+    assert watch.ask(StepSimulation, step, steps=5).success
+
+
 def test_two_robots_in_their_namespaces(ros: RosSandbox) -> None:
     """Each has its topics; they share the time."""
     watch = Watch(ros, robots=['robot1', 'robot2'])

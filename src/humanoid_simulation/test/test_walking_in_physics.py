@@ -6,6 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable
 import math
 
+from humanoid_control.hosting.control_loop import ControlLoop
+from humanoid_control.hosting.walking_robot import WalkingRobotControl
 from humanoid_control.walking import PlanarPose, VelocityCommand, Walker, WalkParameters
 from humanoid_description.loading import load_robot
 from humanoid_simulation.backend import BackendSettings, MujocoBackend
@@ -195,7 +197,7 @@ def test_it_walks_with_bad_sensors_and_late(make_backend: Callable[..., MujocoBa
 def test_it_bears_missed_ticks(make_backend: Callable[..., MujocoBackend], seed: int) -> None:
     """Ticks that are missed for 10 to 100 ms, again and again, do not make it fall."""
     drop_outs = DropOuts(np.random.default_rng(seed), 0.02, 10)
-    settings = BackendSettings(extrapolation_s=0.1)
+    settings = BackendSettings(extrapolation_s=0.03)
     robot = Walk(make_backend(settings=settings), misses=drop_outs.misses)
     robot.go(0.5)
     robot.go(8.0, 0.3)
@@ -233,3 +235,21 @@ def test_the_same_walk_twice(make_backend: Callable[..., MujocoBackend]) -> None
         robot.go(2.0, 0.2, 0.05, 0.1)
         ends.append(robot.pose)
     assert ends[0] == ends[1]
+
+
+@pytest.mark.parametrize('keyframe', ['stretched', 'crouched'])
+def test_it_begins_in_other_postures(backend: MujocoBackend, keyframe: str) -> None:
+    """From stretched legs or a crouch the robot comes to stand as it does at home."""
+    description = humanoid()
+    robot = WalkingRobotControl.of(
+        load_robot(description.urdf, 'the humanoid'), description.drives
+    )
+    loop = ControlLoop(backend, {'': robot.control})
+    loop.reset(keyframe)
+    for _ in range(400):
+        loop.tick()
+    status = robot.walker.status
+    assert status is not None
+    assert status.phase == 'stand'
+    height_m = backend.ground_truth().position_m[2]
+    assert height_m == pytest.approx(robot.walker.home.base_height_m, abs=0.01)

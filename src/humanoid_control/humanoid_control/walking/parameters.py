@@ -172,7 +172,9 @@ class WalkParameters:
     level_rate_1_s: float = _rate(6.0)
     """How fast the height of the pelvis follows that of the feet ..."""
     level_leak_1_s: float = _rate(8.0)
-    """... and gives way to where it is measured."""
+    """... and gives way to where it is measured, ..."""
+    level_distance_m: float = _length(0.04)
+    """... by so much at most."""
 
     # Falls.
     fall_tilt_rad: float = 0.6

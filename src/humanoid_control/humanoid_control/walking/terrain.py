@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import math
 
 from humanoid_control.dynamics.rotations import about_z
-from humanoid_control.walking.planar import dot, Point
+from humanoid_control.walking.planar import dot, limited, Point
 import numpy as np
 from numpy.typing import NDArray
 
@@ -56,12 +56,14 @@ class GroundLevel:
     How high the ground is above which the pendulum swings.
 
     It goes to the height of the feet, as they carry the weight, and gives way to where the
-    centre of mass is measured: a landing that is too high or low gives no jolt.
+    centre of mass is measured: a landing that is too high or low gives no jolt. It stays near
+    the feet, so that a robot which sinks does not take it along.
     """
 
     rate_1_s: float
     leak_1_s: float
-    height_m: float
+    most_distance_m: float
+    height_m: float = 0.0
 
     def update(self, feet_m: float, below_com_m: float, passed_s: float) -> None:
         """
@@ -73,4 +75,6 @@ class GroundLevel:
         to_feet = 1.0 - math.exp(-self.rate_1_s * passed_s)
         to_com = 1.0 - math.exp(-self.leak_1_s * passed_s)
         before_m = self.height_m
-        self.height_m += to_feet * (feet_m - before_m) + to_com * (below_com_m - before_m)
+        height_m = before_m + to_feet * (feet_m - before_m) + to_com * (below_com_m - before_m)
+        away_m = limited(height_m - feet_m, -self.most_distance_m, self.most_distance_m)
+        self.height_m = feet_m + away_m

@@ -56,7 +56,9 @@ class Walk:
         self._whole_body = WholeBody(robot, home, parameters)
         self._dynamics = InverseDynamics(robot, parameters, self._footing)
         self._conforming = Conforming(parameters)
-        self._level = GroundLevel(parameters.level_rate_1_s, parameters.level_leak_1_s, 0.0)
+        self._level = GroundLevel(
+            parameters.level_rate_1_s, parameters.level_leak_1_s, parameters.level_distance_m
+        )
         self._shares = (0.5, 0.5)
         self._zmp_m = self._footing.rest_point
         self._last_s = sensed.time_s

@@ -10,6 +10,9 @@ from humanoid_control.backends import Array
 from humanoid_simulation.errors import SimulationError
 import numpy as np
 
+MOST = 100
+"""At a time: each one that acts costs time in every period."""
+
 
 @dataclass(frozen=True, eq=False)
 class Wrench:
@@ -48,7 +51,12 @@ class Wrenches:
         self._acting: list[tuple[Wrench, float]] = []
 
     def add(self, wrench: Wrench) -> None:
-        """Let a wrench act from now on."""
+        """Let a wrench act from now on, unless there are too many."""
+        if len(self._acting) >= MOST:
+            raise SimulationError(
+                f'{MOST} wrenches act already, which is all that can be. Wait for their end, or '
+                'reset the simulation.'
+            )
         self._acting.append((wrench, wrench.duration_s))
 
     def clear(self) -> None:
