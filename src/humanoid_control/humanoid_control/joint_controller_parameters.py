@@ -40,7 +40,7 @@ class JointControllerParameters:
         at_most=100.0,
     )
     heartbeat_timeout_s: float = parameter(
-        0.5,
+        1.0,
         'How long the console that is in control may be silent before the joints are held.',
         at_least=0.2,
         at_most=10.0,

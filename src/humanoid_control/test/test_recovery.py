@@ -86,6 +86,15 @@ def test_joints_give_way_in_a_fall_and_are_loose_after_it(walker: Walker) -> Non
     assert (walker.update(lying).positions_rad == lying.positions_rad).all()
 
 
+def test_a_robot_that_lies_is_near_the_ground(walker: Walker) -> None:
+    """Its lowest link is on the ground, in odometry as well."""
+    walker.update(seen(walker, 0.0))
+    walker.update(seen(walker, 0.01, pitch_rad=1.5))
+    walker.update(seen(walker, 3.0, pitch_rad=1.5))
+    assert walker.status is not None
+    assert 0.05 < walker.status.odometry.height_m < 0.3
+
+
 def test_a_robot_that_is_held_upright_stands_up(walker: Walker) -> None:
     """It takes the posture of standing, and stands as soon as its feet carry it."""
     walker.update(seen(walker, 0.0))

@@ -56,7 +56,7 @@ class HostParameters:
         at_most=500.0,
     )
     heartbeat_timeout_s: float = parameter(
-        0.5,
+        1.0,
         'How long the console that is in control may be silent before the robots hold still.',
         at_least=0.2,
         at_most=10.0,

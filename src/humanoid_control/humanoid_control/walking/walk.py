@@ -102,9 +102,17 @@ class Walk:
         return JointTargets(joints.positions_rad, velocities, exertion.efforts_nm)
 
     def lie(self, sensed: Sensed) -> None:
-        """Note that the robot does not walk now: it is where it was last, turned as it is."""
+        """
+        Note that the robot does not walk now: it is where it was last, turned as it is.
+
+        Its lowest link is on the ground.
+        """
         self._last_s, self.sensed = sensed.time_s, sensed
-        self.base = BaseEstimate(self.base.position_m, np.zeros(3))
+        state = sensed.state
+        lowest_m = min(float(state.position_m(link)[2]) for link in self._robot.body.links)
+        position = self.base.position_m.copy()
+        position[2] = self._footing.height_m(self._shares) - lowest_m
+        self.base = BaseEstimate(position, np.zeros(3))
 
     def _estimate(self, passed_s: float) -> None:
         """Find base and centre of mass from the feet that carried weight until now."""
