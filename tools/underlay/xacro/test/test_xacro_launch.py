@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+import shlex
 import sys
 
 from launch import LaunchDescription, LaunchService
@@ -11,7 +12,7 @@ from launch.actions import ExecuteProcess
 from launch.substitutions import Command
 import pytest
 
-PROGRAM = f'{sys.executable} -m xacro_program '
+PROGRAM = f'{shlex.quote(sys.executable)} -m xacro_program '
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 
 
