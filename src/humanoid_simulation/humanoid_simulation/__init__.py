@@ -6,5 +6,5 @@ The humanoid in a physics simulator.
 - `humanoid_simulation.scene`: what is in the world besides robots
 - `humanoid_simulation.backend`: the world as a backend of the controllers
 - `humanoid_simulation.pacing`: how fast the time of the world passes
-- `humanoid_simulation.disturbances`: what makes it hard for a controller
+- `humanoid_simulation.disturbances`: ticks that a controller misses
 """
