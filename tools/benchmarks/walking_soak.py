@@ -28,6 +28,8 @@ def main() -> int:
         '--drop-outs', type=float, default=0.0, help='share of the ticks at which control stalls'
     )
     options = parser.parse_args()
+    if options.runs < 1 or options.seconds <= 0.0:
+        parser.error('--runs and --seconds must be above zero: nothing else shows anything')
     print('| run | friction | mass | latency | walked | result |\n|---|---|---|---|---|---|')
     begin_s, results = time.process_time(), []
     for seed in range(options.first_seed, options.first_seed + options.runs):
