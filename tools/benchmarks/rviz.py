@@ -22,6 +22,7 @@ import time
 from typing import Any, NamedTuple
 
 from domain_coordinator import domain_id
+from measuring import cpu_s, running
 import msgspec
 from rviz_robots import JOINTS
 import viser
@@ -133,18 +134,6 @@ def measure(file: Path, count: int) -> Cost:
 
 
 @contextmanager
-def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a command for the time of a `with`."""
-    with subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    ) as process:
-        try:
-            yield process
-        finally:
-            process.terminate()
-
-
-@contextmanager
 def connection(port: int) -> Iterator[ClientConnection]:
     """Connect as a browser does, as soon as the page is served."""
     end_s = time.monotonic() + TIMEOUT_S
@@ -169,12 +158,6 @@ def free_port() -> int:
     with socket.socket() as probe:
         probe.bind(('127.0.0.1', 0))
         return int(probe.getsockname()[1])
-
-
-def cpu_s(process: subprocess.Popen[bytes]) -> float:
-    """Return the CPU time that a process has used so far."""
-    fields = Path(f'/proc/{process.pid}/stat').read_text().rpartition(')')[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
 
 
 def memory_mb(process: subprocess.Popen[bytes]) -> float:
