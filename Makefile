@@ -36,7 +36,7 @@ run: build ## Run a ros2 command: make run ARGS='topic list'
 
 test: build ## Run every test: all packages, then the tools
 	@$(SETUP) tests
-	@tools/test/all.sh
+	@tools/in_environment --underlay python3 tools/test/run_all.py
 
 check: setup ## Check format, lint and types
 	@tools/in_environment --underlay ruff format --check . || { echo 'make fix formats them.'; exit 1; }

@@ -143,7 +143,8 @@ def set_up_tests(locations: Locations) -> int:
 
 def wheels_digest(*requirements: Path) -> str:
     """Return the digest of what is installed, and of how it is mended."""
-    return digest([*requirements, ROOT / 'tools' / 'setup' / 'mend.py'])
+    mends = [ROOT / 'tools' / 'setup' / name for name in ('mend.py', 'fast_dds.py')]
+    return digest([*requirements, *mends])
 
 
 def require_machine(locations: Locations, *, has_wheels: bool) -> None:

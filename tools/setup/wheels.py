@@ -9,6 +9,7 @@ from pathlib import Path
 import re
 
 from console import SetupError, Steps
+from fast_dds import mend_fast_dds
 from locations import Locations
 from mend import mend_wheels
 from processes import environment_variables, last_words, run_logged, run_or_fail
@@ -53,6 +54,7 @@ def install_wheels(locations: Locations, steps: Steps, include: str, requirement
         arguments = ['--no-deps', '--ignore-installed', *broken]
         _pip(locations, steps, len(broken), *arguments)
     mend_wheels(locations.environment, include, packages)
+    mend_fast_dds(locations.environment)
 
 
 def _pip(locations: Locations, steps: Steps, count: int, *arguments: str) -> None:

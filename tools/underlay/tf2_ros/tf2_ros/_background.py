@@ -22,21 +22,28 @@ class Background:
         """Start the thread."""
         executor = SingleThreadedExecutor(context=node.context)
         executor.add_node(node)
+        stop = threading.Event()
         thread = threading.Thread(
-            target=_spin, args=(executor,), name='transform listener', daemon=True
+            target=_spin, args=(executor, stop), name='transform listener', daemon=True
         )
         thread.start()
-        self.stop = weakref.finalize(self, _stop, executor, thread)
+        self.stop = weakref.finalize(self, _stop, executor, stop, thread)
 
 
-def _spin(executor: SingleThreadedExecutor) -> None:
+def _spin(executor: SingleThreadedExecutor, stop: threading.Event) -> None:
     try:
-        executor.spin()
+        while not stop.is_set():
+            executor.spin_once()
     except ExternalShutdownException:
         pass
 
 
-def _stop(executor: SingleThreadedExecutor, thread: threading.Thread) -> None:
-    executor.shutdown(_TIMEOUT_S)
+def _stop(
+    executor: SingleThreadedExecutor, stop: threading.Event, thread: threading.Thread
+) -> None:
+    """End the thread, and then the executor: rclpy's breaks if it is shut down while it spins."""
+    stop.set()
     if thread is not threading.current_thread():
+        executor.create_task(lambda: None)  # it looks up from its waiting
         thread.join(_TIMEOUT_S)
+        executor.shutdown(0.0)

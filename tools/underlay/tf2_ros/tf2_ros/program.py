@@ -141,12 +141,15 @@ def spin(node: Node, timeout_s: float | None = None) -> bool:
     watch_clock(node)
     executor = SingleThreadedExecutor()
     executor.add_node(node)
+    stop = threading.Event()
     failures: list[Exception] = []
-    thread = threading.Thread(target=_work, args=(executor, failures), name='node')
+    thread = threading.Thread(target=_work, args=(executor, stop, failures), name='node')
     thread.start()
     is_stopped = wait_for_signal(timeout_s)
-    executor.shutdown()
+    stop.set()
+    executor.create_task(lambda: None)  # it looks up from its waiting
     thread.join()
+    executor.shutdown()  # not before: rclpy's executors break if that is done while they spin
     if failures:
         raise failures[0]
     return is_stopped
@@ -164,10 +167,11 @@ def wait_for_signal(timeout_s: float | None) -> bool:
     return False
 
 
-def _work(executor: Executor, failures: list[Exception]) -> None:
-    """Let nodes work; a failure is for the main thread to raise."""
+def _work(executor: Executor, stop: threading.Event, failures: list[Exception]) -> None:
+    """Let nodes work until they are to stop; a failure is for the main thread to raise."""
     try:
-        executor.spin()
+        while not stop.is_set():
+            executor.spin_once()
     except Exception as error:
         failures.append(error)
         os.kill(os.getpid(), signal.SIGTERM)

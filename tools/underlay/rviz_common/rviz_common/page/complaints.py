@@ -9,7 +9,7 @@ from typing import Any
 
 from rviz_common.described_error import described_error
 from rviz_common.pace import Pace
-from websockets.exceptions import InvalidHandshake
+from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 __all__ = ['LOGGER', 'complain', 'complain_about_task']
 
@@ -35,13 +35,13 @@ def _shorten(record: logging.LogRecord) -> bool:
     """
     Tell whether there is something to say, and put it in a sentence.
 
-    The `websockets` library says too much, and also who speaks no HTTP.
+    The `websockets` library says too much, also who speaks no HTTP or goes without a word.
     """
     error = record.exc_info[1] if record.exc_info else None
     if isinstance(error, Exception):
         record.msg = f'A connection has failed: {described_error(error)}'
         record.args, record.exc_info = (), None
-        return not isinstance(error, InvalidHandshake)
+        return not isinstance(error, (ConnectionClosed, InvalidHandshake))
     return record.levelno >= logging.WARNING
 
 

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of what runs all tests: it repeats what failed, and ends what takes too long."""
+
+from __future__ import annotations
+
+from pathlib import Path
+import re
+import sys
+import time
+
+import pytest
+from run_all import MOST_UNSTEADY, run, Suite
+
+FLAKY = """
+from pathlib import Path
+import pytest
+
+@pytest.mark.parametrize('number', range({count}))
+def test_flaky(number):
+    seen = Path(__file__).with_name(f'seen-{{number}}')
+    assert seen.exists() or seen.touch()
+
+def test_well():
+    with open('runs', 'a') as runs:
+        runs.write('x')
+"""
+BROKEN = 'def test_broken():\n    assert 0\n'
+CRASHED = 'import os\n\ndef test_crashed():\n    os.abort()\n'
+HANGING = """
+import ctypes
+
+def test_hanging():
+    mutex = ctypes.create_string_buffer(64)
+    for _ in range(2):
+        ctypes.PyDLL(None).pthread_mutex_lock(mutex)
+"""
+
+
+@pytest.fixture
+def suite(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Suite:
+    """Return the tests of an empty folder."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / 'pytest.ini').write_text('[pytest]\n')
+    report = tmp_path / 'report.xml'
+    command = [sys.executable, '-m', 'pytest', '-q', f'--junit-xml={report}']
+    return Suite(
+        'mine', [*command, '--cache-clear'], [*command, '--last-failed'], lambda: [report]
+    )
+
+
+@pytest.mark.parametrize(('count', 'status'), [(0, 0), (1, 0), (MOST_UNSTEADY + 1, 1)])
+def test_unsteady(
+    suite: Suite, tmp_path: Path, capfd: pytest.CaptureFixture[str], count: int, status: int
+) -> None:
+    """What passes the second time is listed, and only what failed is repeated."""
+    (tmp_path / 'test_it.py').write_text(FLAKY.format(count=count))
+    assert run([suite]) == status
+    assert (tmp_path / 'runs').read_text() == 'x'
+    listed = re.findall(r'^  (mine: test_it::test_flaky.*)', capfd.readouterr().out, re.MULTILINE)
+    assert listed == [f'mine: test_it::test_flaky[{number}]' for number in range(count)]
+
+
+@pytest.mark.parametrize(
+    'text',
+    [BROKEN, CRASHED, 'import nothing_of_that_name', ')'],
+    ids=['fails', 'crashes', 'cannot import', 'cannot be read'],
+)
+def test_broken(
+    suite: Suite, tmp_path: Path, capfd: pytest.CaptureFixture[str], text: str
+) -> None:
+    """What fails twice, or cannot run, is a failure, and what is well beside it is none."""
+    (tmp_path / 'test_it.py').write_text(text)
+    well = Suite('well', ['true'], ['false'], list)
+    assert run([suite, well]) == 1
+    assert '== Failed: 1\n' in capfd.readouterr().out
+
+
+@pytest.mark.parametrize('command', ['false', 'true'])
+def test_no_results(suite: Suite, capfd: pytest.CaptureFixture[str], command: str) -> None:
+    """A command that leaves no results has failed, whatever its status."""
+    assert run([Suite('mine', [command], [command], suite.reports)]) == 1
+    assert 'mine: there is no result in ' in capfd.readouterr().out
+
+
+def test_a_whole_day(suite: Suite, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """When the time is up, tests that hang in C with Python's lock are ended with their stacks."""
+    (tmp_path / 'test_it.py').write_text(HANGING)
+    began_s = time.monotonic()
+    assert run([suite], limit_s=3.0) == 1
+    assert time.monotonic() - began_s < 60.0
+    errors = capfd.readouterr().err
+    assert 'in test_hanging' in errors and 'took too long' in errors
+
+
+def test_watchdog(suite: Suite, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """A test that hangs in C is ended with its stack, some time after its time limit."""
+    source = (Path(__file__).parent / 'watchdog.py').read_text()
+    (tmp_path / 'watchdog.py').write_text(source.replace('GRACE_S = 120.0', 'GRACE_S = 2.0'))
+    (tmp_path / 'test_it.py').write_text(HANGING)
+    command = [*suite.command, '-p', 'watchdog', '-o', 'timeout=1']
+    assert run([Suite('mine', command, ['true'], suite.reports)]) == 1
+    errors = capfd.readouterr().err
+    assert 'Timeout (0:00:03)!' in errors and 'in test_hanging' in errors

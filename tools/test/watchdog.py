@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ends a process of tests that hangs, after it has written where its threads are.
+
+A plugin of pytest. The time limit of a test raises an error in Python; this one also ends a
+process whose main thread hangs in C, with Python's lock, where no signal handler runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import faulthandler
+import os
+
+import pytest
+
+GRACE_S = 120.0
+"""How long after the limit of a test."""
+
+_stderr: list[int] = []
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Keep what stderr is while no test's output is captured."""
+    _stderr.append(os.dup(2))
+    if os.environ.pop('PYTEST_ADDOPTS', None):  # asked for this module, of this process alone
+        folder = os.path.dirname(__file__)
+        os.environ['PYTHONPATH'] = os.environ['PYTHONPATH'].removeprefix(f'{folder}:')
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
+    """Watch a test, with its fixtures."""
+    _watch(_limit_s(item))
+    return (yield)
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_teardown(item: pytest.Item) -> Iterator[None]:
+    """Watch the end of a test: pytest has stopped watching if it failed."""
+    _watch(_limit_s(item))
+    return (yield)
+
+
+def pytest_sessionfinish() -> None:
+    """Watch the end of the process."""
+    _watch(0.0)
+
+
+def _limit_s(item: pytest.Item) -> float:
+    """Return the time limit of a test."""
+    marker = item.get_closest_marker('timeout')
+    return float(marker.args[0] if marker else item.config.getini('timeout') or 0.0)
+
+
+def _watch(limit_s: float) -> None:
+    faulthandler.dump_traceback_later(limit_s + GRACE_S, exit=True, file=_stderr[0])
