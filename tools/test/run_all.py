@@ -46,51 +46,56 @@ def run(suites: Sequence[Suite], limit_s: float = LIMIT_S) -> int:
     end_s = time.monotonic() + limit_s
     for path in (path for suite in suites for path in suite.reports()):
         path.unlink(missing_ok=True)
+    first: dict[str, str] = {}
+    last: dict[str, str] = {}
     try:
-        failed = {suite.name: _run(suite, suite.command, end_s) for suite in suites}
-        still = {
-            suite.name: _run(suite, suite.again, end_s) if failed[suite.name] else set()
-            for suite in suites
-        }
+        failed = [(suite, _run(suite, suite.command, end_s)) for suite in suites]
+        for suite, tests in failed:
+            first |= tests
+            if tests:
+                last |= _run(suite, suite.again, end_s)
     except TimeIsUpError as error:
         print(error, file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return 128 + signal.SIGINT
-    lasting = sorted(test for tests in still.values() for test in tests)
-    unsteady = sorted({test for tests in failed.values() for test in tests} - set(lasting))
+    unsteady = {test: why for test, why in first.items() if test not in last}
     _list('Failed once, and passed alone', unsteady)
-    _list('Failed', lasting)
+    _list('Failed', last)
     if len(unsteady) > MOST_UNSTEADY:
         print(f'More than {MOST_UNSTEADY} tests are unsteady.')
-    return 1 if lasting or len(unsteady) > MOST_UNSTEADY else 0
+    return 1 if last or len(unsteady) > MOST_UNSTEADY else 0
 
 
-def _list(title: str, tests: list[str]) -> None:
+def _list(title: str, tests: dict[str, str]) -> None:
+    """List tests, at the end without the reasons, which may be long."""
+    for test, reason in tests.items():
+        print(f'-- {test}', reason, sep='\n')
     if tests:
-        print(f'== {title}: {len(tests)}', *tests, sep='\n  ')
+        print(f'== {title}: {len(tests)}', *sorted(tests), sep='\n  ')
 
 
-def _run(suite: Suite, command: Sequence[str], end_s: float) -> set[str]:
-    """Run tests; return those that failed."""
+def _run(suite: Suite, command: Sequence[str], end_s: float) -> dict[str, str]:
+    """Run tests; return those that failed, and why."""
     print(f'== {suite.name}', flush=True)
     status = _status(command, end_s)
-    failed = {test for path in suite.reports() for test in _failed(suite.name, path)}
+    failed = {test: why for path in suite.reports() for test, why in _failed(suite.name, path)}
     if status not in _ENDS and not failed:
-        failed.add(f'{suite.name}: the command ended with status {status}')
+        failed[f'{suite.name}: the command'] = f'ended with status {status}'
     return failed
 
 
-def _failed(suite: str, report: Path) -> Iterator[str]:
-    """Yield the tests that a JUnit file says to have failed; a whole file that is not there."""
+def _failed(suite: str, report: Path) -> Iterator[tuple[str, str]]:
+    """Yield the tests that failed, and why, of a JUnit file; that it is not there, if so."""
     try:
         cases = ElementTree.parse(report).iter('testcase')
-    except (OSError, ElementTree.ParseError):
-        yield f'{suite}: there is no result in {report}'
+    except (OSError, ElementTree.ParseError) as error:
+        yield f'{suite}: there is no result in {report}', str(error)
         return
     for case in cases:
-        if case.find('failure') is not None or case.find('error') is not None:
-            yield f'{suite}: {case.get("classname")}::{case.get("name")}'
+        for what in [*case.findall('failure'), *case.findall('error')]:
+            reason = what.text or what.get('message') or ''
+            yield f'{suite}: {case.get("classname")}::{case.get("name")}', reason
 
 
 def _status(command: Sequence[str], end_s: float) -> int:
