@@ -40,11 +40,11 @@ class Program:
         """Return what it printed so far."""
         return self._output.read_text(errors='replace')
 
-    def wait_for(self, text: str, timeout_s: float = 60.0) -> None:
+    def wait_for(self, text: str, timeout_s: float = 100.0) -> None:
         """Wait until it prints a text."""
         self._wait(lambda: text in self.output, timeout_s, f'{text!r} in')
 
-    def end(self, number: int = signal.SIGINT, timeout_s: float = 20.0) -> int:
+    def end(self, number: int = signal.SIGINT, timeout_s: float = 100.0) -> int:
         """Send it a signal and wait for its end; return the exit status."""
         self.process.send_signal(number)
         self._wait(lambda: self.process.poll() is not None, timeout_s, 'the end of')

@@ -143,7 +143,7 @@ def tools() -> Suite:
     """Return the tests of tools/."""
     report = ROOT / 'log' / 'test_tools.xml'
     test = ['tools/in_environment', 'python3', '-m', 'pytest', 'tools']
-    test += ['-p', 'tools.test.watchdog', f'--junit-xml={report}']
+    test += ['-p', 'tools.test.watchdog', '--durations=40', f'--junit-xml={report}']
     again = [*test, '--last-failed']
     return Suite('tools/', [*test, '--cache-clear'], again, lambda: [report])
 

@@ -95,7 +95,7 @@ def is_well(program: Program) -> bool:
 
 def ask(url: str, path: str = '/', **headers: str) -> HTTPResponse:
     """Return the answer to a request."""
-    connection = HTTPConnection(urlsplit(url).netloc, timeout=30)
+    connection = HTTPConnection(urlsplit(url).netloc, timeout=100)
     connection.request('GET', path, headers=headers)
     return connection.getresponse()
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 import re
+import shutil
 import sys
 import time
 
@@ -73,6 +74,17 @@ def test_broken(
     well = Suite('well', ['true'], ['false'], list)
     assert run([suite, well]) == 1
     assert '== Failed: 1\n' in capfd.readouterr().out
+
+
+def test_what_fails_is_said_at_once(
+    suite: Suite, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """Even if the time is up before the end."""
+    (tmp_path / 'test_it.py').write_text(BROKEN + HANGING)
+    shutil.copy(Path(__file__).parent / 'watchdog.py', tmp_path)
+    command = [*suite.command, '-p', 'watchdog']
+    assert run([Suite('mine', command, ['true'], suite.reports)], limit_s=10.0) == 1
+    assert 'FAILED test_it.py::test_broken (call)' in capfd.readouterr().err
 
 
 @pytest.mark.parametrize('command', ['false', 'true'])

@@ -90,13 +90,13 @@ def test_three_robots_publish_each_on_its_own(ros2: Start) -> None:
     program = ros2('launch', 'humanoid_bringup', 'multi_robot.launch.py')
     wait_until(lambda: program.output.count('started (50 Hz)') == 3, 30.0, lambda: program.output)
     listing = ros2('topic', 'list')
-    listing.process.wait(timeout=30)
+    listing.process.wait(timeout=100)
     topics = [f'/robot{number}/joint_commands' for number in (1, 2, 3)]
     assert [line for line in listing.output.splitlines() if 'joint_commands' in line] == topics
     for topic in topics:
         echo = ros2('topic', 'echo', '--once', topic)
         echo.wait_for('- left_shoulder')
-        assert echo.process.wait(timeout=20) == 0
+        assert echo.process.wait(timeout=100) == 0
     assert program.end() == 0
     assert program.members() == []
 
@@ -123,7 +123,7 @@ def test_a_temperature_is_echoed(root: Path, ros2: Start) -> None:
     publisher = ros2('run', 'temperature_monitor', 'temp_publisher')
     publisher.wait_for('Publishing the temperature')
     echo = ros2('topic', 'echo', '/temperature', '--once', '--field', 'temperature')
-    assert echo.process.wait(timeout=30) == 0
+    assert echo.process.wait(timeout=100) == 0
     assert 20.0 <= float(echo.output.splitlines()[-2]) <= 30.0
     assert publisher.end() == 0
 

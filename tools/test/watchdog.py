@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ends a process of tests that hangs, after it has written where its threads are.
+"""Says at once what failed, and ends a process of tests that hangs, with its stacks.
 
 A plugin of pytest. The time limit of a test raises an error in Python; this one also ends a
 process whose main thread hangs in C, with Python's lock, where no signal handler runs.
@@ -39,6 +39,17 @@ def pytest_runtest_teardown(item: pytest.Item) -> Iterator[None]:
     """Watch the end of a test: pytest has stopped watching if it failed."""
     _watch(_limit_s(item))
     return (yield)
+
+
+def pytest_runtest_logreport(report: pytest.TestReport) -> None:
+    """Say at once what failed: if the time for all tests is up, nothing else would."""
+    if report.failed and not _is_worker():
+        text = f'\nFAILED {report.nodeid} ({report.when})\n{report.longreprtext}\n'
+        os.write(_stderr[0], text.encode(errors='replace'))
+
+
+def _is_worker() -> bool:
+    return 'PYTEST_XDIST_WORKER' in os.environ
 
 
 def pytest_sessionfinish() -> None:

@@ -37,8 +37,8 @@ class TestRun(unittest.TestCase):
 
     def test_output(self, proc_output: ActiveIoHandler, use_controller: str, backend: str) -> None:
         """The processor reports what the controller sends, and runs without it, too."""
-        proc_output.assertWaitFor(REPORT if use_controller == 'true' else ALONE, timeout=20)
-        proc_output.assertWaitFor(ROBOT, process='robot_state_publisher', timeout=20)
+        proc_output.assertWaitFor(REPORT if use_controller == 'true' else ALONE, timeout=100)
+        proc_output.assertWaitFor(ROBOT, process='robot_state_publisher', timeout=100)
         proc_output.assertWaitFor(STARTED[backend], timeout=40)
 
 

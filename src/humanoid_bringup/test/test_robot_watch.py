@@ -16,7 +16,7 @@ import pytest
 
 LAUNCH_FILE = Path(__file__).parents[1] / 'launch' / 'bringup.launch.py'
 QUIET = ('backend:=mock', 'gui:=false', 'use_controller:=false')
-TIMEOUT_S = 30.0
+TIMEOUT_S = 100.0
 
 
 def kill_robot(program: RunningProgram, number: signal.Signals) -> None:

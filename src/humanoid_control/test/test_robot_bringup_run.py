@@ -35,7 +35,7 @@ class TestRun(unittest.TestCase):
 
     def test_output(self, proc_output: ActiveIoHandler, use_controller: str) -> None:
         """The processor reports what the controller sends, and runs without it, too."""
-        proc_output.assertWaitFor(REPORT if use_controller == 'true' else ALONE, timeout=20)
+        proc_output.assertWaitFor(REPORT if use_controller == 'true' else ALONE, timeout=100)
 
 
 @post_shutdown_test()

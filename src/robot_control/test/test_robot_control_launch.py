@@ -26,7 +26,7 @@ class TestRun(unittest.TestCase):
     def test_output(self, proc_output: ActiveIoHandler) -> None:
         """The launch file hands the model over."""
         text = 'elbow: revolute, upper_arm -> forearm, -2.3 to 2.3 rad'
-        proc_output.assertWaitFor(text, timeout=20)
+        proc_output.assertWaitFor(text, timeout=100)
 
 
 @post_shutdown_test()

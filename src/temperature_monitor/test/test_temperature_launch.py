@@ -29,7 +29,7 @@ class TestRun(unittest.TestCase):
             '[temp_publisher]: Publishing the temperature (1 Hz)',
             '[temp_analyzer]: Watching for temperatures above 25 °C',
         ):
-            proc_output.assertWaitFor(text, timeout=20)
+            proc_output.assertWaitFor(text, timeout=100)
 
 
 @post_shutdown_test()

@@ -53,7 +53,7 @@ class RosSandbox:
     def wait_until(
         self,
         predicate: Callable[[], bool],
-        timeout_s: float = 10.0,
+        timeout_s: float = 100.0,
         what: str = 'the condition',
     ) -> None:
         """Spin until the predicate holds; a failure tells which topics exist."""

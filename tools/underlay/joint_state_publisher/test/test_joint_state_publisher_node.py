@@ -180,6 +180,6 @@ def test_ends_well(probe: Probe, programs: Programs, arm: str, number: int) -> N
 def test_cannot_start(programs: Programs, words, parameters, sentence) -> None:
     """What is missing or wrong at the start is a sentence and status 1."""
     program = programs.start(MODULE, *words, **parameters)
-    assert program.process.wait(30) == 1
+    assert program.process.wait(100) == 1
     assert sentence in program.output
     assert 'Traceback' not in program.output

@@ -39,10 +39,10 @@ def test_serves_its_page_until_it_ends(
     probe.until(lambda: heard, 'no joint states')
     probe.until(lambda: 'The sliders are at' in program.output, 'no address')
     (url,) = re.findall(r'The sliders are at (http://127.0.0.1:\d+/)', program.output)
-    with urlopen(url, timeout=30) as response:
+    with urlopen(url, timeout=100) as response:
         assert b'<html' in response.read().lower()
     with pytest.raises(HTTPError, match='403'):
-        urlopen(Request(url, headers={'Origin': 'http://evil.example'}), timeout=30)
+        urlopen(Request(url, headers={'Origin': 'http://evil.example'}), timeout=100)
     assert program.output.count("'num_rows' means nothing here") == 1
     assert 'There is no parameter' not in program.output
     assert program.end(number) == 0
@@ -73,7 +73,7 @@ def test_waits_for_a_robot(probe: Probe, programs: Programs) -> None:
 def test_cannot_start(programs: Programs, words, parameters, sentence) -> None:
     """What is wrong at the start is a sentence and status 1."""
     program = programs.start(MODULE, *words, **parameters)
-    assert program.process.wait(30) == 1
+    assert program.process.wait(100) == 1
     assert sentence in program.output
     assert 'Traceback' not in program.output
 
@@ -82,5 +82,5 @@ def test_ports_that_are_taken(programs: Programs) -> None:
     """A port that is given is not replaced by another one."""
     with socket.create_server(('127.0.0.1', 0)) as server:
         program = programs.start(MODULE, port=str(server.getsockname()[1]))
-        assert program.process.wait(30) == 1
+        assert program.process.wait(100) == 1
     assert 'cannot be taken: Address already in use.' in program.output

@@ -41,7 +41,7 @@ class Result:
         return self.text.splitlines()[2:]
 
 
-def _wait_until(predicate: Callable[[], Any], timeout: float = 10.0, message: str = '') -> None:
+def _wait_until(predicate: Callable[[], Any], timeout: float = 100.0, message: str = '') -> None:
     end = time.monotonic() + timeout
     while not predicate():
         if time.monotonic() > end:
@@ -133,7 +133,7 @@ class Launcher:
 
     def end(self) -> int:
         """Return its exit status when it has ended."""
-        return self.process.wait(20)
+        return self.process.wait(100)
 
 
 @pytest.fixture

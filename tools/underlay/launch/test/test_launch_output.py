@@ -143,7 +143,7 @@ def test_reader_that_does_not_read(
             assert _resident_mib(launch.pid) < 100
         finally:
             launch.send_signal(signal.SIGINT)
-            text = launch.communicate(timeout=30)[0]
+            text = launch.communicate(timeout=100)[0]
     assert launch.returncode == 0
     others = [line for line in text.decode().splitlines() if line != '[yes-1] much']
     cut = [line.removeprefix('[yes-1] ') for line in others if line.startswith('[yes-1] ')]

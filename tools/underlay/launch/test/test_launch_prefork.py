@@ -247,6 +247,6 @@ def test_end_of_the_launch(
     children = _children(launch.process.pid)
     assert set(groups) < set(children)
     launch.process.send_signal(number)
-    launch.process.wait(30)
+    launch.process.wait(100)
     wait_until(lambda: not any(living_members(group) for group in groups))
     wait_until(lambda: not any(os.path.exists(f'/proc/{child}') for child in children))

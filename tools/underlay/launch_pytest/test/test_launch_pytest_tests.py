@@ -140,7 +140,7 @@ def late():
 @pytest.mark.launch(fixture=late)
 def test_it(late, launch_context):
     assert late[1].process_details is not None
-    assert tools.wait_for_start_sync(launch_context, late[1], timeout=30)
+    assert tools.wait_for_start_sync(launch_context, late[1], timeout=100)
     assert not tools.wait_for_exit_sync(launch_context, late[1], timeout=0.01)
 """)
     assert report.outcomes == [('test_it', 'PASSED')], report.text

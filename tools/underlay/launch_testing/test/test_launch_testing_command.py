@@ -30,7 +30,7 @@ def generate_test_description(code):
 
 class TestIt(unittest.TestCase):
     def test_word(self, proc_output, test_args):
-        proc_output.assertWaitFor(test_args['word'], timeout=30)
+        proc_output.assertWaitFor(test_args['word'], timeout=100)
     def test_code(self, code):
         assert code == 0, 'wrong code'
 """

@@ -24,10 +24,10 @@ def generate_test_description():
 
 class TestIt(unittest.TestCase):
     def test_output(self, proc_output, proc_info, talker, test_args):
-        proc_output.assertWaitFor('hello', process=talker, timeout=30)
-        proc_output.assertWaitFor('oops', process=self.talker, timeout=30, stream='stderr')
-        proc_output.assertWaitFor(test_args['word'], process='echo', timeout=30)
-        proc_info.assertWaitForShutdown(process='echo', timeout=30)
+        proc_output.assertWaitFor('hello', process=talker, timeout=100)
+        proc_output.assertWaitFor('oops', process=self.talker, timeout=100, stream='stderr')
+        proc_output.assertWaitFor(test_args['word'], process='echo', timeout=100)
+        proc_info.assertWaitForShutdown(process='echo', timeout=100)
         assert not proc_info.waitForShutdown(talker, timeout=0.01)
 
 @launch_testing.post_shutdown_test()
@@ -80,7 +80,7 @@ def generate_test_description():
     return LaunchDescription([ExecuteProcess(cmd=['true']), ReadyToTest()])
 
 class TestIt(unittest.TestCase):
-    def test_a(self, proc_info): proc_info.assertWaitForShutdown('true', timeout=30)
+    def test_a(self, proc_info): proc_info.assertWaitForShutdown('true', timeout=100)
     def test_b(self, proc_info): pass
 """
     )
@@ -223,7 +223,7 @@ class TestIt(unittest.TestCase):
     def test_end(self, launch_service, proc_info, proc_output):
         action = ExecuteProcess(cmd=['sh', '-c', 'echo a; echo b >&2; exit 3'])
         with launch_process(launch_service, action, proc_info, proc_output) as process:
-            assert process.wait_for_shutdown(timeout=30)
+            assert process.wait_for_shutdown(timeout=100)
         assert process.terminated and process.exit_code == 3
         assert (process.stdout, process.stderr) == ('a\\n', 'b\\n')
 
@@ -231,7 +231,7 @@ class TestIt(unittest.TestCase):
         with launch_process(
             launch_service, TALKER, proc_info, proc_output, output_filter=str.upper
         ) as process:
-            assert process.wait_for_output(lambda text: 'HELLO' in text, timeout=30)
+            assert process.wait_for_output(lambda text: 'HELLO' in text, timeout=100)
             assert process.running
             with self.assertRaises(RuntimeError): process.exit_code
         assert process.exit_code == 0

@@ -28,7 +28,7 @@ def generate_test_description():
 
 class TestIt(unittest.TestCase):
     def test_domain(self, proc_output):
-        proc_output.assertWaitFor('domain ' + os.environ['ROS_DOMAIN_ID'], timeout=30)
+        proc_output.assertWaitFor('domain ' + os.environ['ROS_DOMAIN_ID'], timeout=100)
 """
 
 

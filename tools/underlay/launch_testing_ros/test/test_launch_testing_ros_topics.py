@@ -14,7 +14,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Int32, String
 
-TIMEOUT_S = 20.0
+TIMEOUT_S = 100.0
 
 
 @pytest.fixture

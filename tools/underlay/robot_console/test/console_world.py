@@ -115,7 +115,7 @@ class Client:
     def say(self, message: Any) -> dict[str, Any]:
         """Send something, and return the answer."""
         self.connection.send(json.dumps(message))
-        return json.loads(self.connection.recv(timeout=20))
+        return json.loads(self.connection.recv(timeout=100))
 
     def close(self) -> None:
         """Disconnect in order."""

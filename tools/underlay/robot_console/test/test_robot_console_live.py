@@ -56,7 +56,7 @@ class Desk:
 
 def heard(client: ClientConnection) -> Any:
     """Return what a browser is told next."""
-    return json.loads(client.recv(timeout=20))
+    return json.loads(client.recv(timeout=100))
 
 
 @pytest.fixture
@@ -95,7 +95,7 @@ def test_odd_texts(desk: Desk, text: str | bytes) -> None:
     odd, other = desk.visit(), desk.visit()
     odd.send(text)
     with pytest.raises(ConnectionClosedError):
-        odd.recv(timeout=20)
+        odd.recv(timeout=100)
     desk.wait_until(lambda: len(desk.channel.viewers) == 1, 'still there')
     desk.channel.tell(fine=True)
     assert heard(other) == {'fine': True}
@@ -122,9 +122,9 @@ def test_end(desk: Desk) -> None:
     client, late = desk.visit(), connect(desk.url)
     desk.channel.end()
     with pytest.raises(ConnectionClosed):
-        client.recv(timeout=20)
+        client.recv(timeout=100)
     time.sleep(0.2)
     desk.queue.run()
     with pytest.raises(ConnectionClosed):
-        late.recv(timeout=20)
+        late.recv(timeout=100)
     assert desk.channel.viewers == []

@@ -240,7 +240,7 @@ def test_service_that_does_not_answer(world: LiveWorld) -> None:
 def test_small_page(world: LiveWorld, name: str) -> None:
     """The pages are complete, and ask nobody else for anything."""
     world.visit(name)
-    connection = HTTPConnection('127.0.0.1', world.page.port, timeout=30)
+    connection = HTTPConnection('127.0.0.1', world.page.port, timeout=100)
     connection.request('GET', f'/{name}')
     text = connection.getresponse().read().decode()
     assert 'class Feed' in text and '--line:' in text and '.split' in text

@@ -162,7 +162,7 @@ def test_other_file(world: World) -> None:
         panel.close()
     for page in (old, drive):
         with pytest.raises(ConnectionClosed):
-            page.connection.recv(timeout=20)
+            page.connection.recv(timeout=100)
     for panel in world.panels:
         panel.start()
     new = world.visit('safety')
@@ -190,7 +190,7 @@ def test_wrong_text(world: World, text: str) -> None:
     page = world.visit('drive')
     page.connection.send(text)
     with pytest.raises(ConnectionClosedError):
-        page.connection.recv(timeout=20)
+        page.connection.recv(timeout=100)
     assert world.visit('drive').say({'do': 'beat'})['velocity'] is None
     assert world.twists() == []
 
@@ -199,7 +199,7 @@ def test_wrong_text(world: World, text: str) -> None:
 def test_small_page(world: World, name: str) -> None:
     """The pages are complete, ask nobody else for anything, and know their topic."""
     host, _, path = world.url(name).partition('/')
-    connection = HTTPConnection(host, timeout=30)
+    connection = HTTPConnection(host, timeout=100)
     connection.request('GET', f'/{path}')
     text = connection.getresponse().read().decode()
     assert 'class Link' in text and '--line:' in text and 'http://' not in text
@@ -224,6 +224,6 @@ def test_page_that_says_too_much(world: World) -> None:
     for _ in range(300):
         drive.connection.send(json.dumps(PUSH))
     assert other.say({'do': 'stop'})['stop']['pressed']
-    answers = [json.loads(drive.connection.recv(timeout=30)) for _ in range(300)]
+    answers = [json.loads(drive.connection.recv(timeout=100)) for _ in range(300)]
     assert time.monotonic() - start_s > 1.0
     assert 'emergency stop' in answers[-1]['refusal']

@@ -277,7 +277,7 @@ def test_bad_file_ends_with_its_place(programs: Programs, tmp_path: Path) -> Non
     file = tmp_path / 'broken.urdf'
     file.write_text(BROKEN)
     program = programs.start(MODULE, str(file))
-    assert program.process.wait(30) == 1
+    assert program.process.wait(100) == 1
     assert program.output == (
         f"{file}:3: The child of joint 'shoulder' is link 'uper', which does not exist. "
         "Did you mean 'upper'?\n"
@@ -298,6 +298,6 @@ def test_bad_file_ends_with_its_place(programs: Programs, tmp_path: Path) -> Non
 def test_cannot_start(programs: Programs, words, parameters, sentence) -> None:
     """What is missing or wrong at the start is a sentence and status 1."""
     program = programs.start(MODULE, *words, **parameters)
-    assert program.process.wait(30) == 1
+    assert program.process.wait(100) == 1
     assert sentence in program.output
     assert 'Traceback' not in program.output

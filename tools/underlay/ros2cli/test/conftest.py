@@ -17,7 +17,7 @@ from ros2cli.cli import main
 ROOT = Path(__file__).parents[1]
 # For what several test modules share.
 sys.path.insert(0, str(Path(__file__).parent))
-TIMEOUT_S = 30.0
+TIMEOUT_S = 100.0
 
 
 @pytest.fixture(scope='session')

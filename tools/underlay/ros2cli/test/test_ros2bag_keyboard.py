@@ -46,7 +46,7 @@ def test_keys_pause_step_and_change_the_rate(
         os.write(ours, key)
         _expect(process, line)
     os.write(ours, b'\x03')
-    assert process.wait(timeout=30.0) == 2
+    assert process.wait(timeout=100) == 2
     assert termios.tcgetattr(theirs)[3] == before[3]
 
 

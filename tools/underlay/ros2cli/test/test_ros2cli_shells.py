@@ -20,7 +20,7 @@ import pytest
 
 SCRIPTS = Path(__file__).parents[1] / 'completion'
 PROMPT = 'ready> '
-TIMEOUT_S = 30.0
+TIMEOUT_S = 100.0
 INTERRUPT = '\x03'
 DELETE_LINE = '\x15'
 

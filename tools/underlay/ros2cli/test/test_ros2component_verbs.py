@@ -139,7 +139,7 @@ def test_standalone_ends_with_its_container(
         "Loaded component 1 into '/solo' container node as '/demo::talker'\n"
     )
     process.send_signal(signal.SIGINT)
-    assert process.wait(timeout=20.0) == 2
+    assert process.wait(timeout=100) == 2
     with pytest.raises(ProcessLookupError):
         os.kill(pid, 0)
 

@@ -276,7 +276,7 @@ def test_signal_ends_all(sent: signal.Signals, start_ros2: Start, arm: dict[str,
         assert line
     child = int(line.split()[-1])
     process.send_signal(sent)
-    output, errors = process.communicate(timeout=20.0)
+    output, errors = process.communicate(timeout=100)
     assert (process.returncode, errors) == (0, ''), output
     with pytest.raises(ProcessLookupError):
         os.kill(child, 0)

@@ -85,7 +85,7 @@ def test_status_passes_through(
 ) -> None:
     """The status of the child becomes ours, and is explained."""
     process = start_ros2('run', 'arm', name, extra=arm)
-    output, errors = process.communicate(timeout=20.0)
+    output, errors = process.communicate(timeout=100)
     assert (process.returncode % 256, output, errors) == (status, text, '')
 
 
@@ -99,7 +99,7 @@ def test_signal_reaches_child(
     process = start_ros2('run', 'arm', 'catcher', extra=arm)
     assert process.stdout.readline() == 'ready\n'
     process.send_signal(sent)
-    output, errors = process.communicate(timeout=20.0)
+    output, errors = process.communicate(timeout=100)
     assert output == f'got {sent.name}\n[ros2run]: Process exited with failure 7\n'
     assert (process.returncode, errors) == (7, '')
 

@@ -250,7 +250,7 @@ def test_closed_pipe_ends_quietly(start_ros2: Start) -> None:
     process = start_ros2('topic', 'echo', '/joint_commands')
     assert process.stdout.readline() == 'header:\n'
     process.stdout.close()
-    assert process.wait(timeout=20.0) == 128 + signal.SIGPIPE
+    assert process.wait(timeout=100) == 128 + signal.SIGPIPE
     assert process.stderr.read() == ''
 
 
@@ -260,5 +260,5 @@ def test_signal_ends_echo_quietly(sent: signal.Signals, status: int, start_ros2:
     process = start_ros2('topic', 'echo', '/joint_commands', '--csv')
     assert process.stdout.readline() == '0,0,,left,right,0.25,-0.5\n'
     process.send_signal(sent)
-    assert process.wait(timeout=20.0) == status
+    assert process.wait(timeout=100) == status
     assert process.stderr.read() == ''

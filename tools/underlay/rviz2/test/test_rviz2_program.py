@@ -18,7 +18,7 @@ from domain_coordinator import domain_id
 import pytest
 
 FILE = 'Visualization Manager:\n  Displays:\n    - Class: a/B\n      Name: Unknown\n'
-PATIENCE_S = 30.0
+PATIENCE_S = 100.0
 
 
 class Program:

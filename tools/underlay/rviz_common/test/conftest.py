@@ -16,7 +16,7 @@ from rviz_common.page import Page
 from rviz_common.visualizer import Visualizer
 
 FILES = Path(__file__).parent / 'files'
-PATIENCE_S = 30.0
+PATIENCE_S = 100.0
 
 
 @pytest.fixture(scope='session')

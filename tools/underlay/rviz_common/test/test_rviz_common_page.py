@@ -28,7 +28,7 @@ def page() -> Iterator[Page]:
 
 def ask(page: Page, path: str = '/', **headers: str) -> HTTPResponse:
     """Return the answer to a request."""
-    connection = HTTPConnection('127.0.0.1', page.port, timeout=30)
+    connection = HTTPConnection('127.0.0.1', page.port, timeout=100)
     connection.request('GET', path, headers=headers)
     return connection.getresponse()
 
@@ -68,7 +68,7 @@ def test_evil_origin(page: Page) -> None:
         assert refused.value.response.status_code == 403
     own = Origin(f'http://127.0.0.1:{page.port}')
     with connect(url, origin=own, subprotocols=[PROTOCOL]) as client:
-        assert client.recv(timeout=30)
+        assert client.recv(timeout=100)
 
 
 def test_token() -> None:
@@ -145,7 +145,7 @@ def test_route(page: Page) -> None:
     url = f'ws://127.0.0.1:{page.port}/echo'
     with connect(url, origin=Origin(f'http://127.0.0.1:{page.port}')) as client:
         client.send('hello')
-        assert client.recv(timeout=30) == 'hello'
+        assert client.recv(timeout=100) == 'hello'
     with pytest.raises(InvalidStatus):
         connect(url, origin=Origin('http://evil.example'))
     with pytest.raises(ValueError, match="something at '/echo' already"):
@@ -164,7 +164,7 @@ def test_failing_route(page: Page) -> None:
     page.routes.add('/fail', Route('', fail))
     with connect(f'ws://127.0.0.1:{page.port}/fail') as client:
         with pytest.raises(ConnectionClosedError):
-            client.recv(timeout=30)
+            client.recv(timeout=100)
     assert ask(page).status == 200
 
 
@@ -172,7 +172,7 @@ def test_foreign_protocol(page: Page) -> None:
     """A client that does not speak viser's language is sent away; the page goes on."""
     with connect(f'ws://127.0.0.1:{page.port}') as client:
         with pytest.raises(ConnectionClosed):
-            client.recv(timeout=30)
+            client.recv(timeout=100)
     assert ask(page).status == 200
 
 
@@ -188,7 +188,7 @@ def test_foreign_protocol(page: Page) -> None:
 def test_headers_that_come_twice(page: Page, headers: tuple[str, ...], status: bytes) -> None:
     """Cookies may come in several headers; a second host or origin makes no friend."""
     lines = ['GET / HTTP/1.1', 'Host: 127.0.0.1:{port}', *headers, '', '']
-    with socket.create_connection(('127.0.0.1', page.port), timeout=30) as client:
+    with socket.create_connection(('127.0.0.1', page.port), timeout=100) as client:
         client.sendall('\r\n'.join(lines).format(port=page.port).encode())
         assert client.recv(1000).split()[1] == status
 

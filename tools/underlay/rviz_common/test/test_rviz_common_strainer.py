@@ -115,4 +115,4 @@ def test_large_messages(page: Page) -> None:
         browser.send(b'x' * 3_000_000)
         with pytest.raises(ConnectionClosed, match='1009'):
             while True:
-                browser.recv(timeout=20)
+                browser.recv(timeout=100)

@@ -18,7 +18,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 sys.path.insert(0, str(Path(__file__).parents[2] / 'tf2_py' / 'test'))
-TIMEOUT_S = 30.0
+TIMEOUT_S = 100.0
 
 
 @pytest.fixture(scope='session')

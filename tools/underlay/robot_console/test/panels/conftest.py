@@ -19,7 +19,7 @@ from rviz_common.panel import Panel
 from rviz_common.work_queue import WorkQueue
 from tf2_ros import Buffer
 
-PATIENCE_S = 30.0
+PATIENCE_S = 100.0
 Show = Callable[..., Any]
 
 

@@ -19,7 +19,7 @@ from tf2_ros import Buffer
 
 __all__ = ['Stage', 'page', 'stage']
 
-TIMEOUT_S = 30.0
+TIMEOUT_S = 100.0
 
 
 class NotingNode:
