@@ -149,7 +149,9 @@ def tools() -> Suite:
 
 
 if __name__ == '__main__':
-    # A shell that starts this in the background lets it ignore Ctrl-C, and with it all tests.
+    # A shell that starts this in the background lets it ignore Ctrl-C, and nohup lets it ignore
+    # SIGHUP, and with it all tests.
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
     for stop in (signal.SIGINT, signal.SIGTERM):
         signal.signal(stop, signal.default_int_handler)
     os.chdir(ROOT)
