@@ -9,6 +9,8 @@
 - Every program that imports a message loads the generator of messages, with a parser of IDL.
 - The program xacro says of an error neither the line nor, in some cases, anything but a traceback:
   that of the underlay takes its place, and uses the module of the wheel.
+- The page's server, viser, sets an event of its event loop from other threads. Set in the moment
+  before somebody waits for it, it wakes nobody, then or later: the page stands still for good.
 - bin/activate, which Python users source, knows nothing of the variables of ROS.
 """
 
@@ -36,6 +38,11 @@ elif [ -n "${ZSH_VERSION:-}" ] && [ -f "$VIRTUAL_ENV/setup.zsh" ]; then
     . "$VIRTUAL_ENV/setup.zsh"
 fi
 """
+SET_FROM_OTHER_THREAD = """\
+            self.message_event.set()
+            if self.atomic_counter == 0:"""
+SET_IN_EVENT_LOOP = """\
+            if self.atomic_counter == 0:"""
 GENERATOR_IMPORT = re.compile(r'try:\n    from \.generate_py_impl import .*', re.DOTALL)
 GENERATOR_WHEN_NEEDED = """\
 def __getattr__(name):
@@ -62,6 +69,8 @@ def mend_wheels(environment: Path, include: str, site_packages: Path) -> None:
     _rewrite(hook, lambda text: START_UP_HOOK)
     generator = site_packages / 'rosidl_generator_py' / '__init__.py'
     _rewrite(generator, lambda text: GENERATOR_IMPORT.sub(GENERATOR_WHEN_NEEDED, text))
+    buffer = site_packages / 'viser' / 'infra' / '_async_message_buffer.py'
+    _rewrite(buffer, lambda text: text.replace(SET_FROM_OTHER_THREAD, SET_IN_EVENT_LOOP))
     xacro = environment / 'bin' / 'xacro'
     _rewrite(xacro, lambda text: text.replace('from xacro import', 'from xacro_program import'))
     activate = environment / 'bin' / 'activate'

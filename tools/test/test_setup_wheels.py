@@ -12,6 +12,14 @@ from mend import link_libraries, mend_wheels
 import pytest
 from wheels import incomplete_distributions, pinned_names
 
+VISER = """\
+    def push(self, message):
+        with self.buffer_lock:
+            self.message_event.set()
+            if self.atomic_counter == 0:
+                self.event_loop.call_soon_threadsafe(self.message_event.set)
+"""
+
 
 @pytest.fixture
 def packages(tmp_path: Path) -> Path:
@@ -100,6 +108,8 @@ def write_wheels(environment: Path, packages: Path) -> None:
     xacro = environment / 'bin' / 'xacro'
     xacro.write_text(program)
     xacro.chmod(0o755)
+    (packages / 'viser' / 'infra').mkdir(parents=True)
+    (packages / 'viser' / 'infra' / '_async_message_buffer.py').write_text(VISER)
     generator = packages / 'rosidl_generator_py'
     generator.mkdir()
     (generator / 'generate_py_impl.py').write_text("print('loaded')\ngenerate_py = len\n")
@@ -125,6 +135,15 @@ def test_generator_is_loaded_when_it_is_used(tmp_path: Path, packages: Path) -> 
         [sys.executable, '-c', code], cwd=packages, capture_output=True, text=True, check=True
     )
     assert result.stdout.split() == ['imported', 'loaded', '0', 'False']
+
+
+def test_event_of_a_loop_is_set_in_it(tmp_path: Path, packages: Path) -> None:
+    """Not from another thread, where nobody would be woken."""
+    write_wheels(tmp_path, packages)
+    for _ in range(2):
+        mend_wheels(tmp_path, '', packages)
+    buffer = packages / 'viser' / 'infra' / '_async_message_buffer.py'
+    assert buffer.read_text() == VISER.replace('            self.message_event.set()\n', '', 1)
 
 
 def test_bundled_libraries_are_linked(tmp_path: Path, packages: Path) -> None:
