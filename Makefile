@@ -16,7 +16,7 @@ SETUP := $(PYTHON) tools/setup
 RUN := tools/foreground tools/in_environment
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build bringup run test check fix bench soak docs pictures lock clean distclean
+.PHONY: help setup prepare build bringup demo run test check fix bench soak trials stories docs pictures lock clean distclean
 
 help: ## Show this list
 	@echo 'The humanoid workspace. Each command makes what it needs.'
@@ -25,13 +25,22 @@ help: ## Show this list
 setup: ## Make the environment in .venv (VENV=/other/place keeps it elsewhere)
 	@$(SETUP) setup
 
+prepare: export ASKED_FOR = $(ARGS)
+prepare: # what bringup and run need: other messages, and what ARGS does not name, wait for setup
+	@$(SETUP) prepare
+
 build: ## Build src/ with colcon (COLCON_ARGS='--packages-select NAME')
 	@$(SETUP) build $(COLCON_ARGS)
 
-bringup: build ## Start the humanoid, print its page (ARGS='gui:=false'); Ctrl-C ends it
+bringup: prepare ## Start the humanoid, print its page (ARGS='gui:=false'); Ctrl-C ends it
 	@$(RUN) ros2 launch humanoid_bringup bringup.launch.py $(ARGS)
 
-run: build ## Run a ros2 command: make run ARGS='topic list'
+demo: export ASKED_FOR = full_system $(ARGS)
+demo: ## Start everything: tell the robot what to do (ARGS='gui:=false'); Ctrl-C ends it
+	@$(SETUP) prepare
+	@$(RUN) ros2 launch humanoid_bringup full_system.launch.py $(ARGS)
+
+run: prepare ## Run a ros2 command: make run ARGS='topic list'
 	@$(RUN) ros2 $(ARGS)
 
 test: build ## Run every test: all packages, then the tools
@@ -47,7 +56,7 @@ fix: setup ## Format the code and mend what ruff can
 	@tools/in_environment --underlay ruff format .
 	@tools/in_environment --underlay ruff check --fix .
 
-bench: build ## Measure what commands, launches, bags, transforms, RViz and physics cost
+bench: build ## Measure what commands, launches, bags, transforms, RViz, physics, navigation and perception cost
 	@$(RUN) python3 tools/benchmarks/command_times.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/launch_times.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/prefork_times.py $(ARGS)
@@ -56,10 +65,20 @@ bench: build ## Measure what commands, launches, bags, transforms, RViz and phys
 	@$(RUN) python3 tools/benchmarks/robot_state_publisher.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/tf2_lookups.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/rviz.py $(ARGS)
+	@$(RUN) python3 tools/benchmarks/bringup_cost.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/simulation.py $(ARGS)
+	@$(RUN) python3 tools/benchmarks/navigation.py $(ARGS)
+	@$(RUN) python3 tools/benchmarks/perception.py $(ARGS)
 
 soak: build ## Let the humanoid walk for 20 minutes under bad conditions
 	@$(RUN) python3 tools/benchmarks/walking_soak.py $(ARGS)
+
+trials: build ## Let the humanoid walk into 200 obstacles
+	@$(RUN) python3 tools/benchmarks/obstacle_trials.py $(ARGS)
+
+stories: build ## Run the stories that take too long for make test
+	@$(SETUP) tests
+	@$(RUN) python3 -m pytest -o python_files='story_*.py' src $(ARGS)
 
 docs: build ## Write docs/reference anew from the code, the commands and the launch files
 	@tools/in_environment python3 tools/reference/generate.py

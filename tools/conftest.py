@@ -1,11 +1,61 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-What all tests of tools/ need: that Ctrl-C works in the processes which they start.
+What all tests of tools/ need, in one process or, as `make test` runs them, in several.
 
-A shell that starts the tests in the background lets them ignore it, and all that they start.
+A process has a DDS domain, a log folder and a working Ctrl-C of its own. With several, the tests
+of a file stay together.
 """
 
-import signal
+from __future__ import annotations
 
+from collections.abc import Iterator
+from pathlib import Path
+import signal
+from typing import Any
+
+from domain_coordinator import domain_id
+import pytest
+
+SHARE_NOTHING = ('test_docs.py',)
+
+# A shell that starts the tests in the background lets them, and all that they start, ignore it.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.fixture(scope='session', autouse=True)
+def _of_its_own(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Keep what this process starts apart from what others do: its nodes and its logs."""
+    with domain_id() as domain, pytest.MonkeyPatch.context() as patch:
+        patch.setenv('ROS_DOMAIN_ID', str(domain))
+        patch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+        patch.setenv('ROS_LOG_DIR', str(tmp_path_factory.mktemp('log')))
+        yield
+
+
+def pytest_make_parametrize_id(val: object, argname: str) -> str | None:
+    """Keep what is long out of the names of tests, which processes tell each other."""
+    return f'{argname}_of_{len(val)}' if isinstance(val, (str, bytes)) and len(val) > 200 else None
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """With `--dist loadfile`, hand out tests by what they have in common."""
+    if config.getvalue('dist') != 'loadfile':
+        return None
+    from xdist.scheduler import LoadFileScheduling
+
+    class Shared(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            return shared(nodeid)
+
+    return Shared(config, log)
+
+
+def shared(nodeid: str) -> str:
+    """Return what a test shares with those that stay in its process: for most it is their file."""
+    file = nodeid.partition('::')[0]
+    name = Path(file).name
+    if 'browser' in name:
+        return 'browser'  # drawing without a graphics card takes all processors: one at a time
+    return nodeid if name in SHARE_NOTHING else file

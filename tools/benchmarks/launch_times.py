@@ -2,7 +2,9 @@
 """Measure what a launch costs: to start processes, to end them, to show arguments, to import.
 
 `make bench ARGS='--runs 10'`. Times are medians. The first row is a Python that does nothing,
-on this machine and now: compare the others with it, for machines differ and are busy.
+on this machine and now: compare the others with it, for machines differ and are busy. With
+`--against FOLDER` whole launches also run in the built workspace there, in turn, and the ratio is
+printed.
 """
 
 from __future__ import annotations
@@ -11,15 +13,19 @@ import argparse
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+import shlex
 import signal
 import subprocess
 import sys
 import tempfile
 import time
 
+from arguments import built_workspace
+from comparing import print_comparison
 from measuring import COST_HEADER, median_cost, median_of
 
 COUNTS = (1, 10, 100)
+SHOW_ARGUMENTS = 'ros2 launch humanoid_bringup bringup.launch.py --show-args'
 STARTED = b'process started with pid'
 LAUNCH_FILE = """
 from launch import LaunchDescription
@@ -46,7 +52,15 @@ def main() -> None:
     """Measure and print the tables."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--runs', type=int, default=5, help='counted runs of each row')
-    runs = parser.parse_args().runs
+    parser.add_argument(
+        '--against', type=built_workspace, metavar='FOLDER', help='another built workspace'
+    )
+    args = parser.parse_args()
+    if args.against:
+        with tempfile.TemporaryDirectory() as folder:
+            print_comparison(whole_launches(Path(folder)), args.against, args.runs)
+        return
+    runs = args.runs
     print(f'Python {sys.version.split()[0]}, median of {runs} runs after one that is not counted')
     with tempfile.TemporaryDirectory() as folder:
         print_whole_launches(Path(folder), runs)
@@ -54,16 +68,20 @@ def main() -> None:
     print_imports(runs)
 
 
-def print_whole_launches(folder: Path, runs: int) -> None:
-    """Print what commands cost from their start to their end."""
-    show = 'ros2 launch humanoid_bringup bringup.launch.py --show-args'
-    print(f'\n{COST_HEADER}  command')
-    print(f'{median_cost(["python3", "-c", "pass"], runs)}  python3 -c pass')
-    print(f'{median_cost(show.split(), runs)}  {show}')
+def whole_launches(folder: Path) -> Iterator[tuple[str, str]]:
+    """Yield commands that end by themselves, and what they are called in a table."""
+    for command in ('python3 -c pass', SHOW_ARGUMENTS):
+        yield command, command
     for count in COUNTS:
         file = launch_file(folder, count, '/bin/true', '')
-        cost = median_cost(['ros2', 'launch', file], runs)
-        print(f'{cost}  ros2 launch of {count} x /bin/true', flush=True)
+        yield shlex.join(['ros2', 'launch', file]), f'ros2 launch of {count} x /bin/true'
+
+
+def print_whole_launches(folder: Path, runs: int) -> None:
+    """Print what commands cost from their start to their end."""
+    print(f'\n{COST_HEADER}  command')
+    for command, name in whole_launches(folder):
+        print(f'{median_cost(shlex.split(command), runs)}  {name}', flush=True)
 
 
 def print_start_and_end(folder: Path, runs: int) -> None:

@@ -65,7 +65,23 @@ def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
             process.terminate()
 
 
-def cpu_s(process: subprocess.Popen[bytes]) -> float:
+def cpu_s(process: int) -> float:
     """Return the CPU time that a process has used so far."""
-    fields = Path(f'/proc/{process.pid}/stat').read_text().rpartition(')')[2].split()
+    fields = Path(f'/proc/{process}/stat').read_text().rpartition(')')[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
+
+
+def memory_mb(process: int) -> float:
+    """Return the memory of a process that is in RAM, with all that it shares (RSS)."""
+    pages = int(Path(f'/proc/{process}/statm').read_text().split()[1])
+    return pages * os.sysconf('SC_PAGE_SIZE') / 1e6
+
+
+def child_of(parent: int, executable: str) -> int:
+    """Return the child, or the process itself, that runs an executable of a name."""
+    children = Path(f'/proc/{parent}/task/{parent}/children').read_text().split()
+    for number in (*children, str(parent)):
+        words = Path(f'/proc/{number}/cmdline').read_bytes().split(b'\0')
+        if any(word.endswith(f'/{executable}'.encode()) for word in words[:2]):
+            return int(number)
+    raise SystemExit(f'Process {parent} has started no {executable}.')

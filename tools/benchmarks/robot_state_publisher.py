@@ -85,10 +85,10 @@ def share_of(command: list[str], rate_hz: int) -> tuple[float, float]:
     """Return what share of a core a node takes while it hears states, and the tf it sends."""
     with running(command) as process, sender() as (node, states):
         send(node, states, rate_hz, SETTLE_S)
-        begin_s, begin_cpu_s = time.monotonic(), cpu_s(process)
+        begin_s, begin_cpu_s = time.monotonic(), cpu_s(process.pid)
         heard = send(node, states, rate_hz, SECONDS)
         wall_s = time.monotonic() - begin_s
-        return (cpu_s(process) - begin_cpu_s) / wall_s, heard / wall_s
+        return (cpu_s(process.pid) - begin_cpu_s) / wall_s, heard / wall_s
 
 
 @contextmanager

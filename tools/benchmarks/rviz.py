@@ -14,7 +14,6 @@ import os
 from pathlib import Path
 import socket
 from statistics import median
-import subprocess
 import sys
 import tempfile
 from threading import Thread
@@ -22,7 +21,7 @@ import time
 from typing import Any, NamedTuple
 
 from domain_coordinator import domain_id
-from measuring import cpu_s, running
+from measuring import cpu_s, memory_mb, running
 import msgspec
 from rviz_robots import JOINTS
 import viser
@@ -36,6 +35,18 @@ TF_HZ = 100
 SECONDS = 10.0
 SETTLE_S = 4.0
 TIMEOUT_S = 60.0
+CAMERA = {
+    'wxyz': (1.0, 0.0, 0.0, 0.0),
+    'position': (1.0, 1.0, 1.0),
+    'fov': 1.0,
+    'near': 0.1,
+    'far': 100.0,
+    'image_height': 800,
+    'image_width': 1200,
+    'look_at': (0.0, 0.0, 0.0),
+    'up_direction': (0.0, 0.0, 1.0),
+}
+"""What a browser says first of all; RViz rests until one has."""
 
 
 class Cost(NamedTuple):
@@ -121,13 +132,13 @@ def measure(file: Path, count: int) -> Cost:
     ):
         visitor = Visitor(page)
         time.sleep(SETTLE_S)
-        begin_s, begin_cpu_s = time.monotonic(), cpu_s(process)
+        begin_s, begin_cpu_s = time.monotonic(), cpu_s(process.pid)
         size, frames = visitor.size, visitor.frames
         time.sleep(SECONDS)
         wall_s = time.monotonic() - begin_s
         return Cost(
-            (cpu_s(process) - begin_cpu_s) / wall_s,
-            memory_mb(process),
+            (cpu_s(process.pid) - begin_cpu_s) / wall_s,
+            memory_mb(process.pid),
             (visitor.size - size) / wall_s / 1000,
             (visitor.frames - frames) / wall_s,
         )
@@ -145,6 +156,7 @@ def connection(port: int) -> Iterator[ClientConnection]:
                 max_size=None,
                 compression=None,
             ) as page:
+                page.send(msgspec.msgpack.encode({'type': 'ViewerCameraMessage', **CAMERA}))
                 yield page
                 return
         except OSError:
@@ -158,12 +170,6 @@ def free_port() -> int:
     with socket.socket() as probe:
         probe.bind(('127.0.0.1', 0))
         return int(probe.getsockname()[1])
-
-
-def memory_mb(process: subprocess.Popen[bytes]) -> float:
-    """Return the memory that a process has for itself."""
-    pages = int(Path(f'/proc/{process.pid}/statm').read_text().split()[1])
-    return pages * os.sysconf('SC_PAGE_SIZE') / 1e6
 
 
 def rviz_file(count: int, rate_hz: int) -> str:

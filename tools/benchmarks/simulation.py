@@ -3,6 +3,8 @@
 
 `make bench ARGS='--runs 5'`. The first table is of lockstep without ROS; the times are CPU time of
 one thread. The second one starts the simulator, drives it by `cmd_vel`, and reads its CPU time.
+The third one is of the laser scanner: sweeps by themselves, and what the simulator takes with them
+and without.
 """
 
 from __future__ import annotations
@@ -14,19 +16,24 @@ import time
 from typing import TypeVar
 
 from humanoid_control.walking import VelocityCommand
-from humanoid_simulation.backend import BackendSettings
+from humanoid_simulation.backend import BackendSettings, MujocoBackend
+from humanoid_simulation.laser import LaserScanner, ScanNoise
+from humanoid_simulation.scene import load_scene
 from humanoid_simulation.testing.lockstep_robot import LockstepRobot
+import mujoco
 from simulator_run import Share, simulator_share
 
 T = TypeVar('T')
 FORWARD_M_S = 0.25
 SETTLE_TICKS = 200
 TICKS = 1000
+SWEEPS = 200
+SCENES = ('flat', 'room', 'apartment')
 FACTORS = {1.0: 'in real time', 0.0: 'as fast as possible'}
 
 
 def main() -> None:
-    """Measure and print two tables."""
+    """Measure and print the tables."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--runs', type=int, default=3, help='runs of each row')
     runs = parser.parse_args().runs
@@ -34,6 +41,14 @@ def main() -> None:
     print(f'\n{"CPU %":>7} {"faster":>7}  the simulator while it walks, median of {runs} runs')
     for factor, what in FACTORS.items():
         print_share([simulator_share(factor, FORWARD_M_S) for _ in range(runs)], what)
+    print(f'\n{"CPU us":>7}  of a sweep of the laser scanner, least of {SWEEPS}')
+    for scene in SCENES:
+        print(f'{sweep_us(scene):7.0f}  {scene}', flush=True)
+    print(f'\n{"CPU %":>7} {"faster":>7}  the simulator in the scene {SCENES[-1]}, in real time')
+    for scans, what in ((False, 'without the laser scanner'), (True, 'with it, at 10 Hz')):
+        print_share(
+            [simulator_share(1.0, FORWARD_M_S, SCENES[-1], scans) for _ in range(runs)], what
+        )
 
 
 def print_costs(runs: list[dict[str, float]]) -> None:
@@ -52,6 +67,21 @@ def print_share(runs: list[Share], what: str) -> None:
     """Print what share of a core the simulator takes, and how fast its time runs."""
     cpu, factor = median(run.cpu for run in runs), median(run.factor for run in runs)
     print(f'{cpu:7.1%} {factor:7.2f}  {what}', flush=True)
+
+
+def sweep_us(scene: str) -> float:
+    """Return what a sweep takes, with noise, by the state of a robot that stands in a scene."""
+    backend = MujocoBackend(scene=load_scene(scene))
+    model, data = backend.model, mujoco.MjData(backend.model)
+    scanner = LaserScanner(model, 'robot/laser', noise=ScanNoise(0.01, 0.002))
+    spent_s = []
+    for time_ns in range(SWEEPS):
+        begin_s = time.process_time()
+        data.qpos[:] = backend.data.qpos
+        mujoco.mj_kinematics(model, data)
+        scanner.sweep(data, time_ns)
+        spent_s.append(time.process_time() - begin_s)
+    return min(spent_s) * 1e6
 
 
 class TickCosts:

@@ -14,8 +14,10 @@ from typing import Any
 
 from domain_coordinator import domain_id
 from geometry_msgs.msg import Twist
+from humanoid_common.qos import SENSOR
 from measuring import cpu_s, running
 import rclpy
+from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Float64
 
 SECONDS = 10.0
@@ -32,23 +34,35 @@ class Share:
     factor: float
 
 
-def simulator_share(real_time_factor: float, forward_m_s: float) -> Share:
-    """Start the simulator without a camera, let the robot walk, and measure."""
+def simulator_share(
+    real_time_factor: float, forward_m_s: float, scene: str = 'flat', scans: bool = False
+) -> Share:
+    """
+    Start the simulator without a camera, let the robot walk, and measure.
+
+    `scans` subscribes to the laser scanner, which costs nothing otherwise.
+    """
     with domain_id() as domain:
         os.environ['ROS_DOMAIN_ID'] = str(domain)
-        command = _simulator(real_time_factor)
+        command = _simulator(real_time_factor, scene)
         with running(command) as process, _driver(forward_m_s) as driver:
+            if scans:
+                driver.listen_to_scans()
             driver.wait_for_factor()
             driver.drive(SETTLE_S)
-            begin_s, begin_cpu_s = time.monotonic(), cpu_s(process)
+            begin_s, begin_cpu_s = time.monotonic(), cpu_s(process.pid)
             factors = driver.drive(SECONDS)
             wall_s = time.monotonic() - begin_s
-            return Share((cpu_s(process) - begin_cpu_s) / wall_s, mean(factors))
+            return Share((cpu_s(process.pid) - begin_cpu_s) / wall_s, mean(factors))
 
 
-def _simulator(real_time_factor: float) -> list[str]:
+def _simulator(real_time_factor: float, scene: str) -> list[str]:
     """Return the command of a simulator that draws no camera images."""
-    settings = {'real_time_factor': real_time_factor, 'camera_rate_hz': 0.0}
+    settings = {
+        'real_time_factor': real_time_factor,
+        'camera_rate_hz': 0.0,
+        'scene': scene,
+    }
     command = [sys.executable, '-m', 'humanoid_simulation.starting', '--ros-args']
     for name, value in settings.items():
         command += ['-p', f'{name}:={value}']
@@ -68,6 +82,10 @@ class _Driver:
         node.create_subscription(
             Float64, 'real_time_factor', lambda message: self._factors.append(message.data), 10
         )
+
+    def listen_to_scans(self) -> None:
+        """Subscribe to the laser scanner."""
+        self._node.create_subscription(LaserScan, 'scan', lambda scan: None, SENSOR)
 
     def wait_for_factor(self) -> None:
         """Wait until the simulator says how fast it is."""

@@ -12,6 +12,7 @@ import argparse
 import sys
 import time
 
+from arguments import in_range
 from soak_run import Conditions, SoakResult, SoakRun
 
 FALLS_ALLOWED = 1 / 20
@@ -22,10 +23,13 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--runs', type=int, default=20)
     parser.add_argument('--seconds', type=float, default=60.0, help='length of a run')
-    parser.add_argument('--first-seed', type=int, default=0)
+    parser.add_argument('--first-seed', type=in_range(int, 0), default=0)
     parser.add_argument('--push', type=float, default=8.0, help='impulse of each push in N s')
     parser.add_argument(
-        '--drop-outs', type=float, default=0.0, help='share of the ticks at which control stalls'
+        '--drop-outs',
+        type=in_range(float, 0.0, 1.0),
+        default=0.0,
+        help='share of the ticks at which control stalls',
     )
     options = parser.parse_args()
     if options.runs < 1 or options.seconds <= 0.0:
@@ -68,7 +72,8 @@ def summary(results: list[SoakResult], cpu_s: float) -> str:
     simulated_s = sum(result.survived_s for result in results)
     return (
         f'\n{stood} of {len(results)} stood; {simulated_s:.0f} s in {cpu_s:.0f} s of CPU, '
-        f'{sum(result.distance_m for result in results):.0f} m'
+        f'{sum(result.distance_m for result in results):.0f} m; the way was taken for blocked '
+        f'{sum(result.alarms for result in results)} times'
     )
 
 

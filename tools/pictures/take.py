@@ -18,7 +18,13 @@ import time
 from typing import Any
 
 from domain_coordinator import domain_id
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
 from playwright.sync_api import sync_playwright
+import rclpy
+from rclpy.wait_for_message import wait_for_message
+from sensor_msgs.msg import Image as ImageMessage
 
 FOLDER = Path(__file__).resolve().parents[2] / 'docs' / 'pictures'
 CHROMIUM = '/usr/bin/chromium'
@@ -26,11 +32,25 @@ LARGEST = 150_000
 WIDTH, HEIGHT = 1200, 800
 TIMEOUT_S = 60.0
 PATIENCE_MS = 120_000
-SETTLE_MS = 8000
+SETTLE_MS = 20_000
 """A page fades in, and a processor that draws it takes its time."""
 WALK_MS = 4000
 ATTEMPTS = 5
 """A robot stops when the page of who drives it is silent, as it is where much goes on."""
+WHOLE_HOME = {
+    'Target Frame': ('world',),
+    'Focal Point': ('1.5', '-0.6', '0'),
+    'Distance': ('14.5',),
+    'Yaw': ('4.71',),
+    'Pitch': ('1.05',),
+}
+"""The view of the apartment, by the labels of its fields."""
+LOOKING_ROUND = (
+    '{position: {x: 1.3, y: 1.7, z: 0.73}, orientation: {z: 0.707, w: 0.707}}',
+    '{position: {x: 2.6, y: -1.3, z: 0.73}, orientation: {z: -0.69, w: 0.72}}',
+    '{position: {x: 4.2, y: 1.2, z: 0.73}, orientation: {z: 0.62, w: 0.78}}',
+)
+"""In the kitchen, the living room and the bedroom."""
 ADDRESS = re.compile(r'(RViz is|The sliders are) at (http://\S+)')
 
 
@@ -46,6 +66,9 @@ def main() -> None:
         )
         with launched('humanoid_bringup', 'bringup.launch.py', 1, 'scene:=room') as addresses:
             picture_console(browser, addresses['RViz is'])
+        with launched('humanoid_bringup', 'bringup.launch.py', 1, 'scene:=apartment') as addresses:
+            picture_apartment(browser, addresses['RViz is'])
+            picture_rooms()
         with launched('humanoid_description', 'view.launch.py', 2) as addresses:
             picture_sliders(browser, addresses['The sliders are'])
             picture_frames(browser, addresses['RViz is'])
@@ -70,8 +93,11 @@ def picture_console(browser: Any, address: str) -> None:
 
 
 def picture_stop(tab: Any) -> None:
-    """Show the button once it was pressed."""
+    """Show the button once it was pressed, and that nobody drives, however the drive ended."""
     safety = tab.frame_locator('iframe[title=safety]')
+    for label in ('Give back', 'Take control'):
+        safety.locator('#take').click()
+        safety.locator('#take', has_text=label).wait_for()
     safety.locator('#stop').click()
     safety.locator('#robot', has_text='holds still').wait_for()
     keep('stopped', tab.locator('iframe[title=safety]').screenshot)
@@ -116,6 +142,57 @@ def hold_stick(tab: Any) -> None:
     tab.mouse.down()
     tab.mouse.move(x - 10, y - 45)
     tab.wait_for_timeout(WALK_MS)
+
+
+def picture_apartment(browser: Any, address: str) -> None:
+    """Show the whole home from above, with walls cut."""
+    tab = opened(browser, address)
+    tab.get_by_role('tab', name='Views').click()
+    for label, values in WHOLE_HOME.items():
+        name = tab.locator('label', has_text=re.compile(f'^{label}')).filter(visible=True).first
+        row = name.locator('xpath=ancestor::*[contains(@class, "Flex-root")][1]')
+        for field, value in zip(row.locator('input:not([type=hidden])').all(), values):
+            field.fill(value)
+            field.press('Enter')
+    tab.wait_for_timeout(SETTLE_MS)
+    scene = {'x': 0, 'y': 0, 'width': WIDTH - 390, 'height': HEIGHT}
+    keep('apartment', lambda path: tab.screenshot(path=path, clip=scene))
+    tab.close()
+
+
+def picture_rooms() -> None:
+    """
+    Show what the camera of the robot sees in three rooms, side by side.
+
+    Time stands still meanwhile: who is put elsewhere in the middle of a step falls.
+    """
+    pause = 'simulation_interfaces/srv/SetSimulationState', '{state: {state: 2}}'
+    ros2('service', 'call', '/simulator/set_simulation_state', *pause)
+    seen = [seen_from(pose) for pose in LOOKING_ROUND]
+    keep('rooms', lambda path: Image.fromarray(np.hstack(seen)).save(path, optimize=True))
+
+
+def ros2(*command: str) -> None:
+    """Run a command."""
+    subprocess.run(['ros2', *command], check=True, stdout=subprocess.DEVNULL)
+
+
+def seen_from(pose: str) -> NDArray[np.uint8]:
+    """Put the robot somewhere, and return the picture that its camera takes for who joins."""
+    put = 'simulation_interfaces/srv/SetEntityState', f'{{state: {{pose: {pose}}}}}'
+    ros2('service', 'call', '/simulator/set_entity_state', *put)
+    rclpy.init()
+    node = rclpy.create_node('photographer')
+    try:
+        is_there, image = wait_for_message(
+            ImageMessage, node, 'camera/image_raw', time_to_wait=TIMEOUT_S
+        )
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()
+    if not is_there:
+        raise SystemExit('The camera sends no picture.')
+    return np.frombuffer(image.data, np.uint8).reshape(image.height, image.width, 3)
 
 
 def picture_sliders(browser: Any, address: str) -> None:
@@ -169,7 +246,7 @@ def opened(browser: Any, address: str) -> Any:
     """Open a page without the notes that only concern this browser."""
     tab = browser.new_page(viewport={'width': WIDTH, 'height': HEIGHT})
     tab.set_default_timeout(PATIENCE_MS)
-    tab.goto(f'{address}?fixedDpr=1')
+    tab.goto(f'{address}&fixedDpr=1')
     tab.wait_for_timeout(SETTLE_MS)
     for close in tab.locator('.mantine-Notification-closeButton').all():
         close.click()

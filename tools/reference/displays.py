@@ -27,7 +27,14 @@ from rviz_common.views import KINDS
 from rviz_common.visualizer import tool_box
 from rviz_common.visualizer.options import OPTIONS, UNUSED_OPTIONS
 
-OWN = ('robot_console', 'rviz_common', 'rviz_default_plugins', 'rviz_imu_plugin')
+OWN = (
+    'nav2_rviz_plugins',
+    'robot_console',
+    'rviz_common',
+    'rviz_default_plugins',
+    'rviz_imu_plugin',
+    'vision_msgs_rviz_plugins',
+)
 """The packages of this project, and not those that somebody adds."""
 OF_RVIZ = tuple(
     f'rviz_default_plugins/{name}'

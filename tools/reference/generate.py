@@ -33,7 +33,7 @@ def block(text: str) -> str:
 
 def listed(help_text: str) -> list[str]:
     """Return the names that the help of `ros2`, or of a command, lists at its end, if any."""
-    _, *listing = re.split('^(?:Commands|Verbs):$', help_text, flags=re.MULTILINE)
+    _, *listing = re.split('^Commands:$', help_text, flags=re.MULTILINE)
     return re.findall(r'^  (\w+)  ', ''.join(listing), flags=re.MULTILINE)
 
 

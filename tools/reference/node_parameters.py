@@ -24,6 +24,13 @@ NODES = {
     'humanoid_control sensor_processor': (
         'humanoid_control.sensor_processor_parameters.SensorProcessorParameters'
     ),
+    'humanoid_perception object_detector': (
+        'humanoid_perception.object_detector.DetectorParameters'
+    ),
+    'humanoid_perception object_memory': 'humanoid_perception.object_memory.MemoryParameters',
+    'humanoid_perception gaze': 'humanoid_perception.gaze.GazeParameters',
+    'llm_planner task_planner': 'llm_planner.task_planner.PlannerParameters',
+    'llm_planner skill_executor': 'llm_planner.knowledge.KnowledgeParameters',
     'robot_control description_reporter': (
         'robot_control.description_reporter.ReporterParameters'
     ),

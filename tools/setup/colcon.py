@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 import os
 from pathlib import Path
 
@@ -15,25 +15,31 @@ from stamp import files_below
 FIRST = 'ros_environment'
 
 
-def underlay_sources(locations: Locations) -> Iterator[str]:
-    """List the files that the underlay is built from."""
-    return files_below(locations.underlay)
-
-
-def build_underlay(locations: Locations, steps: Steps) -> None:
-    """Build tools/underlay into the environment, which thereby gets its setup.bash.
+def build_underlay(
+    locations: Locations, steps: Steps, names: list[str], finished: Callable[[str], None]
+) -> None:
+    """Build packages of tools/underlay into the environment, which thereby gets its setup.bash.
 
     ros_environment goes first: once the environment has set-up files, it can be named as the
     prefix in which the other packages find what they depend on.
+
+    finished: called with the name of each package as soon as it is built.
     """
     variables = environment_variables(locations.environment)
-    _build_underlay(locations, steps, variables, '--packages-select', FIRST)
+    if FIRST in names:
+        _build_underlay(locations, steps, variables, [FIRST], finished)
+    others = [name for name in names if name != FIRST]
     variables['AMENT_PREFIX_PATH'] = str(locations.environment)
-    _build_underlay(locations, steps, variables, '--packages-skip', FIRST)
+    if others:
+        _build_underlay(locations, steps, variables, others, finished)
 
 
 def _build_underlay(
-    locations: Locations, steps: Steps, variables: dict[str, str], *selection: str
+    locations: Locations,
+    steps: Steps,
+    variables: dict[str, str],
+    names: list[str],
+    finished: Callable[[str], None],
 ) -> None:
     log = locations.environment / 'log' / 'underlay.log'
 
@@ -44,13 +50,14 @@ def _build_underlay(
             building.append(line.split()[2])
         elif line.startswith('Finished <<< ') and line.split()[2] in building:
             building.remove(line.split()[2])
+            finished(line.split()[2])
         if building:
             steps.progress(f'building {" and ".join(building)}')
 
     build = locations.environment / 'build'
     command: list[str | Path] = [locations.environment / 'bin' / 'colcon']
     command += ['--log-base', build / 'log', 'build', '--build-base', build]
-    command += ['--base-paths', locations.underlay, *selection]
+    command += ['--base-paths', locations.underlay, '--packages-select', *names]
     command += ['--merge-install', '--install-base', locations.environment]
     status = run_logged(
         command,

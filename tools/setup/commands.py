@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The commands of the set-up: setup, build, clean, distclean."""
+"""The commands of the set-up: setup, build, prepare, tests, clean, distclean."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from ownership import Home, python_version
 import prerequisites
 import processes
 from stamp import digest, Stamp
+from underlay import Underlay
 import wheels
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -51,7 +52,7 @@ def main(argv: list[str]) -> int:
 def parse(argv: list[str]) -> tuple[argparse.Namespace, list[str]]:
     """Read the command line; what `build` does not know goes to colcon."""
     parser = argparse.ArgumentParser(prog='tools/setup', description=__doc__)
-    commands = ['setup', 'build', 'tests', 'clean', 'distclean']
+    commands = ['setup', 'build', 'prepare', 'tests', 'clean', 'distclean']
     parser.add_argument('command', nargs='?', default='setup', choices=commands)
     parser.add_argument('--venv', default=os.environ.get('VENV'), help='the environment to use')
     options, rest = parser.parse_known_args(argv)
@@ -66,6 +67,8 @@ def run(command: str, locations: Locations, arguments: list[str]) -> int:
         return set_up(locations)
     if command == 'build':
         return set_up(locations, quiet=True) or build(locations, arguments)
+    if command == 'prepare':
+        return set_up(locations, quiet=True, everything=False) or build(locations, [])
     if command == 'tests':
         return set_up(locations, quiet=True) or set_up_tests(locations)
     if command == 'distclean':
@@ -91,20 +94,28 @@ def only_one_at_a_time(root: Path) -> Iterator[None]:
         os.close(descriptor)
 
 
-def set_up(locations: Locations, *, quiet: bool = False) -> int:
-    """Make the environment what this workspace needs; quick where it is that already."""
+def set_up(locations: Locations, *, quiet: bool = False, everything: bool = True) -> int:
+    """Make the environment what this workspace needs; quick where it is that already.
+
+    Without `everything`, what the command does not need of the underlay waits: interface packages
+    that nothing in src/ depends on, and packages on demand that ASKED_FOR does not name.
+    """
     requirements = wheels_digest(REQUIREMENTS)
-    underlay = digest(colcon.underlay_sources(locations), requirements)
-    kept = locations.environment / 'stamp'
-    wheels_stamp, underlay_stamp = Stamp(kept / 'wheels'), Stamp(kept / 'underlay')
+    wheels_stamp = Stamp(locations.environment / 'stamp' / 'wheels')
+    underlay = Underlay(locations, requirements, os.environ.get('ASKED_FOR', ''))
     home = Home(locations)
     home.require_same()
-    if locations.link.exists() and underlay_stamp.matches(underlay):
+    stale = underlay.to_build(everything=everything)
+    compiled_stamp = Stamp(locations.environment / 'stamp' / 'compiled')
+    is_compiled = not everything or compiled_stamp.matches(requirements)
+    has_wheels = wheels_stamp.matches(requirements)
+    if locations.link.exists() and has_wheels and is_compiled and not stale:
         link_environment(locations)
+        underlay.describe_others()
         if not quiet:
             print(f'The environment in {locations.link} is complete.')
         return 0
-    require_machine(locations, has_wheels=wheels_stamp.matches(requirements))
+    require_machine(locations, has_wheels=has_wheels)
     steps = Steps(3)
     steps.begin(f'Python {python_version()} environment in {locations.environment}')
     locations.environment.mkdir(parents=True, exist_ok=True)
@@ -113,14 +124,16 @@ def set_up(locations: Locations, *, quiet: bool = False) -> int:
     if not wheels.has_pip(locations):
         wheels.make_environment(locations, sys.executable)
     steps.begin('Wheels from PyPI, as requirements.txt pins them')
-    if not wheels_stamp.matches(requirements):
+    if not has_wheels:
         wheels_stamp.clear()
         wheels.install_wheels(locations, steps, sysconfig.get_path('include'), REQUIREMENTS)
         wheels_stamp.write(requirements)
+    if not is_compiled:
+        wheels.compile_all(locations)
+        compiled_stamp.write(requirements)
     steps.begin('Underlay: launch, ros2 and what else PyPI lacks (a minute)')
-    underlay_stamp.clear()
-    colcon.build_underlay(locations, steps)
-    underlay_stamp.write(underlay)
+    underlay.build(stale, steps)
+    underlay.describe_others()
     steps.end()
     print('The environment is complete.' + ('' if quiet else ' Next: make bringup'))
     return 0
@@ -136,6 +149,7 @@ def set_up_tests(locations: Locations) -> int:
         stamp.clear()
         include = sysconfig.get_path('include')
         wheels.install_wheels(locations, steps, include, TEST_REQUIREMENTS)
+        wheels.compile_all(locations)
         stamp.write(current)
         steps.end()
     return 0

@@ -41,6 +41,10 @@ class Stamp:
         except OSError:
             return False
 
+    def exists(self) -> bool:
+        """Tell whether the result was made to its end, from these sources or others."""
+        return self._path.exists()
+
     def clear(self) -> None:
         """Say that the result is being made: an interruption leaves no stamp."""
         self._path.unlink(missing_ok=True)

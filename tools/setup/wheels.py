@@ -11,10 +11,9 @@ import re
 from console import SetupError, Steps
 from fast_dds import mend_fast_dds
 from locations import Locations
-from mend import mend_wheels
+from mend import is_mended, mend_wheels
 from processes import environment_variables, last_words, run_logged, run_or_fail
 
-MENDED = ('.cmake', '.pth')
 PIP = ('-m', 'pip', '--disable-pip-version-check', '--no-input')
 
 
@@ -48,7 +47,7 @@ def install_wheels(locations: Locations, steps: Steps, include: str, requirement
     count = len(pinned_names(requirements.read_text(encoding='utf-8')))
     _pip(locations, steps, count, '--no-deps', '--requirement', str(requirements))
     packages = site_packages(locations)
-    broken = sorted(incomplete_distributions(packages))
+    broken = sorted(incomplete_distributions(packages, locations.environment))
     if broken:
         steps.note(f'repairing {len(broken)} wheels that an interruption left incomplete')
         arguments = ['--no-deps', '--ignore-installed', *broken]
@@ -71,7 +70,7 @@ def _pip(locations: Locations, steps: Steps, count: int, *arguments: str) -> Non
             steps.progress(f'{count} of {count} fetched; unpacking them')
 
     status = run_logged(
-        [locations.python, *PIP, 'install', '--progress-bar', 'off', *arguments],
+        [locations.python, *PIP, 'install', '--no-compile', '--progress-bar', 'off', *arguments],
         cwd=locations.root,
         variables=environment_variables(locations.environment),
         log=log,
@@ -86,27 +85,44 @@ def _pip(locations: Locations, steps: Steps, count: int, *arguments: str) -> Non
         )
 
 
-def incomplete_distributions(packages: Path) -> Iterator[str]:
+def compile_all(locations: Locations) -> None:
+    """Compile every module, for all processors at once; what does not compile is never imported.
+
+    pip would do so too, but one after the other, and most are not used by the robot: until then
+    Python compiles a module when it is first imported.
+    """
+    packages = site_packages(locations)
+    command = [str(locations.python), '-m', 'compileall', '-q', '-j', '0', str(packages)]
+    run_logged(
+        command,
+        cwd=locations.root,
+        variables=environment_variables(locations.environment),
+        log=locations.environment / 'log' / 'compileall.log',
+    )
+
+
+def incomplete_distributions(packages: Path, environment: Path) -> Iterator[str]:
     """Yield `name==version` of each distribution that lacks files of its own list."""
     for info in packages.glob('*.dist-info'):
         name, _, version = info.name[: -len('.dist-info')].rpartition('-')
-        if name != 'pip' and not _is_complete(packages, info):
+        if name != 'pip' and not _is_complete(info, environment):
             yield f'{name}=={version}'
 
 
-def _is_complete(packages: Path, info: Path) -> bool:
+def _is_complete(info: Path, environment: Path) -> bool:
     record = info / 'RECORD'
     if not record.is_file():
         return False
     with record.open(newline='', encoding='utf-8') as lines:
-        return all(_is_whole(packages / row[0], row[2]) for row in csv.reader(lines) if row)
+        rows = [row for row in csv.reader(lines) if row]
+    return all(_is_whole(info.parent / row[0], row[2], environment) for row in rows)
 
 
-def _is_whole(path: Path, recorded_size: str) -> bool:
+def _is_whole(path: Path, recorded_size: str, environment: Path) -> bool:
     if path.suffix == '.pyc':  # Python writes these anew
         return True
     try:
         size = path.stat().st_size
     except OSError:
         return False
-    return not recorded_size or path.name.endswith(MENDED) or size == int(recorded_size)
+    return not recorded_size or size == int(recorded_size) or is_mended(environment, path)

@@ -26,14 +26,15 @@ CHROMIUM = '/usr/bin/chromium'
 # Two of these are for machines without a graphics card, one for those without user namespaces.
 ARGUMENTS = ('--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--no-sandbox')
 SIZE = {'width': 900, 'height': 620}
-PATIENCE_S = 60.0
+PATIENCE_S = 100.0
 PICTURES = Path(__file__).resolve().parents[2] / 'build' / 'pictures'
 
 NODE = """
     const node = (link) => {
       const nodes = window.__viserMutable?.nodeRefFromName ?? {};
-      const name = Object.keys(nodes).find((each) => each.endsWith(`/${link}`) && nodes[each]);
-      return name && nodes[name];
+      const names = Object.keys(nodes).filter((each) => each.endsWith(`/${link}`) && nodes[each]);
+      names.sort((one, other) => one.localeCompare(other, undefined, { numeric: true }));
+      return nodes[names[0]]; // the robot: the display of its commands comes after it
     };
 """
 POSE = (

@@ -68,7 +68,7 @@ class World:
 def url_of(program: Program, said: str = RVIZ) -> str:
     """Return the address that a program prints."""
     pattern = re.compile(rf'{said} at (http://\S+)')
-    wait_until(lambda: pattern.search(program.output), 60.0, lambda: program.output)
+    wait_until(lambda: pattern.search(program.output), 100.0, lambda: program.output)
     return pattern.findall(program.output)[-1]
 
 

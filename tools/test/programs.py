@@ -36,18 +36,24 @@ class Program:
             )
 
     @property
+    def has_ended(self) -> bool:
+        """Tell whether it has ended."""
+        return self.process.poll() is not None
+
+    @property
     def output(self) -> str:
         """Return what it printed so far."""
         return self._output.read_text(errors='replace')
 
     def wait_for(self, text: str, timeout_s: float = 100.0) -> None:
-        """Wait until it prints a text."""
-        self._wait(lambda: text in self.output, timeout_s, f'{text!r} in')
+        """Wait until it prints a text; one that has ended without it fails at once."""
+        self._wait(lambda: text in self.output or self.has_ended, timeout_s, f'{text!r} in')
+        assert text in self.output, f'it ended without {text!r}:\n{self.output}'
 
     def end(self, number: int = signal.SIGINT, timeout_s: float = 100.0) -> int:
         """Send it a signal and wait for its end; return the exit status."""
         self.process.send_signal(number)
-        self._wait(lambda: self.process.poll() is not None, timeout_s, 'the end of')
+        self._wait(lambda: self.has_ended, timeout_s, 'the end of')
         return self.process.returncode
 
     def members(self) -> list[int]:

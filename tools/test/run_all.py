@@ -1,26 +1,33 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs every test: the packages of src/ with `colcon test`, then those of tools/.
+"""Runs every test of the workspace.
+
+First those of src/ with `colcon test`, two packages at a time; then those of tools/ in several
+processes; then what builds src/.
 
 What fails is run once more at the end, alone. What passes then is unsteady: it is listed, and more
-than three of that kind are a failure. Everything together is given three quarters of an hour.
+than three of that kind are a failure. Everything together is given an hour.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
-from dataclasses import dataclass
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass, replace
 import os
 from pathlib import Path
 import signal
 import subprocess
 import sys
+from tempfile import TemporaryFile
 import time
+from typing import IO
 from xml.etree import ElementTree
 
 ROOT = Path(__file__).resolve().parents[2]
-LIMIT_S = 45 * 60.0
+LIMIT_S = 60 * 60.0
 MOST_UNSTEADY = 3
+SIMULATION = ('humanoid_bringup', 'humanoid_simulation')
+"""Packages whose tests take as long as those of all others together."""
 _LAST_WORDS_S = 10.0
 _ENDS = (0, 1, 5)  # of pytest: passed, failed, nothing to run
 
@@ -41,19 +48,22 @@ class Suite:
     """Returns the JUnit files that are there after the command, whether it wrote them or not."""
 
 
-def run(suites: Sequence[Suite], limit_s: float = LIMIT_S) -> int:
-    """Run the tests; return the exit status."""
+def run(rounds: Sequence[Sequence[Suite]], limit_s: float = LIMIT_S) -> int:
+    """Run the tests, those of a round at the same time; return the exit status."""
     end_s = time.monotonic() + limit_s
+    suites = [suite for each in rounds for suite in each]
     for path in (path for suite in suites for path in suite.reports()):
         path.unlink(missing_ok=True)
     first: dict[str, str] = {}
     last: dict[str, str] = {}
     try:
-        failed = [(suite, _run(suite, suite.command, end_s)) for suite in suites]
-        for suite, tests in failed:
-            first |= tests
-            if tests:
-                last |= _run(suite, suite.again, end_s)
+        statuses = [status for each in rounds for status in _run(each, end_s)]
+        for suite, status in zip(suites, statuses, strict=True):
+            failed = _failed(suite, status)
+            first |= failed
+            if failed:
+                again = replace(suite, command=suite.again)
+                last |= _failed(again, *_run([again], end_s))
     except TimeIsUpError as error:
         print(error, file=sys.stderr)
         return 1
@@ -75,46 +85,70 @@ def _list(title: str, tests: dict[str, str]) -> None:
         print(f'== {title}: {len(tests)}', *sorted(tests), sep='\n  ')
 
 
-def _run(suite: Suite, command: Sequence[str], end_s: float) -> dict[str, str]:
-    """Run tests; return those that failed, and why."""
-    print(f'== {suite.name}', flush=True)
-    status = _status(command, end_s)
-    failed = {test: why for path in suite.reports() for test, why in _failed(suite.name, path)}
+def _failed(suite: Suite, status: int) -> dict[str, str]:
+    """Return the tests of a suite that failed, and why; its command ended with a status."""
+    failed = {
+        f'{suite.name}: {test}': why for path in suite.reports() for test, why in _read(path)
+    }
     if status not in _ENDS and not failed:
         failed[f'{suite.name}: the command'] = f'ended with status {status}'
     return failed
 
 
-def _failed(suite: str, report: Path) -> Iterator[tuple[str, str]]:
+def _read(report: Path) -> Iterator[tuple[str, str]]:
     """Yield the tests that failed, and why, of a JUnit file; that it is not there, if so."""
     try:
         cases = ElementTree.parse(report).iter('testcase')
     except (OSError, ElementTree.ParseError) as error:
-        yield f'{suite}: there is no result in {report}', str(error)
+        yield f'there is no result in {report}', str(error)
         return
     for case in cases:
         for what in [*case.findall('failure'), *case.findall('error')]:
-            reason = what.text or what.get('message') or ''
-            yield f'{suite}: {case.get("classname")}::{case.get("name")}', reason
+            name = f'{case.get("classname")}::{case.get("name")}'
+            yield name, what.text or what.get('message') or ''
 
 
-def _status(command: Sequence[str], end_s: float) -> int:
-    """Run a command to its end, or until the time is up."""
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, start_new_session=True)
-    try:
-        return process.wait(max(end_s - time.monotonic(), 0.0))
-    except subprocess.TimeoutExpired:
-        _end(process, signal.SIGABRT)  # Python then writes where its threads are
-        raise TimeIsUpError(
-            'The tests took too long and were ended. Above is where Python was.'
-        ) from None
-    except KeyboardInterrupt:
-        _end(process, signal.SIGINT)
-        raise
+def _run(suites: Sequence[Suite], end_s: float) -> list[int]:
+    """Run commands at the same time, each to its end; return their statuses.
+
+    The output of the last one is seen while it runs, that of the others afterwards.
+    """
+    print(f'== {" and ".join(suite.name for suite in suites)}', flush=True)
+    with ExitStack() as stack:
+        hidden = [stack.enter_context(TemporaryFile()) for _ in suites[:-1]]
+        outputs = [*hidden, None]
+        processes = [_start(*each) for each in zip(suites, outputs, strict=True)]
+        try:
+            return [process.wait(max(end_s - time.monotonic(), 0.0)) for process in processes]
+        except subprocess.TimeoutExpired:
+            for process in processes:
+                _end(process, signal.SIGABRT)  # Python then writes where its threads are
+            raise TimeIsUpError('The tests took too long and were ended: see above.') from None
+        except KeyboardInterrupt:
+            for process in processes:
+                _end(process, signal.SIGINT)
+            raise
+        finally:
+            for suite, output in zip(suites, hidden, strict=False):
+                output.seek(0)
+                print(f'== {suite.name}', output.read().decode(errors='replace'), sep='\n')
+
+
+def _start(suite: Suite, output: IO[bytes] | None) -> subprocess.Popen[bytes]:
+    """Start a command in a process group of its own."""
+    return subprocess.Popen(
+        suite.command,
+        stdin=subprocess.DEVNULL,
+        stdout=output,
+        stderr=output and subprocess.STDOUT,
+        start_new_session=True,
+    )
 
 
 def _end(process: subprocess.Popen[bytes], number: int) -> None:
     """Send a signal to a command and what it has started; kill what does not heed it."""
+    if process.poll() is not None:
+        return
     os.killpg(process.pid, number)
     with suppress(subprocess.TimeoutExpired):
         process.wait(_LAST_WORDS_S)
@@ -123,9 +157,17 @@ def _end(process: subprocess.Popen[bytes], number: int) -> None:
     process.wait()
 
 
-def packages() -> Suite:
-    """Return the tests of the packages of src/, which colcon runs."""
+def packages() -> list[Suite]:
+    """Return the tests of the packages of src/, which colcon runs, in two halves."""
     names = sorted(path.parent.name for path in ROOT.glob('src/*/package.xml'))
+    return [
+        _packages('simulation', [name for name in names if name in SIMULATION]),
+        _packages('other packages', [name for name in names if name not in SIMULATION]),
+    ]
+
+
+def _packages(title: str, names: list[str]) -> Suite:
+    """Return the tests of packages, which run one after the other."""
     results = ROOT / 'build'
 
     def reports() -> list[Path]:
@@ -134,18 +176,37 @@ def packages() -> Suite:
 
     watched = 'PYTHONPATH="$PWD/tools/test:$PYTHONPATH" PYTEST_ADDOPTS="-p watchdog" exec "$@"'
     test = ['tools/in_environment', '--underlay', 'bash', '-c', watched, 'bash']
-    test += ['colcon', 'test', '--event-handlers', 'console_cohesion-']
+    test += ['colcon', '--log-base', f'log/tests of {title}', 'test']
+    test += ['--executor', 'sequential', '--event-handlers', 'console_cohesion-']
+    test += ['--packages-select', *names]
     again = [*test, '--packages-select-test-failures', '--pytest-args', '--last-failed']
-    return Suite('Packages of src/', [*test, '--pytest-args', '--cache-clear'], again, reports)
+    return Suite(title, [*test, '--pytest-args', '--cache-clear'], again, reports)
 
 
 def tools() -> Suite:
-    """Return the tests of tools/."""
-    report = ROOT / 'log' / 'test_tools.xml'
-    test = ['tools/in_environment', 'python3', '-m', 'pytest', 'tools']
+    """Return the tests of tools/ that do not care what runs beside them."""
+    # With more processes, robots on two cores fall behind real time, and tests run out of it;
+    # each reserves some of the 100 DDS domains.
+    workers = min(os.cpu_count() or 1, 16)
+    shared = ['-n', str(workers), '--dist', 'loadfile', '--no-loadscope-reorder']
+    return _pytest('tools/', ['tools', '-m', 'not alone'], shared)
+
+
+def alone() -> Suite:
+    """Return the tests of tools/ that build src/, from which all others run."""
+    return _pytest('what builds src/', ['tools/test/test_docs.py', '-m', 'alone'], [])
+
+
+def _pytest(name: str, what: list[str], first: list[str]) -> Suite:
+    """Return tests of tools/; the first time they run with further arguments."""
+    file = name.replace('/', '').replace(' ', '_')
+    report = ROOT / 'log' / f'test_{file}.xml'
+    test = ['tools/in_environment', 'python3', '-m', 'pytest', *what]
     test += ['-p', 'tools.test.watchdog', '--durations=40', f'--junit-xml={report}']
-    again = [*test, '--last-failed']
-    return Suite('tools/', [*test, '--cache-clear'], again, lambda: [report])
+    test += ['-o', f'cache_dir={ROOT / "log" / f"cache_{file}"}']
+    return Suite(
+        name, [*test, *first, '--cache-clear'], [*test, '--last-failed'], lambda: [report]
+    )
 
 
 if __name__ == '__main__':
@@ -155,4 +216,4 @@ if __name__ == '__main__':
     for stop in (signal.SIGINT, signal.SIGTERM):
         signal.signal(stop, signal.default_int_handler)
     os.chdir(ROOT)
-    sys.exit(run([packages(), tools()]))
+    sys.exit(run([packages(), [tools()], [alone()]]))

@@ -88,7 +88,7 @@ def test_the_robot_is_shown_where_it_is(robot: World, tab: Tab) -> None:
     def is_right() -> bool:
         return tab.place(FOREARM).is_near(expected_place(model, ELBOW, state_of(robot, ELBOW)))
 
-    wait_until(is_right, 30.0, lambda: f'{tab.place(FOREARM)} for {state_of(robot, ELBOW)}')
+    wait_until(is_right, 100.0, lambda: f'{tab.place(FOREARM)} for {state_of(robot, ELBOW)}')
     tab.small('safety').locator('#robot').filter(has_text='holds still').wait_for()
     tab.picture('console_stopped')
     seen, told = tab.place(FOREARM), len(commands(robot))

@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from http.client import HTTPConnection, HTTPResponse
 from itertools import islice, takewhile
 import json
 import os
 from random import Random
 import signal
+import socket
 from threading import Thread
 import time
 from typing import Any
@@ -65,7 +67,9 @@ def show(robot: World, **arguments: Any) -> Program:
     program = robot.launch('humanoid_bringup', 'console.launch.py', *given)
     url = url_of(program)
     wait_until(
-        lambda: all(ask(url, f'/{name}').status != 404 for name in SMALL_PAGES), 60.0, 'all pages'
+        lambda: all(ask_with_token(url, f'/{name}').status == 200 for name in SMALL_PAGES),
+        100.0,
+        'all pages',
     )
     return program
 
@@ -100,6 +104,12 @@ def ask(url: str, path: str = '/', **headers: str) -> HTTPResponse:
     return connection.getresponse()
 
 
+def ask_with_token(url: str, path: str = '/') -> HTTPResponse:
+    """Return the answer to a request of a browser that has opened the address."""
+    welcome = ask(url, f'/?{urlsplit(url).query}')
+    return ask(url, path, Cookie=(welcome.getheader('Set-Cookie') or '').partition(';')[0])
+
+
 def test_a_browser_is_killed(robot: World, console: Program) -> None:
     """The page goes on without it, in as much memory; a new browser sees the robot."""
     pid, url = pid_of(console, 'rviz2'), url_of(console)
@@ -120,19 +130,33 @@ def test_a_browser_is_killed(robot: World, console: Program) -> None:
 @pytest.mark.parametrize('number', [signal.SIGKILL, signal.SIGINT])
 def test_a_page_comes_back_by_itself(robot: World, number: int) -> None:
     """A page whose server has ended says so; it shows the robot again when there is one."""
-    first = show(robot)
+    first = show(robot, token='kept', port=own_port())
     url = url_of(first)
     with browser_started() as browser:
         tab = browser.open(url)
         tab.wait_for_link(FOREARM)
         first.end(number)
+        wait_until(lambda: not first.members(), 100.0, 'the end of all that was launched')
         words = tab.small('safety').locator('#link')
         words.filter(has_text='this page cannot stop the robot').wait_for()
-        second = show(robot, port=urlsplit(url).port)
+        second = show(robot, port=urlsplit(url).port, token='kept')
         words.filter(has_text='connected').wait_for()
         tab.wait_for_motion(FOREARM)
         assert tab.failures == []
     second.clean_up()
+
+
+def own_port() -> int:
+    """
+    Return a free port that nobody takes by itself while a page is away.
+
+    Programs of tests beside this one take the first free port from 8080 on, and connections those
+    from 32768 on.
+    """
+    for port in Random().sample(range(20_000, 30_000), 100):
+        with suppress(OSError), socket.create_server(('127.0.0.1', port)):
+            return port
+    raise OSError('No port is free.')
 
 
 def test_twenty_browsers(robot: World, console: Program) -> None:
@@ -155,11 +179,13 @@ def test_twenty_browsers(robot: World, console: Program) -> None:
     assert robot.complaints() == []
 
 
-def test_who_may_see_the_page(robot: World) -> None:
+@pytest.mark.parametrize('token', ['sesame', ''])
+def test_who_may_see_the_page(robot: World, token: str) -> None:
     """Other sites are refused, and so is who does not know the token."""
-    program = show(robot, token='sesame')
+    program = show(robot, **({'token': token} if token else {}))
     url = url_of(program)
-    assert url.endswith('/?token=sesame')
+    token = url.partition('?token=')[2]
+    assert url.endswith(f'/?token={token}')
     evil = {'Origin': 'http://evil.example'}
     upgrade = {
         'Connection': 'Upgrade',
@@ -171,8 +197,8 @@ def test_who_may_see_the_page(robot: World) -> None:
         for headers in ({}, upgrade):
             assert ask(url, path, **headers).status == 401
             assert ask(url, f'{path}?token=open', **headers).status == 403
-            assert ask(url, f'{path}?token=sesame', **evil, **headers).status == 403
-    welcome = ask(url, '/?token=sesame')
+            assert ask(url, f'{path}?token={token}', **evil, **headers).status == 403
+    welcome = ask(url, f'/?token={token}')
     assert (welcome.status, welcome.getheader('Location')) == (303, '/')
     cookie = welcome.getheader('Set-Cookie').partition(';')[0]
     assert ask(url, '/', Cookie=cookie).status == 200
@@ -190,17 +216,21 @@ def test_what_no_page_sends(robot: World) -> None:
         for message in islice(viser_messages(chance, ids), 500):
             connection.send(message)
     for name, actions in SMALL_PAGES.items():
-        page = url.replace('http:', 'ws:') + name
-        send_until_refused(page, islice(page_messages(chance, actions), 75))
+        send_until_refused(socket_of(url, name), islice(page_messages(chance, actions), 75))
     with visit(program) as connection:
         assert len(replay(connection)) > 100
-    with connect(f'{url.replace("http:", "ws:")}safety') as connection:
+    with connect(socket_of(url, 'safety')) as connection:
         connection.send('{"do": "beat"}')
         assert 'control' in json.loads(connection.recv(timeout=60))
-    assert ask(url).status == 200
+    assert ask_with_token(url).status == 200
     assert memory_mb(pid) < before_mb + SLACK_MB
     program.clean_up()
     assert robot.complaints() == []
+
+
+def socket_of(url: str, name: str) -> str:
+    """Return where a small page connects to, with the token."""
+    return url.replace('http:', 'ws:').replace('/?', f'/{name}?')
 
 
 def replay(connection: ClientConnection) -> list[dict[str, Any]]:

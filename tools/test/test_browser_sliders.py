@@ -51,7 +51,7 @@ def test_a_slider_moves_the_robot(shown: World, browser: Browser) -> None:
 
     wait_until(lambda: state() == pytest.approx(0.5, abs=0.01), 30.0, lambda: f'not {state()}')
     expected = expected_place(shown.ros.model(), 'head_yaw', state())
-    wait_until(lambda: rviz.place('neck').is_near(expected), 30.0, 'the neck to turn')
+    wait_until(lambda: rviz.place('neck').is_near(expected), 100.0, 'the neck to turn')
     for tab, name in ((sliders, 'sliders'), (rviz, 'sliders_rviz')):
         tab.picture(name)
         assert (tab.elsewhere, tab.failures) == ([], [])

@@ -55,7 +55,7 @@ def test_unsteady(
 ) -> None:
     """What passes the second time is listed, and only what failed is repeated."""
     (tmp_path / 'test_it.py').write_text(FLAKY.format(count=count))
-    assert run([suite]) == status
+    assert run([[suite]]) == status
     assert (tmp_path / 'runs').read_text() == 'x'
     listed = re.findall(r'^  (mine: test_it::test_flaky.*)', capfd.readouterr().out, re.MULTILINE)
     assert listed == [f'mine: test_it::test_flaky[{number}]' for number in range(count)]
@@ -72,7 +72,7 @@ def test_broken(
     """What fails twice, or cannot run, is a failure, and what is well beside it is none."""
     (tmp_path / 'test_it.py').write_text(text)
     well = Suite('well', ['true'], ['false'], list)
-    assert run([suite, well]) == 1
+    assert run([[well, suite]]) == 1
     assert '== Failed: 1\n' in capfd.readouterr().out
 
 
@@ -83,14 +83,14 @@ def test_what_fails_is_said_at_once(
     (tmp_path / 'test_it.py').write_text(BROKEN + HANGING)
     shutil.copy(Path(__file__).parent / 'watchdog.py', tmp_path)
     command = [*suite.command, '-p', 'watchdog']
-    assert run([Suite('mine', command, ['true'], suite.reports)], limit_s=10.0) == 1
+    assert run([[Suite('mine', command, ['true'], suite.reports)]], limit_s=10.0) == 1
     assert 'FAILED test_it.py::test_broken (call)' in capfd.readouterr().err
 
 
 @pytest.mark.parametrize('command', ['false', 'true'])
 def test_no_results(suite: Suite, capfd: pytest.CaptureFixture[str], command: str) -> None:
     """A command that leaves no results has failed, whatever its status."""
-    assert run([Suite('mine', [command], [command], suite.reports)]) == 1
+    assert run([[Suite('mine', [command], [command], suite.reports)]]) == 1
     assert 'mine: there is no result in ' in capfd.readouterr().out
 
 
@@ -98,7 +98,7 @@ def test_a_whole_day(suite: Suite, tmp_path: Path, capfd: pytest.CaptureFixture[
     """When the time is up, tests that hang in C with Python's lock are ended with their stacks."""
     (tmp_path / 'test_it.py').write_text(HANGING)
     began_s = time.monotonic()
-    assert run([suite], limit_s=3.0) == 1
+    assert run([[suite]], limit_s=3.0) == 1
     assert time.monotonic() - began_s < 60.0
     errors = capfd.readouterr().err
     assert 'in test_hanging' in errors and 'took too long' in errors
@@ -110,6 +110,6 @@ def test_watchdog(suite: Suite, tmp_path: Path, capfd: pytest.CaptureFixture[str
     (tmp_path / 'watchdog.py').write_text(source.replace('GRACE_S = 120.0', 'GRACE_S = 2.0'))
     (tmp_path / 'test_it.py').write_text(HANGING)
     command = [*suite.command, '-p', 'watchdog', '-o', 'timeout=1']
-    assert run([Suite('mine', command, ['true'], suite.reports)]) == 1
+    assert run([[Suite('mine', command, ['true'], suite.reports)]]) == 1
     errors = capfd.readouterr().err
     assert 'Timeout (0:00:03)!' in errors and 'in test_hanging' in errors

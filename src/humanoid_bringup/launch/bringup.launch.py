@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from humanoid_bringup.page_address import announce_page
+from humanoid_bringup.robot_time import is_simulated, robot_time
 from humanoid_bringup.robot_watch import watch_robot
 from launch import LaunchDescription, Substitution
 from launch.actions import (
@@ -15,7 +17,6 @@ from launch.conditions import IfCondition
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import (
     EqualsSubstitution,
-    IfElseSubstitution,
     LaunchConfiguration,
     PathJoinSubstitution,
 )
@@ -24,10 +25,7 @@ from launch_ros.substitutions import FindPackageShare
 
 def generate_launch_description() -> LaunchDescription:
     """Compose the launch files of the packages."""
-    backend, given_time = LaunchConfiguration('backend'), LaunchConfiguration('use_sim_time')
-    simulated = EqualsSubstitution(backend, 'mujoco')
-    automatic = EqualsSubstitution(given_time, 'auto')
-    time = IfElseSubstitution(automatic, simulated, given_time)
+    backend, simulated, time = LaunchConfiguration('backend'), is_simulated(), robot_time()
     return LaunchDescription(
         [
             DeclareLaunchArgument(
@@ -56,17 +54,38 @@ def generate_launch_description() -> LaunchDescription:
                 description='Show the robot in RViz, with what one drives and watches it with.',
             ),
             DeclareLaunchArgument(
+                'navigation',
+                default_value='false',
+                choices=['true', 'false'],
+                description='Start Nav2, so that the robot finds its way in a map, or makes one.',
+            ),
+            DeclareLaunchArgument(
+                'perception',
+                default_value='false',
+                choices=['true', 'false'],
+                description='Detect objects, remember where they are, and look for them.',
+            ),
+            DeclareLaunchArgument(
+                'report_period_s',
+                default_value='3600.0',
+                description='How often the sensor processor logs the first joint, in seconds.',
+            ),
+            DeclareLaunchArgument(
                 'when_robot_ends',
                 default_value='shutdown',
                 choices=['shutdown', 'stay'],
                 description='What the rest does when the simulator or the mock robot ends.',
             ),
             RegisterEventHandler(watch_robot('when_robot_ends')),
-            _group('humanoid_bringup', 'console', time, LaunchConfiguration('gui')),
+            RegisterEventHandler(announce_page()),
+            # First what checks its arguments: nothing starts with a scene that does not exist.
             _group('humanoid_simulation', 'simulation', time, simulated),
             _group('humanoid_control', 'mock_robot', time, EqualsSubstitution(backend, 'mock')),
             _group('humanoid_control', 'robot_bringup', time),
             _group('humanoid_description', 'description', time),
+            _group('humanoid_navigation', 'navigation', time, LaunchConfiguration('navigation')),
+            _group('humanoid_perception', 'perception', time, LaunchConfiguration('perception')),
+            _group('humanoid_bringup', 'console', time, LaunchConfiguration('gui')),
         ]
     )
 

@@ -3,9 +3,15 @@
 
 from __future__ import annotations
 
+from humanoid_bringup.rviz_file import RvizFile
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
-from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch.substitutions import (
+    EqualsSubstitution,
+    IfElseSubstitution,
+    LaunchConfiguration,
+    PathJoinSubstitution,
+)
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
@@ -13,7 +19,15 @@ from launch_ros.substitutions import FindPackageShare
 
 def generate_launch_description() -> LaunchDescription:
     """Describe the node; an RViz with a window of its own leaves the arguments aside."""
-    config = PathJoinSubstitution([FindPackageShare('humanoid_bringup'), 'config', 'console.rviz'])
+    navigates = EqualsSubstitution(LaunchConfiguration('navigation', default='false'), 'true')
+    name = IfElseSubstitution(navigates, 'navigation.rviz', 'console.rviz')
+    folder = [FindPackageShare('humanoid_bringup'), 'config']
+    config = RvizFile(
+        PathJoinSubstitution([*folder, name]),
+        PathJoinSubstitution([*folder, 'perception_displays.rviz']),
+        LaunchConfiguration('perception', default='false'),
+    )
+    frame = IfElseSubstitution(navigates, 'map', 'odom')
     page = {
         'host': ParameterValue(LaunchConfiguration('host'), value_type=str),
         'port': ParameterValue(LaunchConfiguration('port'), value_type=int),
@@ -35,7 +49,7 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument(
                 'token',
                 default_value='',
-                description='What one must know to see the page; made up if others can reach it.',
+                description='What opens the page; made up if empty, "none" to do without.',
             ),
             DeclareLaunchArgument(
                 'prefix',
@@ -52,7 +66,7 @@ def generate_launch_description() -> LaunchDescription:
                 package='rviz2',
                 executable='rviz2',
                 output='screen',
-                arguments=['-d', config, '-f', [LaunchConfiguration('prefix'), 'odom']],
+                arguments=['-d', config, '-f', [LaunchConfiguration('prefix'), frame]],
                 parameters=[page],
             ),
         ]

@@ -20,6 +20,9 @@ def test_arguments() -> None:
     assert argument_defaults(description) == {
         'backend': 'mujoco',
         'gui': 'true',
+        'navigation': 'false',
+        'perception': 'false',
+        'report_period_s': '3600.0',
         'use_controller': 'true',
         'use_sim_time': 'auto',
         'when_robot_ends': 'shutdown',

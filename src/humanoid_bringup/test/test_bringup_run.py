@@ -39,7 +39,7 @@ class TestRun(unittest.TestCase):
         """The processor reports what the controller sends, and runs without it, too."""
         proc_output.assertWaitFor(REPORT if use_controller == 'true' else ALONE, timeout=100)
         proc_output.assertWaitFor(ROBOT, process='robot_state_publisher', timeout=100)
-        proc_output.assertWaitFor(STARTED[backend], timeout=40)
+        proc_output.assertWaitFor(STARTED[backend], timeout=100)
 
 
 @post_shutdown_test()

@@ -10,7 +10,7 @@ import re
 import signal
 
 from humanoid_common.testing.launching import running_launch_file
-from humanoid_common.testing.processes import RunningProgram
+from humanoid_common.testing.processes import is_alive, RunningProgram
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_common.testing.waiting import wait_until
 from humanoid_simulation.testing.simulated_robot import SimulatedRobot
@@ -18,7 +18,7 @@ import pytest
 
 LAUNCH_FILE = Path(__file__).parents[1] / 'launch' / 'bringup.launch.py'
 STARTED = re.compile(r'\[(\w+)-\d+\]: process started with pid \[(\d+)\]')
-PATIENCE_S = 60.0
+PATIENCE_S = 100.0
 
 
 @pytest.fixture
@@ -38,14 +38,6 @@ def bringup(ros: RosSandbox) -> Iterator[RunningProgram]:
 def processes(bringup: RunningProgram) -> dict[str, int]:
     """Return the number of each process by its executable."""
     return {name: int(pid) for name, pid in STARTED.findall(bringup.output)}
-
-
-def is_alive(pid: int) -> bool:
-    """Tell whether a process is there and is more than a zombie."""
-    try:
-        return Path(f'/proc/{pid}/stat').read_text().rpartition(')')[2].split()[0] != 'Z'
-    except (FileNotFoundError, ProcessLookupError):
-        return False
 
 
 def test_it_stands_on_without_the_others(ros: RosSandbox, bringup: RunningProgram) -> None:

@@ -5,7 +5,7 @@ What every node of the humanoid shares.
 - `humanoid_common.parameters`: parameters as a checked, frozen dataclass (no ROS needed)
 - `humanoid_common.node_parameters`: the same parameters, declared on a node
 - `humanoid_common.running`: the body of every `main`
-- `humanoid_common.steady`: a timer for control loops
+- `humanoid_common.periodic`: a timer for what moves in the world
 - `humanoid_common.qos`: quality of service by name
 - `humanoid_common.testing`: what the tests of several packages share
 """

@@ -14,6 +14,10 @@ from types import FrameType
 from humanoid_common.stop_request import StopRequest
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+WAKE_S = 0.05
+"""How long the main thread has to see a signal before it is sent to it again."""
+JOIN_S = 1.0
+"""How long the end of a node waits for its thread, which has nothing left to do then."""
 
 
 class PatientInterrupt:
@@ -36,9 +40,11 @@ class PatientInterrupt:
         self._patience_s = patience_s
         self._clock = clock
         self._first_s: float | None = None
+        self.was_called = False
 
     def __call__(self, number: int, frame: FrameType | None) -> None:
         """Note the first signal; raise KeyboardInterrupt when patience is at an end."""
+        self.was_called = True
         if self._request.at_once:
             self._request.make()
             raise KeyboardInterrupt
@@ -57,6 +63,9 @@ def stop_on_signals() -> Iterator[StopRequest]:
     The main thread may be waiting inside ROS, where no Python runs. So the interpreter writes
     the number of each signal to a socket, and a thread of its own reads it and makes the
     request. After the block both signals are ignored: the process is at its end already.
+
+    A signal that came just before the main thread began to wait, or to another thread, does not
+    end its wait: while the node is being made, the thread sends it again.
     """
     request = StopRequest()
     reader, writer = socket.socketpair()
@@ -66,7 +75,7 @@ def stop_on_signals() -> Iterator[StopRequest]:
         handler = PatientInterrupt(request)
         for number in STOP_SIGNALS:
             signal.signal(number, handler)
-        watcher = threading.Thread(target=_watch, args=(reader, request), daemon=True)
+        watcher = threading.Thread(target=_watch, args=(reader, request, handler), daemon=True)
         watcher.start()
         try:
             yield request
@@ -75,11 +84,26 @@ def stop_on_signals() -> Iterator[StopRequest]:
                 signal.signal(number, signal.SIG_IGN)
             signal.set_wakeup_fd(-1)
             writer.shutdown(socket.SHUT_RDWR)
-            watcher.join()
+            watcher.join(JOIN_S)
 
 
-def _watch(reader: socket.socket, request: StopRequest) -> None:
+def _watch(reader: socket.socket, request: StopRequest, handler: PatientInterrupt) -> None:
     """Make the request for each signal that asks for it, until the socket is shut down."""
     while numbers := reader.recv(64):
-        if any(number in STOP_SIGNALS for number in numbers):
+        stops = [number for number in numbers if number in STOP_SIGNALS]
+        if stops:
             request.make()
+            _wake_main_thread(stops[-1], request, handler)
+
+
+def _wake_main_thread(number: int, request: StopRequest, handler: PatientInterrupt) -> None:
+    """Send a signal again that the main thread has not seen, as it waits in the kernel."""
+
+    def is_unseen() -> bool:
+        return request.at_once and not handler.was_called
+
+    if is_unseen():
+        time.sleep(WAKE_S)
+    main = threading.main_thread().ident
+    if main is not None and is_unseen():
+        signal.pthread_kill(main, number)

@@ -5,18 +5,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 import sys
+from typing import ParamSpec
 
 from humanoid_common.clock_watch import watch_clock
 from humanoid_common.errors import NodeStartError
+from humanoid_common.executing import destroy, make_executor, spin_until
 from humanoid_common.interrupts import stop_on_signals
 from humanoid_common.stop_request import StopRequest
 import rclpy
+from rclpy.context import Context
 from rclpy.exceptions import ParameterException
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
 
 NodeFactory = Callable[[], Node]
+P = ParamSpec('P')
+_ends: dict[Context, Future[None]] = {}
+"""What ends the node that `run_node` runs, by its context."""
 
 
 def run_node(factory: NodeFactory, args: Sequence[str] | None = None) -> int:
@@ -38,6 +45,27 @@ def run_node(factory: NodeFactory, args: Sequence[str] | None = None) -> int:
         finally:
             rclpy.try_shutdown()
     return 0
+
+
+def ending(node: Node, callback: Callable[P, None]) -> Callable[P, None]:
+    """
+    Return a callback of a node that ends the node when it raises NodeStartError.
+
+    `run_node` then shows the sentence, and nothing else. A node that is run otherwise gets the
+    error.
+    """
+
+    def call(*args: P.args, **kwargs: P.kwargs) -> None:
+        end = _ends.get(node.context)
+        if end is None:
+            callback(*args, **kwargs)
+        elif not end.done():
+            try:
+                callback(*args, **kwargs)
+            except NodeStartError as error:
+                end.set_exception(error)
+
+    return call
 
 
 def _initialize(args: Sequence[str] | None) -> None:
@@ -90,14 +118,16 @@ def _run(factory: NodeFactory, stop: StopRequest) -> None:
     """Make the node, run its callbacks until the request to stop, and destroy it."""
     node = _made(factory, stop)
     watch_clock(node)
-    executor = SingleThreadedExecutor()
+    executor = make_executor()
     executor.add_node(node)
-    waker = node.create_guard_condition(lambda: None)
-    stop.wake_with(waker.trigger)
+    done: Future[None] = Future()
+    stop.wake_with(lambda: done.set_result(None))
+    _ends[node.context] = done
     try:
-        while rclpy.ok() and not stop.is_made:
-            executor.spin_once()
+        spin_until(executor, done)
+        done.result()
     finally:
+        del _ends[node.context]
         stop.wake_with(None)
         executor.shutdown()
-        node.destroy_node()
+        destroy(node)

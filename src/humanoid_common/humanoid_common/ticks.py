@@ -6,27 +6,69 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 LONGEST_DELAY_S = 1.0
+_NANOSECONDS = 1_000_000_000
 
 
 class Ticks:
     """
-    Evenly spaced moments.
+    Evenly spaced moments of the time that has passed since the first look at a clock.
 
     A computer that was busy elsewhere asks late. The moments that have passed meanwhile are all
     due then, so that the mean rate holds and no sample of a motion is left out; but none that is
-    older than `LONGEST_DELAY_S`.
+    older than `LONGEST_DELAY_S`. When the clock is set back, as by a simulator that starts anew,
+    the time that has passed goes on from where it was.
+
+    Parameters
+    ----------
+    rate_hz
+        How many moments there are in a second of the clock.
+
     """
 
-    def __init__(self, rate_hz: float, now_s: float) -> None:
-        """Begin one period after now."""
-        self._period_s = 1.0 / rate_hz
-        self._next_s = now_s + self._period_s
+    def __init__(self, rate_hz: float) -> None:
+        self._period_ns = round(_NANOSECONDS / rate_hz)
+        self._origin_ns: int | None = None
+        self._clock_ns = 0
+        self._next_ns = 0
 
-    def due(self, now_s: float) -> Iterator[float]:
-        """Yield the moments up to now that have not been yielded yet, in seconds."""
-        late_s = now_s - self._next_s
-        if late_s > LONGEST_DELAY_S:
-            self._next_s += (late_s - LONGEST_DELAY_S) // self._period_s * self._period_s
-        while self._next_s <= now_s:
-            yield self._next_s
-            self._next_s += self._period_s
+    def due(self, clock_ns: int) -> Iterator[float]:
+        """
+        Yield the moments that have come and were not yielded before, the oldest first.
+
+        Parameters
+        ----------
+        clock_ns
+            The clock, in nanoseconds. The first call yields 0.0.
+
+        Yields
+        ------
+        float
+            The time of the moment in seconds.
+
+        """
+        passed_ns = self._passed_ns(clock_ns)
+        late_ns = passed_ns - self._next_ns - round(LONGEST_DELAY_S * _NANOSECONDS)
+        if late_ns > 0:
+            self._next_ns += late_ns // self._period_ns * self._period_ns
+        while self._next_ns <= passed_ns:
+            yield self._next_ns / _NANOSECONDS
+            self._next_ns += self._period_ns
+
+    def passed_s(self, clock_ns: int) -> float:
+        """Return the time since the first call of `due`, in seconds; zero before it."""
+        return 0.0 if self._origin_ns is None else self._passed_ns(clock_ns) / _NANOSECONDS
+
+    def set_rate(self, rate_hz: float, clock_ns: int) -> None:
+        """Change the rate, in Hz: the next moment is one new period from now."""
+        self._period_ns = round(_NANOSECONDS / rate_hz)
+        if self._origin_ns is not None:
+            self._next_ns = self._passed_ns(clock_ns) + self._period_ns
+
+    def _passed_ns(self, clock_ns: int) -> int:
+        """Return the time since the first look at the clock; it never goes back."""
+        if self._origin_ns is None:
+            self._origin_ns = clock_ns
+        elif clock_ns < self._clock_ns:
+            self._origin_ns -= self._clock_ns - clock_ns
+        self._clock_ns = clock_ns
+        return clock_ns - self._origin_ns

@@ -57,6 +57,19 @@ def refuse():
 sys.exit(run_node(refuse))
 """
 )
+ENDING = (
+    HEAD
+    + """
+from humanoid_common.running import ending
+class Attached(Node):
+    def __init__(self):
+        super().__init__('attached')
+        self.create_timer(0.01, ending(self, self.look))
+    def look(self):
+        raise NodeStartError('The robot is silent. Look at its line.')
+sys.exit(run_node(Attached))
+"""
+)
 BROKEN = (
     HEAD
     + """
@@ -76,6 +89,23 @@ def load():
         time.sleep(60.0)
     except KeyboardInterrupt as error:
         raise ImportError('half of it') from error
+sys.exit(run_node(load))
+"""
+)
+
+UNSEEN = (
+    HEAD
+    + """
+import signal
+import threading
+
+def take_signal():
+    time.sleep(0.5)
+    signal.pthread_kill(threading.get_ident(), signal.SIGTERM)
+
+def load():
+    threading.Thread(target=take_signal, daemon=True).start()
+    time.sleep(60.0)
 sys.exit(run_node(load))
 """
 )
@@ -128,7 +158,7 @@ def test_repeated_signals(tmp_path: Path) -> None:
 
 
 def test_stuck_callback(tmp_path: Path) -> None:
-    """A node whose callback never returns ends with repeated Ctrl-C."""
+    """A node whose callback never returns ends with repeated Ctrl-C, and the log says where."""
     script = tmp_path / 'stuck.py'
     script.write_text(STUCK, encoding='utf-8')
     with ros_sandbox(), running_program([sys.executable, str(script)]) as program:
@@ -138,12 +168,20 @@ def test_stuck_callback(tmp_path: Path) -> None:
             pause=lambda: repeat(program),
             message=lambda: f'the end of the node; it wrote: {program.output}',
         )
-        assert_clean_exit(program.wait_for_exit())
+        report = program.wait_for_exit()
+        assert report.status == 0 and 'Traceback' not in report.stderr
+        assert 'in block' in report.stderr
 
 
 def test_refusal_is_one_sentence(tmp_path: Path) -> None:
     """A node that cannot start says why, without a traceback, with status 1."""
     assert run(tmp_path, REFUSING) == ExitReport(1, '', 'There is no robot. Build one.\n')
+
+
+def test_callback_that_ends_its_node(tmp_path: Path) -> None:
+    """A node that cannot go on says why, without a traceback, with status 1."""
+    sentence = 'The robot is silent. Look at its line.\n'
+    assert run(tmp_path, ENDING) == ExitReport(1, '', sentence)
 
 
 def test_mistake_keeps_its_traceback(tmp_path: Path) -> None:
@@ -176,3 +214,8 @@ def test_signal_while_it_starts(tmp_path: Path, number: signal.Signals) -> None:
     with ros_sandbox(), running_program([sys.executable, str(script)]) as program:
         program.wait_for_output('loading')
         assert_clean_exit(program.stop(number))
+
+
+def test_signal_that_the_main_thread_does_not_see(tmp_path: Path) -> None:
+    """A signal to another thread does not interrupt what the main thread waits for."""
+    assert run(tmp_path, UNSEEN) == ExitReport(0, '', '')

@@ -7,7 +7,12 @@ import os
 import signal
 import sys
 
-from humanoid_common.testing.processes import assert_clean_exit, ExitReport, running_program
+from humanoid_common.testing.processes import (
+    assert_clean_exit,
+    ExitReport,
+    is_alive,
+    running_program,
+)
 from humanoid_common.testing.waiting import wait_until, WaitedInVainError
 import pytest
 
@@ -17,15 +22,6 @@ child = subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(100)'])
 print('child', child.pid, flush=True)
 child.wait()
 """
-
-
-def is_alive(pid: int) -> bool:
-    """Tell whether a process runs; one that is dead but not collected does not."""
-    try:
-        with open(f'/proc/{pid}/stat', encoding='ascii') as stat:
-            return stat.read().rpartition(')')[2].split()[0] != 'Z'
-    except FileNotFoundError:
-        return False
 
 
 def test_output_and_status() -> None:

@@ -7,9 +7,9 @@ import sys
 from typing import Any
 
 from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.periodic import PeriodicTimer
 from humanoid_common.qos import COMMAND
 from humanoid_common.running import run_node
-from humanoid_common.steady import SteadyTimer
 from humanoid_control.conversions import command_message
 from humanoid_control.joint_controller_parameters import JointControllerParameters
 from humanoid_control.stop_listener import StopListener
@@ -19,7 +19,12 @@ from sensor_msgs.msg import JointState
 
 
 class HumanoidJointController(Node):
-    """Swings the joints that its parameters name, on the topic `joint_commands`, until a stop."""
+    """
+    Swings the joints that its parameters name, on the topic `joint_commands`, until a stop.
+
+    The motion goes by the clock of the node: with `use_sim_time` it is as slow as the simulation,
+    and stands still with it. The watch over the person in control goes by a steady clock.
+    """
 
     def __init__(self, **options: Any) -> None:
         """Start to publish."""
@@ -29,12 +34,12 @@ class HumanoidJointController(Node):
         self._motion = StoppableMotion(parameters.motion)
         self._stop = StopListener(self, parameters.heartbeat_timeout_s)
         self._publisher = self.create_publisher(JointState, 'joint_commands', COMMAND)
-        self._timer = SteadyTimer(self, parameters.rate_hz, self._publish)
+        self._timer = PeriodicTimer(self, parameters.rate_hz, self._publish)
         self.get_logger().info(f'Humanoid Joint Controller started ({parameters.rate_hz:g} Hz)')
 
     def _publish(self, now_s: float) -> None:
         """Publish the command for this moment."""
-        command = self._motion.command(now_s, self._stop.must_hold())
+        command = self._motion.command(now_s, self._stop.must_hold)
         if command is not None:
             stamp = self.get_clock().now().to_msg()
             self._publisher.publish(command_message(command, stamp))

@@ -48,7 +48,7 @@ class MockRobot(Node):
         parameters = self._settings.current
         controls, backend = self._build(parameters)
         self._stamps = Stamps()
-        self._robots = HostedRobots(self, controls, parameters)
+        self._robots = HostedRobots(self, controls, parameters, 'humanoid_control/MockBackend')
         loop = ControlLoop(backend, {name: robot.control for name, robot in controls.items()})
         period_s, pace = backend.period_s, RealTimePace(backend.period_s)
         self._host = Host(self, loop, pace, period_s, self._robots.look, self._tell)

@@ -7,12 +7,15 @@ import time
 
 from humanoid_common.qos import LATCHED
 from humanoid_control.stop_guard import StopGuard
+from rclpy.clock import Clock, ClockType
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Bool, String
 
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+CHECK_S = 0.05
+"""How often a console that is gone is looked for, by a clock that nobody sets or stops."""
 
 
 class StopListener:
@@ -21,6 +24,8 @@ class StopListener:
 
     A stop is heard twice: once with what was said before this node started, and once from
     publishers that keep nothing for those who join late, or send nothing twice.
+
+    People go by real time: the watch over the console goes on while a simulation is paused.
     """
 
     def __init__(self, node: Node, heartbeat_timeout_s: float, robot: str = '') -> None:
@@ -38,22 +43,32 @@ class StopListener:
                 Bool, f'{place}emergency_stop', self._order, qos, event_callbacks=quiet
             )
         node.create_subscription(Bool, f'{place}console_heartbeat', self._heartbeat, NEWEST)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(CHECK_S, self._check, clock=steady)
 
+    @property
     def must_hold(self) -> bool:
-        """Tell whether the robot must hold still; the first time, say why."""
-        reason = self.guard.check(time.monotonic())
-        if reason != self._said:
-            self._said = reason
-            self._say(reason)
-        return bool(reason)
+        """Whether the robot must hold still."""
+        return bool(self.guard.reason)
 
     def _order(self, message: Bool) -> None:
         self.guard.order(message.data)
+        self._say_news()
+
+    def _check(self) -> None:
+        """Look for a console that is gone."""
+        self.guard.check(time.monotonic())
+        self._say_news()
 
     def _heartbeat(self, message: Bool) -> None:
         self.guard.heartbeat(message.data)
 
-    def _say(self, reason: str) -> None:
+    def _say_news(self) -> None:
+        """Say why the robot holds still, or that it moves on, when that is new."""
+        reason = self.guard.reason
+        if reason == self._said:
+            return
+        self._said = reason
         self._state.publish(String(data=reason))
         if reason:
             self._log.warning(

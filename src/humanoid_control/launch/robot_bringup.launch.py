@@ -18,6 +18,9 @@ def generate_launch_description() -> LaunchDescription:
     use_sim_time = {
         'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)
     }
+    report_period = {
+        'report_period_s': ParameterValue(LaunchConfiguration('report_period_s'), value_type=float)
+    }
     return LaunchDescription(
         [
             DeclareLaunchArgument(
@@ -32,6 +35,11 @@ def generate_launch_description() -> LaunchDescription:
                 choices=['true', 'false'],
                 description='Take the time from the topic /clock instead of the computer.',
             ),
+            DeclareLaunchArgument(
+                'report_period_s',
+                default_value='1.0',
+                description='How often the sensor processor logs the first joint, in seconds.',
+            ),
             Node(
                 package='humanoid_control',
                 executable='joint_controller',
@@ -43,7 +51,11 @@ def generate_launch_description() -> LaunchDescription:
                 package='humanoid_control',
                 executable='sensor_processor',
                 output='screen',
-                parameters=[PathJoinSubstitution([config, 'sensor_processor.yaml']), use_sim_time],
+                parameters=[
+                    PathJoinSubstitution([config, 'sensor_processor.yaml']),
+                    use_sim_time,
+                    report_period,
+                ],
             ),
         ]
     )

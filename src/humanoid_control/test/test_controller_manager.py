@@ -169,7 +169,7 @@ def test_in_trouble_nothing_is_lent() -> None:
     robot.walking.trouble = 'the robot has fallen'
     robot.run(1)
     assert robot.manager.owner('left_elbow') == 'walking'
-    with pytest.raises(CommandError, match='lends nothing for the moment: the robot has fallen.'):
+    with pytest.raises(CommandError, match='accepts no joint commands now: the robot has fallen.'):
         robot.command('left_elbow', -0.5)
     robot.walking.trouble = ''
     robot.command('left_elbow', -0.5)

@@ -123,3 +123,17 @@ def test_control_given_back(watch: Watch) -> None:
     count = len(watch.commands)
     watch.ros.wait_until(lambda: len(watch.commands) > count + 50, what='commands meanwhile')
     assert not watch.holds() and watch.told('Holding still') == 0
+
+
+def test_stop_in_a_pause(watch: Watch) -> None:
+    """While the time of the world stands still, a stop is heard, and a console is missed."""
+    watch.ros.start(HumanoidJointController, {'use_sim_time': True})
+    heartbeat = watch.publisher('console_heartbeat', BEST_EFFORT)
+    heartbeat.publish(Bool(data=True))
+    watch.ros.wait_until(lambda: 'is gone' in ''.join(watch.states), what='the console is missed')
+    stop = watch.publisher('emergency_stop', LATCHED)
+    stop.publish(Bool(data=False))
+    watch.ros.wait_until(lambda: watch.states[-1] == '', what='the release')
+    stop.publish(Bool(data=True))
+    watch.ros.wait_until(lambda: watch.states[-1] == 'the emergency stop is pressed')
+    assert watch.commands == []

@@ -13,6 +13,7 @@ from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Motion, Pendulum
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.sides import LEFT, other, outwards, SIDES
+from humanoid_control.walking.swing_foot import SoleMotion
 from humanoid_control.walking.terrain import Facet, LEVEL
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 import numpy as np
@@ -59,6 +60,12 @@ class IdealRobot:
         self.run(time_s)
         end = self.footing.middle
         return PlanarPose(start.local(end.position_m), end.yaw_rad - start.yaw_rad)
+
+    @property
+    def sole(self) -> SoleMotion | None:
+        """Return where the foot in the air is to be, if one is."""
+        swing = self.output.swing if self.output else None
+        return swing.sole if swing else None
 
     def push(self, speed_m_s: complex) -> None:
         """Change the velocity at once."""
@@ -174,6 +181,26 @@ def test_gaps() -> None:
     assert robot.is_upright
     robot.go(STANDING, 6.0)
     assert robot.phases[-1] == 'stand'
+
+
+@pytest.mark.parametrize('in_air_s', [0.02, 0.1, 0.15])
+def test_a_gap_makes_no_foot_jump(in_air_s: float) -> None:
+    """After 190 ms without control the foot in the air goes on from where it is."""
+    ticks_s = [0.01]
+    robot = IdealRobot(lambda: ticks_s.pop() if len(ticks_s) > 1 else ticks_s[0])
+    robot.go(FORWARD, 3.0)
+    while robot.sole:
+        robot.run(0.01)
+    while not robot.sole:
+        robot.run(0.01)
+    robot.run(in_air_s)
+    before = robot.sole
+    ticks_s.append(0.19)
+    robot.run(0.01)
+    after = robot.sole
+    assert before and after
+    assert abs(after.pose.position_m - before.pose.position_m) < 0.06
+    assert abs(after.facet.height_m - before.facet.height_m) < 0.03
 
 
 @pytest.mark.parametrize('push_m_s', [0.35, -0.35, 0.35j, -0.35j])

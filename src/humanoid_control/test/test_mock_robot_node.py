@@ -51,7 +51,7 @@ class Watch:
 
     def wait_for(self, *topics: str) -> None:
         """Wait for a message on each of the topics."""
-        self.ros.wait_until(lambda: set(topics) <= set(self.last), 20.0, f'all of {topics}')
+        self.ros.wait_until(lambda: set(topics) <= set(self.last), 60.0, f'all of {topics}')
 
     def publisher(self, kind: type, topic: str, qos: Any = 10) -> Publisher:
         """Return a publisher that the robot has found."""
@@ -71,7 +71,7 @@ class Watch:
             publisher.publish(message)
             return bool(until())
 
-        self.ros.wait_until(publish_and_look, 20.0, what)
+        self.ros.wait_until(publish_and_look, 100.0, what)
 
     def told(self, words: str) -> int:
         """Return how often the log has some words."""
@@ -158,7 +158,7 @@ def test_walk(watch: Watch) -> None:
     assert len(colors) == 2, 'a number is always of the same side'
     assert 0.15 < steps[1].scale.x < 0.25 and 0.05 < steps[1].scale.y < 0.12
     assert watch.last['walking/dcm'].header.frame_id == 'odom'
-    watch.ros.wait_until(lambda: watch.last['walking_state'].data == 'stand', 20.0, 'a stand')
+    watch.ros.wait_until(lambda: watch.last['walking_state'].data == 'stand', 60.0, 'a stand')
 
 
 def test_no_turn(watch: Watch) -> None:
@@ -234,7 +234,7 @@ def test_trajectory(watch: Watch) -> None:
     point = JointTrajectoryPoint(positions=[0.8], time_from_start=Duration(nanosec=500_000_000))
     message = JointTrajectory(joint_names=['head_yaw'], points=[point])
     watch.publisher(JointTrajectory, 'joint_trajectory').publish(message)
-    watch.ros.wait_until(lambda: watch.joint_rad('head_yaw') > 0.75, 20.0, 'the head')
+    watch.ros.wait_until(lambda: watch.joint_rad('head_yaw') > 0.75, 60.0, 'the head')
 
 
 def test_stop(watch: Watch) -> None:

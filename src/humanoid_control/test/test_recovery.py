@@ -95,6 +95,19 @@ def test_a_robot_that_lies_is_near_the_ground(walker: Walker) -> None:
     assert 0.05 < walker.status.odometry.height_m < 0.3
 
 
+def test_a_robot_that_lies_from_the_start_has_a_status(walker: Walker) -> None:
+    """From the first tick on it says that it has fallen, where it is, and plans nothing."""
+    assert walker.phase is None
+    walker.update(seen(walker, 0.0, pitch_rad=1.5))
+    status = walker.status
+    assert status is not None
+    assert status.phase == walker.phase == 'fallen'
+    assert 0.05 < status.odometry.height_m < 0.3
+    assert abs(status.odometry.pose.position_m) < 1.0
+    assert (status.support, list(status.footsteps)) == ((), [])
+    assert status.zmp_m == status.dcm_m == status.dcm_reference_m
+
+
 def test_a_robot_that_is_held_upright_stands_up(walker: Walker) -> None:
     """It takes the posture of standing, and stands as soon as its feet carry it."""
     walker.update(seen(walker, 0.0))

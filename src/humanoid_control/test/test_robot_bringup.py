@@ -19,7 +19,11 @@ LAUNCH_FILE = Path(__file__).parents[1] / 'launch' / 'robot_bringup.launch.py'
 def test_arguments() -> None:
     """Every argument has a default and a description."""
     description = load_launch_file(LAUNCH_FILE)
-    assert argument_defaults(description) == {'use_controller': 'true', 'use_sim_time': 'false'}
+    assert argument_defaults(description) == {
+        'report_period_s': '1.0',
+        'use_controller': 'true',
+        'use_sim_time': 'false',
+    }
     assert undescribed_arguments(description) == []
 
 

@@ -27,6 +27,7 @@ import numpy as np
 import pytest
 
 P = WalkParameters()
+UNDRAGGED = (0j, 0j)
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +55,7 @@ def _stance(robot: Robot) -> Stance:
     still = np.zeros(len(drives))
     state = walking.body.state(np.eye(3), np.zeros(3), home.positions_rad, still)
     level = Attitude(0.0, 0.0, 0.0, (0.0, 0.0, 0.0))
-    sensed = Sensed(0.0, state, level, (0.5, 0.5))
+    sensed = Sensed(0.0, state, level, (0.5, 0.5), UNDRAGGED, still, np.zeros(3))
     footing = footing_below(0j, walking, FootShape.of(robot, P), P, sensed)
     return Stance(walking, home, state, footing, loads_for(footing, SIDES, footing.rest_point))
 

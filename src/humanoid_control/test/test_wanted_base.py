@@ -23,6 +23,7 @@ import numpy as np
 import pytest
 
 P = WalkParameters()
+UNDRAGGED = (0j, 0j)
 LEAN = from_rpy(0.1, -0.05, 0.6)
 TURNING = Turning(0.5, 0.3)
 WANTED = Motion(0.2 + 0.1j, 0.3 - 0.05j)
@@ -65,7 +66,7 @@ def test_centre_of_mass_is_where_it_is_wanted(walking: WalkingRobot, state: Body
 def test_base_sinks_to_reach(robot: Robot, walking: WalkingRobot, state: BodyState) -> None:
     """A base that is too high for its legs is lowered, and otherwise stays as it is."""
     level = Attitude(0.0, 0.0, 0.0, (0.0, 0.0, 0.0))
-    sensed = Sensed(0.0, state, level, (0.5, 0.5))
+    sensed = Sensed(0.0, state, level, (0.5, 0.5), UNDRAGGED, state.bias_nm, np.zeros(3))
     footing = footing_below(0j, walking, FootShape.of(robot, P), P, sensed)
     com = BASE.com_motion(state)
     wanted = base_below(Motion(), 0.8, TURNING, com, BASE, state)
@@ -78,7 +79,8 @@ def test_base_sinks_to_reach(robot: Robot, walking: WalkingRobot, state: BodySta
 
 def test_soles_are_seen_from_the_base(walking: WalkingRobot, state: BodyState) -> None:
     """The soles are where the base and the joints put them, with the load that they carry."""
-    sensed = Sensed(0.0, state, Attitude(0.0, 0.0, 0.0, (0.0, 0.0, 0.0)), (0.7, 0.2))
+    level = Attitude(0.0, 0.0, 0.0, (0.0, 0.0, 0.0))
+    sensed = Sensed(0.0, state, level, (0.7, 0.2), UNDRAGGED, state.bias_nm, np.zeros(3))
     soles = soles_below(BASE.position_m, walking, sensed, P)
     for side, sole in zip(SIDES, soles):
         place = BASE.position_m + state.position_m(walking.legs[side].sole)

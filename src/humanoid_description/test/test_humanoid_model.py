@@ -20,6 +20,7 @@ SENSORS = {
     'imu_link',
     'camera_link',
     'camera_optical_frame',
+    'laser',
     'l_foot_contact',
     'r_foot_contact',
 }

@@ -23,7 +23,7 @@ from tf2_ros import Buffer
 LAUNCH_FILE = Path(get_package_share_directory('humanoid_description')) / 'launch/view.launch.py'
 JOINTS = ('left_shoulder', 'left_shoulder_roll', 'left_shoulder_yaw', 'left_elbow', 'waist_yaw')
 POSES = 60
-TIMEOUT_S = 60.0
+TIMEOUT_S = 100.0
 
 
 class Observer:

@@ -1,14 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests that every message and service is what its users count on."""
+"""Tests that every message, service and action is what its users count on."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from builtin_interfaces.msg import Duration, Time
-from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
-from humanoid_interfaces.msg import Contact, Contacts
-from humanoid_interfaces.srv import ApplyWrench, ResetSimulation, SetEntityState, StepSimulation
+from diagnostic_msgs.msg import KeyValue
+from geometry_msgs.msg import Point, Pose, PoseWithCovariance, Vector3, Wrench
+from humanoid_interfaces.action import ExecutePlan, ScanRoom
+from humanoid_interfaces.msg import (
+    Contact,
+    Contacts,
+    Plan,
+    PlanStep,
+    RememberedObject,
+    SpeechResult,
+)
+from humanoid_interfaces.srv import ApplyWrench, FindObjects, MakePlan
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from std_msgs.msg import Header
@@ -31,43 +40,99 @@ PUSH = ApplyWrench.Request(
     point=Point(z=0.2),
     duration=Duration(nanosec=100_000_000),
 )
-PLACE = SetEntityState.Request(
-    entity='box',
-    pose=Pose(position=Point(x=1.0), orientation=Quaternion(w=0.6, z=0.8)),
-    twist=Twist(linear=Vector3(y=0.5)),
+MUG = RememberedObject(
+    id='red_mug_1',
+    class_id='mug',
+    colour='red',
+    place='kitchen_table',
+    room='kitchen',
+    pose=PoseWithCovariance(pose=Pose(position=Point(x=1.0, y=-2.0, z=0.75))),
+    size=Vector3(x=0.12, y=0.08, z=0.1),
+    score=0.5,
+    belief=0.75,
+    last_seen=Time(sec=12, nanosec=5),
+    sightings=7,
 )
-SERVICES = [ApplyWrench, ResetSimulation, SetEntityState, StepSimulation]
-
-
-@pytest.mark.parametrize(
-    'message',
-    [
-        CONTACT,
-        CONTACTS,
-        PUSH,
-        PLACE,
-        ResetSimulation.Request(keyframe='home'),
-        StepSimulation.Request(steps=2**64 - 1),
+FOUND = FindObjects.Response(
+    header=Header(stamp=Time(sec=13), frame_id='map'), objects=[MUG], success=True
+)
+SEEN = ScanRoom.Result(
+    error_code=ScanRoom.Result.TIMEOUT, error_msg='Late.', coverage=0.5, seen=['red_mug_1']
+)
+PLAN = Plan(
+    command='go to the kitchen',
+    source='rules',
+    steps=[
+        PlanStep(
+            skill='go_to',
+            arguments=[KeyValue(key='target', value='kitchen')],
+            text='go to the kitchen',
+        )
     ],
-    ids=lambda message: type(message).__name__,
 )
+ANSWER = MakePlan.Response(message='Which mug?', choices=['the red one'], plan=PLAN)
+DONE = ExecutePlan.Result(
+    error_code=ExecutePlan.Result.FAILED, error_msg='No way.', failed_step=-1, said=['Ready.']
+)
+STEP = ExecutePlan.Feedback(step=1, state='running', message='I am going to the kitchen.')
+HEARD = SpeechResult(
+    text='stop',
+    accepted=True,
+    confidence=-1.5,
+    backend='pocketsphinx',
+    locale='en-US',
+    speech_duration=Duration(nanosec=600_000_000),
+)
+EXECUTE_CODES = (
+    *('NONE', 'INVALID', 'UNAVAILABLE', 'FAILED', 'TIMEOUT', 'STOPPED', 'PREEMPTED', 'UNKNOWN'),
+)
+SCAN_CODES = (
+    *('NONE', 'TIMEOUT', 'HEAD_FAILED', 'BODY_FAILED', 'NO_TRANSFORM', 'INHIBITED', 'NO_CAMERA'),
+    *('PREEMPTED', 'UNKNOWN'),
+)
+MESSAGES = [
+    *(CONTACT, CONTACTS, PUSH, MUG, FOUND, SEEN, PLAN, ANSWER, DONE, STEP, HEARD),
+    *(ScanRoom.Goal(turn_body=True), ExecutePlan.Goal(plan=PLAN)),
+    MakePlan.Request(command='stop'),
+]
+
+
+@pytest.mark.parametrize('message', MESSAGES, ids=lambda message: type(message).__name__)
 def test_a_message_arrives_as_it_was_sent(message: Any) -> None:
     """All fields are there again after the way through DDS's format."""
     assert deserialize_message(serialize_message(message), type(message)) == message
 
 
-@pytest.mark.parametrize('service', SERVICES, ids=lambda service: service.__name__)
-def test_an_answer_says_whether_and_why_not(service: Any) -> None:
-    """Every answer is that of std_srvs: success, and a message."""
-    answer = service.Response(success=True, message='Stepped')
-    assert deserialize_message(serialize_message(answer), service.Response) == answer
-    assert service.Response.get_fields_and_field_types() == {
+def test_an_answer_says_whether_and_why_not() -> None:
+    """The answer is that of std_srvs: success, and a message."""
+    answer = ApplyWrench.Response(success=True, message='Pushed')
+    assert deserialize_message(serialize_message(answer), ApplyWrench.Response) == answer
+    assert ApplyWrench.Response.get_fields_and_field_types() == {
         'success': 'boolean',
         'message': 'string',
     }
 
 
 def test_what_is_left_out_is_harmless() -> None:
-    """An empty request turns nothing and pushes nothing: rotations are the identity."""
-    assert SetEntityState.Request().pose.orientation.w == 1.0
+    """An empty request pushes nothing."""
     assert ApplyWrench.Request().wrench == Wrench()
+
+
+def test_an_empty_question_asks_for_everything() -> None:
+    """What is not said limits nothing."""
+    question = FindObjects.Request()
+    assert not any((question.class_id, question.colour, question.place, question.id))
+
+
+def test_a_scan_turns_the_head_alone_unless_it_is_told_more() -> None:
+    """The body moves only if asked, and a scan without an error has the code NONE."""
+    assert ScanRoom.Goal().turn_body is False
+    assert ScanRoom.Result().error_code == ScanRoom.Result.NONE
+
+
+@pytest.mark.parametrize(
+    'result, names', [(ScanRoom.Result, SCAN_CODES), (ExecutePlan.Result, EXECUTE_CODES)]
+)
+def test_each_way_to_fail_has_a_code_of_its_own(result: Any, names: tuple[str, ...]) -> None:
+    """Programs tell them apart."""
+    assert len({getattr(result, name) for name in names}) == len(names)

@@ -5,18 +5,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from builtin_interfaces.msg import Duration
 from geometry_msgs.msg import Point, Vector3
 from humanoid_control.backends import Array
 from humanoid_interfaces.msg import Contact as ContactMessage
-from humanoid_interfaces.srv import SetEntityState
 from humanoid_simulation.backend import Contact, EntityState
 import numpy as np
+from simulation_interfaces.msg import EntityState as EntityStateMessage
 
 
-def entity_state(request: SetEntityState.Request) -> EntityState:
-    """Return the state that a request asks for."""
-    pose, twist = request.pose, request.twist
+def entity_state(message: EntityStateMessage) -> EntityState:
+    """Return the state that a message tells, without its frame and its accelerations."""
+    pose, twist = message.pose, message.twist
     q = pose.orientation
     return EntityState(
         vector(pose.position),
@@ -41,11 +40,6 @@ def contact_message(contact: Contact) -> ContactMessage:
 def vector(message: Any) -> Array:
     """Return the three numbers of a point or vector."""
     return np.array([message.x, message.y, message.z])
-
-
-def seconds(duration: Duration) -> float:
-    """Return a duration in seconds."""
-    return float(duration.sec + duration.nanosec * 1e-9)
 
 
 def _vector_message(values: Array) -> Vector3:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 from humanoid_common.parameters import parameter
 from humanoid_simulation.backend.noise import REALISTIC, SensorNoise
+from humanoid_simulation.camera.picture_noise import PictureNoise
+from humanoid_simulation.laser.scanner import ScanNoise
 
 
 def _deviation(default: float, of_what: str) -> float:
@@ -35,7 +37,7 @@ class NoiseParameters:
     joint_position_noise_rad: float = _deviation(REALISTIC.position_rad, 'joint positions')
     joint_velocity_noise_rad_s: float = _deviation(REALISTIC.velocity_rad_s, 'joint velocities')
     joint_effort_noise_nm: float = _deviation(REALISTIC.effort_nm, 'joint efforts')
-    imu_tilt_noise_rad: float = _deviation(REALISTIC.tilt_rad, 'the orientation, about each axis')
+    imu_tilt_noise_rad: float = _deviation(REALISTIC.tilt_rad, 'roll and pitch')
     imu_rate_noise_rad_s: float = _deviation(
         REALISTIC.angular_velocity_rad_s, 'angular velocities'
     )
@@ -48,6 +50,37 @@ class NoiseParameters:
     )
     foot_force_noise_n: float = _deviation(REALISTIC.foot_force_n, 'the forces on the feet')
     foot_torque_noise_nm: float = _deviation(REALISTIC.foot_torque_nm, 'the torques on the feet')
+
+    camera_color_noise: float = _deviation(2.0, 'red, green and blue, of 255')
+    camera_depth_noise_m: float = _deviation(
+        0.002, 'depth at a distance of 1 m, and with the square of the distance'
+    )
+    scan_range_noise_m: float = _deviation(0.01, 'the ranges of the laser scanner')
+    scan_dropout_share: float = parameter(
+        0.002,
+        'Share of rays of the laser scanner that bring nothing back, at sensor_noise 1.',
+        at_least=0.0,
+        at_most=1.0,
+        read_only=True,
+    )
+
+    @property
+    def picture_noise(self) -> PictureNoise:
+        """Return the noise of the cameras that the parameters describe."""
+        return PictureNoise(
+            color=self.camera_color_noise * self.sensor_noise,
+            depth_1_m=self.camera_depth_noise_m * self.sensor_noise,
+            seed=self.seed,
+        )
+
+    @property
+    def scan_noise(self) -> ScanNoise:
+        """Return the noise of the laser scanners that the parameters describe."""
+        return ScanNoise(
+            range_m=self.scan_range_noise_m * self.sensor_noise,
+            dropout_share=min(self.scan_dropout_share * self.sensor_noise, 1.0),
+            seed=self.seed,
+        )
 
     @property
     def noise(self) -> SensorNoise:

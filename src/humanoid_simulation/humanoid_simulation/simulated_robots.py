@@ -13,7 +13,7 @@ from humanoid_description.loading import load_robot
 from humanoid_simulation.backend import BackendSettings, MujocoBackend
 from humanoid_simulation.keyframes import Keyframe, load_keyframes
 from humanoid_simulation.model import humanoid, Physics, Placement, RobotDescription
-from humanoid_simulation.scene import load_scene
+from humanoid_simulation.scene import load_scene, Scene
 from humanoid_simulation.simulator_parameters import SimulatorParameters
 
 
@@ -35,18 +35,21 @@ def simulated_robots(
     """
     description = humanoid(parameters.scale, parameters.prefix)
     model = load_robot(description.urdf, 'the humanoid')
+    imu = parameters.noise.imu(_settings(parameters).period_s)
     controls = {
         name: WalkingRobotControl.of(
-            model, description.drives, parameters.scale, time.monotonic, say
+            model, description.drives, parameters.scale, time.monotonic, say, imu=imu
         )
         for name in parameters.robots
     }
-    return SimulatedRobots(_backend(parameters, description, controls), controls)
+    scene = load_scene(parameters.scene)
+    return SimulatedRobots(_backend(parameters, description, scene, controls), controls)
 
 
 def _backend(
     parameters: SimulatorParameters,
     description: RobotDescription,
+    scene: Scene,
     controls: dict[str, WalkingRobotControl],
 ) -> MujocoBackend:
     """Return the world; home is where walking begins."""
@@ -54,7 +57,7 @@ def _backend(
     unprefixed = {name.removeprefix(description.prefix): at for name, at in home.items()}
     return MujocoBackend(
         description,
-        load_scene(parameters.scene),
+        scene,
         _placements(parameters),
         _settings(parameters),
         load_keyframes() | {'home': Keyframe(unprefixed)},

@@ -15,15 +15,20 @@ from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots
 from humanoid_control.hosting.refusals import Refusals
 from humanoid_control.hosting.rivals import Rivals
+from humanoid_control.hosting.slowness import Speed
 from humanoid_control.hosting.topics.filling import topic
 from humanoid_description.errors import DescriptionError
 from humanoid_simulation.camera.topics import CameraTopics
+from humanoid_simulation.entity_services import EntityServices
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.guarded_loop import GuardedLoop
+from humanoid_simulation.laser.topics import FRAME, ScanTopics
+from humanoid_simulation.model import in_world
 from humanoid_simulation.pacing import Pacer
 from humanoid_simulation.simulated_robots import simulated_robots, SimulatedRobots
+from humanoid_simulation.simulated_world import SimulatedWorld
+from humanoid_simulation.simulation_services import SimulationServices
 from humanoid_simulation.simulator_parameters import SimulatorParameters
-from humanoid_simulation.simulator_services import SimulatorServices
 from humanoid_simulation.topics.real_time_factor import RealTimeFactorTopic
 from humanoid_simulation.topics.world import WorldTopics
 from rclpy.node import Node
@@ -39,14 +44,24 @@ class Simulator(Node):
         parameters = self._settings.current
         simulated = self._build(parameters)
         self._backend = backend = simulated.backend
-        self._robots = HostedRobots(self, simulated.controls, parameters)
-        self._world = WorldTopics(self, backend, parameters)
+        hardware = 'humanoid_simulation/MujocoBackend'
+        self._robots = HostedRobots(self, simulated.controls, parameters, hardware)
+        self._world = WorldTopics(self, simulated, parameters)
         self._cameras = CameraTopics(
             self,
             {name: backend.camera(name) for name in backend.robots},
             backend.model,
             parameters,
             parameters.prefix,
+            parameters.picture_noise,
+        )
+        self._scans = ScanTopics(
+            self,
+            {name: in_world(name, f'{parameters.prefix}{FRAME}') for name in backend.robots},
+            backend.model,
+            parameters,
+            parameters.prefix,
+            parameters.scan_noise,
         )
         self._see()
         brains = {name: robot.control for name, robot in simulated.controls.items()}
@@ -56,13 +71,15 @@ class Simulator(Node):
             self, loop, self._pacer, self._pacer.interval_s, self._robots.look, self._tell
         )
         self._host.pause(parameters.start_paused)
-        self._control = SimulatorServices(
-            self, backend, loop, self._host, parameters.steps_per_period
+        world = SimulatedWorld(
+            backend, loop, self._host, parameters.steps_per_period, self._follow_scene
         )
-        self._factor_topic = RealTimeFactorTopic(self, self._pacer)
+        self._simulation_services = SimulationServices(self, world, parameters)
+        self._entity_services = EntityServices(self, world)
+        self._factor_topic = RealTimeFactorTopic(self, self._speed)
         joint_states = [topic(name, 'joint_states') for name in backend.robots]
         self._rivals = Rivals(self, ['/clock', *joint_states])
-        self._diagnostics = HostDiagnostics(self, self._host, self._robots)
+        self._diagnostics = HostDiagnostics(self, self._host, self._robots, self._speed)
         self.get_logger().info(_greeting(simulated, parameters))
 
     @property
@@ -88,12 +105,27 @@ class Simulator(Node):
             return
         self._world.tell(observations)
         self._robots.tell(observations)
+        self._scans.tell(self._backend.time_s, self._backend.data)
         self._see()
 
     def _see(self) -> None:
         """Let the cameras see the world as it is."""
         time_ns = round(self._backend.time_s * 1e9)
         self._cameras.tick(time.monotonic(), time_ns, self._backend.data)
+
+    def _follow_scene(self) -> None:
+        """Let viewers and sensors follow a change of the scene, which the backend has made."""
+        self._world.change_scene()
+        self._cameras.change_model(self._backend.model)
+        self._scans.change_model(self._backend.model)
+        self._see()
+
+    def _speed(self) -> Speed | None:
+        """Return how fast the time of the world passes; None in a pause, and at the start."""
+        reached = self._pacer.reached
+        if reached is None or self._host.paused:
+            return None
+        return Speed(reached, self._pacer.factor)
 
     def _fail(self, sentence: str) -> None:
         """Stand still after an error of the physics."""
@@ -104,6 +136,8 @@ class Simulator(Node):
         """Follow a change of the parameters."""
         self._robots.change(parameters)
         self._world.change(parameters)
+        self._scans.change(parameters)
+        self._simulation_services.change(parameters)
         if parameters.real_time_factor != self._pacer.factor:
             self._pacer.change(parameters.real_time_factor, time.monotonic())
             self._host.change(self._pacer.interval_s)

@@ -8,6 +8,10 @@ from dataclasses import dataclass
 from humanoid_common.parameters import parameter, ParameterError
 from humanoid_control.hosting.parameters import HostParameters
 from humanoid_simulation.camera.parameters import CameraParameters
+from humanoid_simulation.choosing import named
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.keyframes import load_keyframes
+from humanoid_simulation.laser.parameters import LaserParameters
 from humanoid_simulation.model.physics import SELF_COLLISIONS
 from humanoid_simulation.noise_parameters import NoiseParameters
 
@@ -16,7 +20,7 @@ SLOWEST_FACTOR = 0.001
 
 
 @dataclass(frozen=True)
-class SimulatorParameters(HostParameters, CameraParameters, NoiseParameters):
+class SimulatorParameters(HostParameters, CameraParameters, LaserParameters, NoiseParameters):
     """The world and its time, besides what all hosts of robots, cameras and sensors have."""
 
     scene: str = parameter(
@@ -31,7 +35,12 @@ class SimulatorParameters(HostParameters, CameraParameters, NoiseParameters):
         at_most=100.0,
     )
     start_paused: bool = parameter(
-        False, 'Wait at the start until set_pause or step_simulation is called.', read_only=True
+        False,
+        'Wait at the start until set_simulation_state or step_simulation is called.',
+        read_only=True,
+    )
+    reset_keyframe: str = parameter(
+        'home', 'The posture, one of config/keyframes.yaml, in which robots begin after a reset.'
     )
     physics_rate_hz: float = parameter(
         500.0,
@@ -91,15 +100,31 @@ class SimulatorParameters(HostParameters, CameraParameters, NoiseParameters):
     contacts_rate_hz: float = parameter(
         20.0, 'How often contacts is published; 0 is never.', at_least=0.0, at_most=500.0
     )
+    world_frame_rate_hz: float = parameter(
+        5.0,
+        'How often the transform from odom to world is published, for viewers; 0 is never.',
+        at_least=0.0,
+        at_most=100.0,
+    )
+    walls_shown_up_to_m: float = parameter(
+        0.4,
+        'The height at which ground_truth/scene cuts walls, so that viewers see into the rooms.',
+        at_least=0.0,
+        at_most=100.0,
+    )
 
     def __post_init__(self) -> None:
         """Check what must hold together."""
         super().__post_init__()
+        try:
+            named('keyframe', self.reset_keyframe, load_keyframes())
+        except SimulationError as error:
+            raise ParameterError(str(error), 'reset_keyframe') from error
         if 0.0 < self.real_time_factor < SLOWEST_FACTOR:
             raise ParameterError(
                 f"Parameter 'real_time_factor' is {self.real_time_factor:g}. Give "
                 f'{SLOWEST_FACTOR:g} or more, or 0 for as fast as possible; the service '
-                'set_pause stops the time.',
+                'set_simulation_state stops the time.',
                 'real_time_factor',
             )
         steps = self.physics_rate_hz / self.control_rate_hz

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from humanoid_simulation.scene_choices import SceneChoices
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
@@ -29,7 +30,8 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument(
                 'scene',
                 default_value='flat',
-                description='Name of an installed scene, or the path of a file (.yaml).',
+                choices=SceneChoices(),
+                description='What is in the world besides the robot.',
             ),
             DeclareLaunchArgument(
                 'real_time_factor',
@@ -40,7 +42,7 @@ def generate_launch_description() -> LaunchDescription:
                 'start_paused',
                 default_value='false',
                 choices=['true', 'false'],
-                description='Wait for the service set_pause before any time passes.',
+                description='Wait for the service set_simulation_state before any time passes.',
             ),
             DeclareLaunchArgument(
                 'scale', default_value='1.0', description='Size of the humanoid, 0.5 to 1.3.'

@@ -101,6 +101,19 @@ def test_only_what_is_wanted(place: Studio) -> None:
         place.data.qpos[height] -= 0.2
 
 
+def test_points_are_those_of_the_depth(place: Studio) -> None:
+    """Each pixel has its point in the optical frame, projected onto it, and NaN for the sky."""
+    pictures = place.picture([Wanted(False, False, cloud=True)] * 2)
+    cloud, depth = pictures.clouds[0], pictures.depths[0]
+    assert cloud[5, 5, 2] == pytest.approx(2.0, abs=1e-3)
+    assert np.array_equal(cloud[..., 2], depth)
+    seen = cloud @ PINHOLE.matrix.T.astype(np.float32)
+    x_px, y_px = np.meshgrid(np.arange(161), np.arange(121))
+    assert np.allclose(seen[..., 0] / depth, x_px, atol=1e-3)
+    assert np.allclose(seen[..., 1] / depth, y_px, atol=1e-3)
+    assert np.isnan(pictures.clouds[1]).all()
+
+
 def test_numbers_without_bounds(place: Studio) -> None:
     """A state that is not finite does not end the process that draws."""
     height = ball_address(place.model) + 2

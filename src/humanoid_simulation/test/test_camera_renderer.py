@@ -10,7 +10,7 @@ from pathlib import Path
 import signal
 import sys
 
-from humanoid_common.testing.processes import running_program
+from humanoid_common.testing.processes import is_alive, running_program
 from humanoid_common.testing.waiting import wait_until
 from humanoid_simulation.camera import CameraView, Renderer
 from humanoid_simulation.camera.methods import methods_of
@@ -20,7 +20,7 @@ from humanoid_simulation.testing.camera_studio import Studio, studio
 from humanoid_simulation.testing.camera_world import world
 import pytest
 
-HURRY = Patience(draw_s=0.5, retry_s=0.0)
+HURRY = Patience(draw_s=5.0, retry_s=0.0)
 DIES_ALONE = """
 import sys, time
 from humanoid_simulation.testing.camera_studio import studio
@@ -43,15 +43,6 @@ def kill(place: Studio) -> None:
     number = process_of(place)
     os.kill(number, signal.SIGKILL)
     place.wait_until(lambda: place.renderer.process_id != number, 'the end of the process')
-
-
-def is_running(process: int) -> bool:
-    """Tell whether a process exists and has not ended."""
-    try:
-        state = Path(f'/proc/{process}/stat').read_text().rpartition(')')[2].split()[0]
-    except FileNotFoundError:
-        return False
-    return state != 'Z'
 
 
 @pytest.fixture(name='without_opengl')
@@ -127,7 +118,7 @@ def test_hung(caplog: pytest.LogCaptureFixture) -> None:
         place.wait_until(lambda: place.renderer.process_id != first, 'the end of the process')
         assert place.picture().colors[0].any()
     assert 'it did not answer in time' in caplog.text
-    assert not is_running(first)
+    assert not is_alive(first)
 
 
 def test_deaths_in_a_row(caplog: pytest.LogCaptureFixture) -> None:
@@ -150,7 +141,7 @@ def test_ends_with_its_parent(stopped: bool) -> None:
         if stopped:
             os.kill(child, signal.SIGSTOP)
         program.stop(signal.SIGKILL)
-        wait_until(lambda: not is_running(child), 20.0, lambda: f'the end of {child}')
+        wait_until(lambda: not is_alive(child), 20.0, lambda: f'the end of {child}')
 
 
 def test_close_leaves_nothing() -> None:
@@ -165,7 +156,7 @@ def test_close_leaves_nothing() -> None:
         process = process_of(place)
     del place
     gc.collect()
-    assert not is_running(process)
+    assert not is_alive(process)
     assert set(os.listdir('/proc/self/fd')) == files
 
 

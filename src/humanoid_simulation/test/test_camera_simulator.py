@@ -34,7 +34,7 @@ def collect(ros: RosSandbox, kind: Any, topic: str) -> list[Any]:
 
 def wait_for(ros: RosSandbox, predicate: Callable[[], bool], what: str) -> None:
     """Wait with patience: a process has to start."""
-    ros.wait_until(predicate, 60.0, what)
+    ros.wait_until(predicate, 100.0, what)
 
 
 def test_paused_from_the_start(ros: RosSandbox) -> None:

@@ -17,7 +17,7 @@ from humanoid_simulation.testing.camera_studio import ball_address
 from humanoid_simulation.testing.camera_world import world
 import numpy as np
 import pytest
-from sensor_msgs.msg import CameraInfo, Image
+from sensor_msgs.msg import CameraInfo, Image, PointCloud2
 
 SMALL = {'camera_width_px': 64, 'camera_height_px': 49, 'camera_renderer': 'rays'}
 
@@ -57,7 +57,7 @@ class Set:
 
     def wait_until(self, predicate: Callable[[], bool], what: str) -> None:
         """Wait, in a pause, until the predicate holds."""
-        self._ros.wait_until(predicate, 60.0, what)
+        self._ros.wait_until(predicate, 100.0, what)
 
     def rest(self, duration_s: float) -> None:
         """Let the node do what it does in a pause."""
@@ -125,6 +125,23 @@ def test_depth(make_set: MakeSet) -> None:
     assert (image.encoding, image.step) == ('32FC1', 256)
     metres = np.frombuffer(image.data, np.float32).reshape(49, 64)
     assert metres[5, 5] == pytest.approx(2.0, abs=1e-3)
+
+
+def test_points(make_set: MakeSet) -> None:
+    """Points are organised like the picture, and drawn without a subscriber to it."""
+    one = make_set({'': 'eye'}, prefix='my_')
+    clouds = one.collect(PointCloud2, 'points')
+    one.tick_until(lambda: bool(clouds), 'points')
+    cloud = clouds[0]
+    assert cloud.header.frame_id == 'my_camera_optical_frame'
+    assert (cloud.width, cloud.height, cloud.point_step, cloud.row_step) == (64, 49, 12, 768)
+    assert not cloud.is_dense and not cloud.is_bigendian
+    assert [(field.name, field.offset) for field in cloud.fields] == [('x', 0), ('y', 4), ('z', 8)]
+    points_m = np.frombuffer(cloud.data, np.float32).reshape(49, 64, 3)
+    focal_px = 24.5 / math.tan(math.radians(30.0))
+    expected_m = [2.0 * (5 - 31.5) / focal_px, 2.0 * (5 - 24.0) / focal_px, 2.0]
+    assert points_m[5, 5] == pytest.approx(expected_m, abs=2e-3)
+    assert 0 < stamp_ns(cloud) <= one.time_ns
 
 
 def test_info(make_set: MakeSet) -> None:

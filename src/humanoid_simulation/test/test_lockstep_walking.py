@@ -8,6 +8,7 @@ from humanoid_simulation.backend import BackendSettings
 from humanoid_simulation.backend.noise import REALISTIC
 from humanoid_simulation.disturbances import DropOuts
 from humanoid_simulation.examples.square_drive import Corner, SquareDrive, SquarePlan
+from humanoid_simulation.scene import Scene, Thing
 from humanoid_simulation.testing.lockstep_robot import LockstepRobot
 import numpy as np
 import pytest
@@ -56,6 +57,56 @@ def test_the_same_seed_is_the_same_walk() -> None:
 
     assert end(1) == end(1)
     assert end(1) != end(2)
+
+
+WALL = Thing('wall', 'box', (0.1, 3.0, 1.2), (0.75, 0.0, 0.6))
+EDGE = Thing('table', 'box', (0.6, 1.6, 0.04), (1.0, 0.0, 0.38), (0.0, 0.0, 0.2))
+BEHIND = Thing('wall', 'box', (0.1, 3.0, 1.2), (-0.6, 0.0, 0.6))
+BESIDE = Thing('shelf', 'box', (3.0, 0.1, 1.0), (0.0, 0.6, 0.5))
+BOARD = Thing('board', 'box', (1.6, 0.6, 0.04), (0.0, -0.86, 0.38), (0.0, 0.0, 0.1))
+CORNER = Thing('cupboard', 'box', (0.8, 0.3, 1.0), (0.5, 0.56, 0.5), (0.0, 0.0, 0.99))
+
+
+@pytest.mark.parametrize(
+    ('obstacle', 'velocity'),
+    [
+        (WALL, (0.5, 0.0)),
+        (EDGE, (0.3, 0.0)),
+        (BEHIND, (-0.2, 0.0)),
+        (BESIDE, (0.0, 0.15)),
+        (BOARD, (0.0, -0.13)),
+        (CORNER, (0.4, 0.0)),
+    ],
+    ids=['wall', 'edge of a table', 'behind', 'beside', 'board at its thighs', 'corner'],
+)
+def test_it_stops_at_what_is_in_its_way(obstacle: Thing, velocity: tuple[float, float]) -> None:
+    """It notices, steps back, stands for as long as somebody insists, and can then walk away."""
+    settings = BackendSettings(noise=REALISTIC, seed=1)
+    robot = LockstepRobot(settings, Scene(things=(obstacle,)))
+    walker = robot.walking.walker
+    assert robot.wait(1.0)
+    robot.drive(*velocity)
+    assert robot.wait(6.0)
+    assert walker.is_blocked
+    place_m = robot.pose.position_m
+    assert robot.wait(2.0)
+    assert abs(robot.pose.position_m - place_m) < 0.2
+    robot.drive(-velocity[0], -velocity[1])
+    assert robot.wait(2.0)
+    assert not walker.is_blocked
+    robot.drive()
+    assert robot.wait(2.0)
+
+
+def test_it_pushes_away_what_is_loose() -> None:
+    """A box that a foot kicks is no ground to stand on; the robot stays on its feet."""
+    box = Thing('box', 'box', (0.2, 0.2, 0.3), (0.0, 0.5, 0.15), mass_kg=1.0)
+    settings = BackendSettings(noise=REALISTIC, seed=1)
+    robot = LockstepRobot(settings, Scene(things=(box,)))
+    robot.drive(0.0, 0.15)
+    assert robot.wait(7.0)
+    robot.drive()
+    assert robot.wait(2.0)
 
 
 def test_a_reset_while_walking_forgets_the_walk() -> None:

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 
-@pytest.mark.parametrize('name', ['flat', 'room', 'uneven', 'push_test'])
+@pytest.mark.parametrize('name', ['flat', 'room', 'uneven', 'push_test', 'apartment'])
 def test_the_robot_stands_in_every_installed_scene(make_backend, name: str) -> None:
     """Nothing is in its way where it begins, and nothing bursts apart."""
     assert name in installed_scenes()
@@ -109,21 +109,24 @@ def test_the_friction_of_the_floor_decides(make_backend) -> None:
 @pytest.mark.parametrize(
     ('text', 'sentence'),
     [
-        ('thing: []', "mine.yaml sets 'thing', which means nothing. Did you mean 'things'"),
-        ('floor: 3', 'mine.yaml: floor must be a table'),
+        (
+            'thing: []',
+            "mine.yaml, line 1: the file sets 'thing', which means nothing. Did you mean 'things'",
+        ),
+        ('floor: 3', 'mine.yaml, line 1: floor must be a table'),
         ('floor: {friction: nan}', None),
-        ('floor: {friction: .nan}', 'mine.yaml: floor.friction must be a finite number'),
+        ('floor: {friction: .nan}', 'mine.yaml, line 1: floor.friction must be a finite number'),
         ('floor: {friction: -1}', 'cannot have a friction of -1'),
         ('floor: {tile: 0}', 'tiles of 0 m'),
-        ('things: {}', 'mine.yaml: things must be a list'),
-        ('things: [{name: a}]', "mine.yaml: things[0] does not set 'shape'"),
+        ('things: {}', 'mine.yaml, line 1: things must be a list'),
+        ('things: [{name: a}]', "mine.yaml, line 1: things[0] does not set 'shape'"),
         (
             'things: [{name: a, shape: bal, size: [1], position: [0, 0, 0]}]',
-            'mine.yaml: things[0].shape must be one of box, sphere, cylinder',
+            'mine.yaml, line 1: things[0].shape must be one of box, sphere, cylinder',
         ),
         (
             'things: [{name: a, shape: box, size: [1], position: [0, 0, 0]}]',
-            'mine.yaml: things[0].size must be a list of 3 finite numbers, but is [1]',
+            'mine.yaml, line 1: things[0].size must be a list of 3 finite numbers, but is [1]',
         ),
         ('things: [{name: a, shape: sphere, size: [0], position: [0, 0, 0]}]', 'above zero'),
         ('things: [{name: floor, shape: sphere, size: [1], position: [0, 0, 0]}]', "'floor'"),

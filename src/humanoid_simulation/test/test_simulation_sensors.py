@@ -3,8 +3,12 @@
 
 from __future__ import annotations
 
+import math
+
 from humanoid_control.backends import Observation
 from humanoid_simulation.backend import BackendSettings, EntityState, SensorNoise
+from humanoid_simulation.backend.channels import channels_of
+from humanoid_simulation.backend.noise import NoiseSource
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.rotations import from_rpy, rotated
 import numpy as np
@@ -20,6 +24,8 @@ NOISE = SensorNoise(
     foot_force_n=5.0,
     foot_torque_nm=0.2,
 )
+
+LEVEL = np.array([1.0, 0.0, 0.0, 0.0])
 
 
 def measured(make_backend, noise: SensorNoise, ticks: int = 800) -> list[Observation]:
@@ -48,9 +54,46 @@ def test_the_noise_has_the_deviations_that_are_set(make_backend) -> None:
     for kind, deviation in expected.items():
         errors = np.array([getattr(a, kind) - getattr(b, kind) for a, b in zip(seen, true)])
         if kind == 'orientation':
-            errors = errors[:, 1:]
+            errors = errors[:, 1:3]
         assert errors.std() == pytest.approx(deviation, rel=0.1), kind
         assert abs(errors.mean()) < 0.1 * deviation, kind
+
+
+def drifted(noise: SensorNoise, seed: int, duration_s: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the turns (n, 3) by which attitudes are off after some time, and the biases."""
+    turns, biases = [], []
+    for number in range(400):
+        source = NoiseSource(noise, 0, np.random.default_rng([seed, number]))
+        for tick in range(round(duration_s / 0.1) + 1):
+            errors, turn = source.draw(LEVEL, 0.1 * tick)
+        turns.append(turn)
+        biases.append(errors[channels_of(0).angular_velocity])
+    return np.array(turns), np.array(biases)
+
+
+def test_the_heading_drifts_with_the_gyroscope() -> None:
+    """Without a compass the bias adds up in the heading; gravity bounds roll and pitch."""
+    noise = SensorNoise(angular_velocity_bias_rad_s=2e-3)
+    early, late = (drifted(noise, 1, duration_s) for duration_s in (5.0, 20.0))
+    assert early[0][:, 2] == pytest.approx(early[1][:, 2] * 5.0)
+    assert late[0][:, 2] == pytest.approx(late[1][:, 2] * 20.0)
+    assert np.abs(late[0][:, :2]).max() < 0.01
+    assert late[0][:, :2] == pytest.approx(early[0][:, :2], rel=0.05)
+
+
+def test_the_stated_noise_of_the_inertial_sensor_is_the_true_one() -> None:
+    """What covariances are made of is the deviation over many sensors, biases and all."""
+    noise = SensorNoise(
+        tilt_rad=3e-3,
+        angular_velocity_rad_s=0.01,
+        angular_velocity_bias_rad_s=2e-3,
+        acceleration_bias_m_s2=0.05,
+    )
+    turns, rates = drifted(noise, 2, 12.0)
+    said = noise.imu(0.1)
+    assert turns[:, :2].std() == pytest.approx(said.tilt_rad, rel=0.15)
+    assert turns[:, 2].std() == pytest.approx(math.sqrt(said.heading_variance_rad2(12.0)), rel=0.1)
+    assert rates.std() == pytest.approx(said.angular_velocity_rad_s, rel=0.1)
 
 
 def test_the_orientation_stays_a_rotation(make_backend) -> None:

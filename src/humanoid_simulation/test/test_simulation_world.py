@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-from humanoid_simulation.backend import EntityState, MujocoBackend
+from humanoid_simulation.backend import BackendSettings, EntityState, MujocoBackend
 from humanoid_simulation.errors import SimulationError
-from humanoid_simulation.model import Placement
+from humanoid_simulation.model import Physics, Placement
 from humanoid_simulation.rotations import from_rpy
 from humanoid_simulation.scene import Scene, Thing
 import numpy as np
@@ -91,7 +91,7 @@ def test_an_entity_goes_where_it_is_put(world: MujocoBackend) -> None:
         found = world.entity_state(entity)
         for part in ('position_m', 'orientation', 'linear_velocity_m_s', 'angular_velocity_rad_s'):
             assert getattr(found, part) == pytest.approx(getattr(wanted, part), abs=1e-9)
-    assert world.entities == ('robot', 'ball')
+    assert world.entities == ('robot', 'ball', 'wall')
 
 
 @pytest.mark.parametrize(
@@ -112,8 +112,10 @@ def test_states_that_are_refused(world, entity: str, position, orientation, sent
     assert world.entity_state('ball').position_m == pytest.approx(BALL.position_m)
 
 
-def test_contacts_say_who_carries_whom(world: MujocoBackend) -> None:
+def test_contacts_say_who_carries_whom(make_backend) -> None:
     """The floor carries the robot and the ball: normals point up, forces are their weights."""
+    settings = BackendSettings(Physics(sleep=False))
+    world = make_backend(scene=SCENE, settings=settings)
     run(world, 2.0)
     carried: dict[str, float] = {}
     for contact in world.contacts():

@@ -3,83 +3,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 from geometry_msgs.msg import Vector3, WrenchStamped
 from humanoid_common.errors import NodeStartError
 from humanoid_common.parameters import ParameterError
-from humanoid_common.qos import SENSOR
+from humanoid_common.qos import LATCHED
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_interfaces.msg import Contacts
-from humanoid_interfaces.srv import (
-    ApplyWrench,
-    ResetSimulation,
-    SetEntityState,
-    StepSimulation,
-)
-from humanoid_simulation.simulator import Simulator
+from humanoid_interfaces.srv import ApplyWrench
+from humanoid_simulation.examples.conversions import refusal
+from humanoid_simulation.testing.watched_simulator import WatchedSimulator
 from nav_msgs.msg import Odometry
 import pytest
 from rclpy.parameter import Parameter
-from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64
-from std_srvs.srv import SetBool, Trigger
-
-HEADLESS = {'camera_rate_hz': 0.0, 'real_time_factor': 0.0}
-
-
-class Watch:
-    """A simulator, what it says, and how to ask it for something."""
-
-    def __init__(self, ros: RosSandbox, **parameters: Any) -> None:
-        """Start the simulator, as fast as possible, and without a camera."""
-        self.ros, self.node = ros, ros.observer()
-        self.last: dict[str, Any] = {}
-        self.times_s: list[float] = []
-        self.node.create_subscription(Clock, '/clock', self._hear_time, 10)
-        self.simulator = ros.start(Simulator, {**HEADLESS, **parameters})
-
-    def _hear_time(self, message: Clock) -> None:
-        self.times_s.append(message.clock.sec + message.clock.nanosec * 1e-9)
-
-    def listen(self, kind: type, topic: str) -> None:
-        """Keep the newest message of a topic."""
-
-        def keep(message: Any) -> None:
-            self.last[topic] = message
-
-        self.node.create_subscription(kind, topic, keep, SENSOR)
-
-    def wait(self, what: str, condition: Callable[[], bool]) -> None:
-        """Spin until a condition holds."""
-        self.ros.wait_until(condition, 30.0, what)
-
-    def wait_for(self, *topics: str) -> None:
-        """Wait for new messages."""
-        for topic in topics:
-            self.last.pop(topic, None)
-        self.wait(f'all of {topics}', lambda: set(topics) <= set(self.last))
-
-    def run(self, seconds: float) -> None:
-        """Let time pass in the world."""
-        self.wait('a time', lambda: bool(self.times_s))
-        end_s = self.times_s[-1] + seconds
-        self.wait('the time to pass', lambda: self.times_s[-1] >= end_s)
-
-    def ask(self, kind: type, name: str, **request: Any) -> Any:
-        """Call a service."""
-        client = self.node.create_client(kind, name)
-        self.wait(name, client.service_is_ready)
-        future = client.call_async(kind.Request(**request))
-        self.wait(f'an answer of {name}', future.done)
-        self.node.destroy_client(client)
-        return future.result()
-
-    def pause(self, on: bool = True) -> Any:
-        """Let time stand still, or go on."""
-        return self.ask(SetBool, 'simulator/set_pause', data=on)
+from sensor_msgs.msg import Imu, JointState
+from simulation_interfaces.srv import (
+    StepSimulation,
+)
+from std_msgs.msg import Float64, String
+from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
 
 
 @pytest.fixture
@@ -91,7 +36,7 @@ def ros() -> Iterator[RosSandbox]:
 
 def test_it_tells_time_truth_contacts_and_wrenches(ros: RosSandbox) -> None:
     """All topics come, in their frames; the feet carry the robot."""
-    watch = Watch(ros)
+    watch = WatchedSimulator(ros)
     for kind, topic in (
         (JointState, 'joint_states'),
         (Odometry, 'ground_truth/odom'),
@@ -116,7 +61,7 @@ def test_it_tells_time_truth_contacts_and_wrenches(ros: RosSandbox) -> None:
 
 def test_no_message_is_stamped_with_zero(ros: RosSandbox) -> None:
     """ROS takes a time of zero for none, and so the first stamp is later."""
-    watch = Watch(ros)
+    watch = WatchedSimulator(ros)
     stamps: list[Any] = []
     watch.node.create_subscription(
         JointState, 'joint_states', lambda message: stamps.append(message.header.stamp), 10
@@ -127,41 +72,38 @@ def test_no_message_is_stamped_with_zero(ros: RosSandbox) -> None:
 
 def test_pause_step_and_go_on(ros: RosSandbox) -> None:
     """Paused, time stands still but for steps, which are whole control periods."""
-    watch = Watch(ros)
+    watch = WatchedSimulator(ros)
     watch.run(0.1)
-    refused = watch.ask(StepSimulation, 'simulator/step_simulation', steps=5)
-    assert not refused.success and 'Pause it before' in refused.message
-    assert watch.pause().success
+    assert 'Pause it before' in watch.step(5)
+    assert not watch.pause()
     before_s = watch.simulator._backend.time_s
-    done = watch.ask(StepSimulation, 'simulator/step_simulation', steps=11)
-    assert done.success and '15 steps of physics: 3 control periods' in done.message
+    assert not watch.step(11)  # 15 steps of physics, 3 control periods
     assert watch.simulator._backend.time_s == pytest.approx(before_s + 0.03)
     for steps in (0, 10**9):
-        refused = watch.ask(StepSimulation, 'simulator/step_simulation', steps=steps)
-        assert not refused.success and 'Give 1 to 100000' in refused.message
-    assert watch.pause(False).success
+        assert 'Give 1 to 100000' in watch.step(steps)
+    assert not watch.pause(False)
     watch.run(0.5)
 
 
 def test_many_steps_leave_the_simulator_responsive(ros: RosSandbox) -> None:
-    """While they are computed, other services answer; set_pause ends them."""
-    watch = Watch(ros, start_paused=True)
+    """While they are computed, other services answer; another pause ends them."""
+    watch = WatchedSimulator(ros, start_paused=True)
     client = watch.node.create_client(StepSimulation, 'simulator/step_simulation')
     watch.wait('the service', client.service_is_ready)
     steps = client.call_async(StepSimulation.Request(steps=100_000))
     watch.wait('the first steps', lambda: watch.simulator._backend.time_s > 0.1)
-    assert watch.ask(ResetSimulation, 'simulator/reset_simulation').success
+    assert not watch.reset()
     assert not steps.done()
-    assert watch.pause().success
+    assert not watch.pause()
     watch.wait('the answer', steps.done)
-    assert not steps.result().success and 'ended by set_pause' in steps.result().message
-    assert watch.ask(StepSimulation, 'simulator/step_simulation', steps=50).success
+    assert 'ended by another request' in refusal(steps.result())
+    assert not watch.step(50)
 
 
 def test_it_may_start_paused(ros: RosSandbox) -> None:
     """Then no time passes before somebody wants it."""
-    watch = Watch(ros, start_paused=True)
-    assert watch.ask(StepSimulation, 'simulator/step_simulation', steps=5).success
+    watch = WatchedSimulator(ros, start_paused=True)
+    assert not watch.step(5)
     assert watch.simulator._backend.time_s == pytest.approx(0.01)
     watch.pause(False)
     watch.run(0.1)
@@ -169,34 +111,26 @@ def test_it_may_start_paused(ros: RosSandbox) -> None:
 
 def test_time_never_goes_back(ros: RosSandbox) -> None:
     """A reset puts the robot back, not the clock."""
-    watch = Watch(ros)
+    watch = WatchedSimulator(ros)
     watch.listen(Odometry, 'ground_truth/odom')
-    watch.ask(SetEntityState, 'simulator/set_entity_state', entity='', **state_at(1.0, 2.0, 0.75))
+    assert not watch.put('', 1.0, 2.0, 0.75)
     watch.wait_for('ground_truth/odom')
     y_m = lambda: watch.last['ground_truth/odom'].pose.pose.position.y  # noqa: E731
     watch.wait('the robot to be there', lambda: abs(y_m() - 2.0) < 0.2)
-    assert watch.ask(ResetSimulation, 'simulator/reset_simulation').success
+    assert not watch.reset()
     watch.wait('the robot to be back', lambda: abs(y_m()) < 0.1)
     watch.run(0.2)
     assert watch.times_s == sorted(watch.times_s)
-    refused = watch.ask(ResetSimulation, 'simulator/reset_simulation', keyframe='hme')
-    assert not refused.success and "Did you mean 'home'" in refused.message
-
-
-def state_at(x: float, y: float, z: float) -> dict[str, Any]:
-    """Return the parts of a request to put something somewhere."""
-    request = SetEntityState.Request()
-    request.pose.position.x, request.pose.position.y, request.pose.position.z = x, y, z
-    return {'pose': request.pose, 'twist': request.twist}
+    (refused,) = watch.simulator.set_parameters([Parameter('reset_keyframe', value='hme')])
+    assert not refused.successful and "Did you mean 'home'" in refused.reason
 
 
 def test_things_and_robots_are_put_and_pushed(ros: RosSandbox) -> None:
     """By their names; names that nobody has are refused with the right one."""
-    watch = Watch(ros, scene='push_test')
-    put, push = 'simulator/set_entity_state', 'simulator/apply_wrench'
-    assert watch.ask(SetEntityState, put, entity='ball_3kg', **state_at(3.0, 3.0, 0.12)).success
-    answer = watch.ask(SetEntityState, put, entity='bal_3kg', **state_at(3.0, 3.0, 0.12))
-    assert not answer.success and "Did you mean 'ball_3kg'" in answer.message
+    watch = WatchedSimulator(ros, scene='push_test')
+    push = 'simulator/apply_wrench'
+    assert not watch.put('ball_3kg', 3.0, 3.0, 0.12)
+    assert "Did you mean 'ball_3kg'" in watch.put('bal_3kg', 3.0, 3.0, 0.12)
     assert watch.ask(ApplyWrench, push, entity='ball_3kg', **wrench(x=60.0)).success
     watch.run(0.5)
     assert watch.simulator._backend.entity_state('ball_3kg').position_m[0] > 3.05
@@ -216,7 +150,7 @@ def wrench(x: float, nanoseconds: int = 100_000_000) -> dict[str, Any]:
 
 def test_a_robot_that_was_knocked_down_stands_up(ros: RosSandbox) -> None:
     """The service helps it onto its feet, where it stays."""
-    watch = Watch(ros)
+    watch = WatchedSimulator(ros)
     watch.listen(Odometry, 'ground_truth/odom')
     height_m = lambda: watch.last['ground_truth/odom'].pose.pose.position.z  # noqa: E731
     watch.ask(ApplyWrench, 'simulator/apply_wrench', body='torso', **wrench(x=3000.0))
@@ -231,35 +165,30 @@ def test_a_robot_that_was_knocked_down_stands_up(ros: RosSandbox) -> None:
 
 def test_physics_that_fails_is_reported_and_a_reset_helps(ros: RosSandbox) -> None:
     """The simulator stays, says why it stands still, and goes on after a reset."""
-    watch = Watch(ros)
+    watch = WatchedSimulator(ros)
     watch.ask(ApplyWrench, 'simulator/apply_wrench', **wrench(x=1e15))
     watch.wait('the failure', lambda: watch.simulator._host.paused)
-    answer = watch.pause(False)
-    assert not answer.success and 'reset the simulation first' in answer.message
-    answer = watch.ask(StepSimulation, 'simulator/step_simulation', steps=5)
-    assert not answer.success and 'has failed' in answer.message
-    assert watch.ask(ResetSimulation, 'simulator/reset_simulation').success
+    assert 'reset the simulation first' in watch.pause(False)
+    assert 'has failed' in watch.step(5)
+    assert not watch.reset()
     watch.run(0.5)
 
 
 def test_a_pause_outlasts_a_failure(ros: RosSandbox) -> None:
     """Physics that fails while it is stepped is still paused after the reset."""
-    watch = Watch(ros, start_paused=True)
-    step = 'simulator/step_simulation'
+    watch = WatchedSimulator(ros, start_paused=True)
     watch.ask(ApplyWrench, 'simulator/apply_wrench', **wrench(x=1e15))
-    answer = watch.ask(StepSimulation, step, steps=500)
-    assert not answer.success and 'failed meanwhile' in answer.message
-    for name, kind in (('simulator/set_entity_state', SetEntityState), ('stand_up', Trigger)):
-        answer = watch.ask(kind, name)
-        assert not answer.success
-    assert watch.ask(ResetSimulation, 'simulator/reset_simulation').success
+    assert 'failed meanwhile' in watch.step(500)
+    assert 'has failed' in watch.put('', 0.0, 0.0, 1.0)
+    assert not watch.ask(Trigger, 'stand_up').success
+    assert not watch.reset()
     assert watch.simulator._host.paused
-    assert watch.ask(StepSimulation, step, steps=5).success
+    assert not watch.step(5)
 
 
 def test_two_robots_in_their_namespaces(ros: RosSandbox) -> None:
     """Each has its topics; they share the time."""
-    watch = Watch(ros, robots=['robot1', 'robot2'])
+    watch = WatchedSimulator(ros, robots=['robot1', 'robot2'])
     for robot in ('robot1', 'robot2'):
         watch.listen(Odometry, f'{robot}/ground_truth/odom')
         watch.listen(JointState, f'{robot}/joint_states')
@@ -275,7 +204,7 @@ def test_two_robots_in_their_namespaces(ros: RosSandbox) -> None:
 
 def test_how_fast_time_passes_is_a_parameter_and_is_measured(ros: RosSandbox) -> None:
     """A factor of a half makes the clock slow, and that is what the topic says."""
-    watch = Watch(ros)
+    watch = WatchedSimulator(ros)
     watch.listen(Float64, 'real_time_factor')
     watch.wait_for('real_time_factor')
     watch.simulator.set_parameters([Parameter('real_time_factor', value=0.5)])
@@ -294,10 +223,58 @@ def test_how_fast_time_passes_is_a_parameter_and_is_measured(ros: RosSandbox) ->
 def test_a_start_that_fails_says_why(ros: RosSandbox, parameters, sentence: str) -> None:
     """The node does not start, with a sentence."""
     with pytest.raises(NodeStartError, match=sentence):
-        Watch(ros, **parameters)
+        WatchedSimulator(ros, **parameters)
 
 
 def test_rates_that_do_not_fit_are_refused(ros: RosSandbox) -> None:
     """A control period is a whole number of physics steps."""
     with pytest.raises(ParameterError, match='no multiple'):
-        Watch(ros, physics_rate_hz=500.0, control_rate_hz=150.0)
+        WatchedSimulator(ros, physics_rate_hz=500.0, control_rate_hz=150.0)
+
+
+@pytest.mark.parametrize('keyframe', ['lying_on_back', 'lying_on_face'])
+def test_a_robot_that_lies_says_where_it_is(ros: RosSandbox, keyframe: str) -> None:
+    """After a reset onto the ground, state, odometry and transforms are there at once."""
+    watch = WatchedSimulator(
+        ros,
+        start_paused=True,
+        sensor_noise=1.0,
+        world_frame_rate_hz=0.0,
+        reset_keyframe=keyframe,
+    )
+    watch.listen(Odometry, 'odom')
+    watch.listen(TFMessage, 'tf')
+    watch.listen(Odometry, 'ground_truth/odom')
+    states: list[str] = []
+    watch.node.create_subscription(
+        String, 'walking_state', lambda message: states.append(message.data), LATCHED
+    )
+    assert not watch.step(50)
+    watch.wait('a robot that stands', lambda: states == ['stand'])
+    assert not watch.reset()
+    watch.last.clear()
+    # Odometry and truth are published in every second control period.
+    assert not watch.step(10)
+    watch.wait('the new state', lambda: states == ['stand', 'fallen'])
+    watch.wait('all topics', lambda: len(watch.last) == 3)
+    height_m = watch.last['odom'].pose.pose.position.z
+    assert height_m == pytest.approx(watch.last['ground_truth/odom'].pose.pose.position.z, abs=0.1)
+    assert watch.last['tf'].transforms[0].transform.translation.z == height_m
+
+
+def test_covariances_are_those_of_the_noise(ros: RosSandbox) -> None:
+    """The inertial sensor says how far it is off; its heading, and odometry's, get worse."""
+    watch = WatchedSimulator(ros, sensor_noise=1.0)
+    watch.listen(Imu, 'imu/data')
+    watch.listen(Odometry, 'odom')
+    watch.wait_for('imu/data', 'odom')
+    early, walked = watch.last['imu/data'], watch.last['odom']
+    # Odometry reckons in pieces of half a second.
+    watch.run(0.6)
+    watch.wait_for('imu/data', 'odom')
+    late, later = watch.last['imu/data'], watch.last['odom']
+    assert early.angular_velocity_covariance[0] == pytest.approx(0.01**2 + 0.002**2)
+    assert early.linear_acceleration_covariance[8] == pytest.approx(0.1**2 + 0.05**2)
+    assert early.orientation_covariance[0] == late.orientation_covariance[4] > 0.003**2
+    assert 0.0 <= early.orientation_covariance[8] < late.orientation_covariance[8]
+    assert 0.0 < walked.pose.covariance[35] < later.pose.covariance[35]

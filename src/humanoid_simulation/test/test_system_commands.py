@@ -63,10 +63,9 @@ def test_arms_move_while_it_walks(robot: SimulatedRobot) -> None:
     begin = robot.pose
     robot.topics.joint_commands = {'left_elbow': -1.2, 'right_elbow': -0.9}
     robot.drive(0.2)
-    robot.wait(4.0)
+    assert robot.wait_until(lambda: begin.local(robot.pose.position_m).real > 0.3, 20.0)
     assert robot.topics.positions_rad['left_elbow'] == pytest.approx(-1.2, abs=0.1)
     assert robot.topics.positions_rad['right_elbow'] == pytest.approx(-0.9, abs=0.1)
-    assert begin.local(robot.pose.position_m).real > 0.3
 
 
 @pytest.mark.parametrize('command', [{'left_knee': 1.5}, {'left_elbow': math.nan}, {'wing': 1.0}])

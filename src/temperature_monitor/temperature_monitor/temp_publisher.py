@@ -7,9 +7,9 @@ import sys
 from typing import Any
 
 from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.periodic import PeriodicTimer
 from humanoid_common.qos import STATE
 from humanoid_common.running import run_node
-from humanoid_common.steady import SteadyTimer
 from rclpy.node import Node
 from sensor_msgs.msg import Temperature
 from temperature_monitor.settings import PublisherParameters
@@ -26,7 +26,7 @@ class TempPublisher(Node):
         parameters = self._settings.current
         self._generator = generator_of(parameters.seed)
         self._publisher = self.create_publisher(Temperature, 'temperature', STATE)
-        self._timer = SteadyTimer(self, parameters.rate_hz, self._publish)
+        self._timer = PeriodicTimer(self, parameters.rate_hz, self._publish)
         self.get_logger().info(f'Publishing the temperature ({parameters.rate_hz:g} Hz)')
 
     def _publish(self, now_s: float) -> None:

@@ -4,6 +4,8 @@
 from setuptools import find_packages, setup
 
 package_name = 'robot_console'
+COMMAND = 'robot_console/Command = robot_console.panels.command:Command'
+OBJECTS = 'robot_console/Objects = robot_console.panels.objects:Objects'
 
 setup(
     name=package_name,
@@ -27,10 +29,12 @@ setup(
             'robot_console/CommandedRobot = robot_console.displays.commanded_robot:CommandedRobot',
         ],
         'rviz_common.panels': [
+            COMMAND,
             'robot_console/Diagnostics = robot_console.panels.diagnostics:Diagnostics',
             'robot_console/Drive = robot_console.panels.drive:Drive',
             'robot_console/Joints = robot_console.panels.joints_panel:JointsPanel',
             'robot_console/Log = robot_console.panels.log:Log',
+            OBJECTS,
             'robot_console/Parameters = robot_console.panels.parameters:Parameters',
             'robot_console/Plots = robot_console.panels.plots_panel:PlotsPanel',
             'robot_console/Recordings = robot_console.panels.recordings:Recordings',
@@ -38,5 +42,6 @@ setup(
             'robot_console/Services = robot_console.panels.services:Services',
             'robot_console/Topics = robot_console.panels.topics:Topics',
         ],
+        'rviz_common.panels_on_demand': [COMMAND, OBJECTS],
     },
 )

@@ -4,6 +4,8 @@
 from setuptools import find_packages, setup
 
 package_name = 'rviz_default_plugins'
+DETECTIONS = 'rviz_default_plugins.displays.detections'
+BOXES = ('BoundingBox3D', 'BoundingBox3DArray', 'Detection3D', 'Detection3DArray')
 
 setup(
     name=package_name,
@@ -60,6 +62,7 @@ setup(
             'rviz_default_plugins.displays.twist_stamped:TwistStamped',
             'rviz_default_plugins/Wrench = rviz_default_plugins.displays.wrench:Wrench',
             'rviz_imu_plugin/Imu = rviz_default_plugins.displays.imu:Imu',
+            *(f'vision_msgs_rviz_plugins/{name} = {DETECTIONS}:{name}' for name in BOXES),
         ],
     },
 )

@@ -58,6 +58,16 @@ def argument_defaults(description: LaunchDescription) -> dict[str, str]:
     }
 
 
+def argument_choices(description: LaunchDescription) -> dict[str, list[str]]:
+    """Return the choices of each launch argument that has some."""
+    found: dict[str, list[str]] = {}
+    for argument in _arguments(description.entities):
+        choices = argument.choices
+        if isinstance(choices, Iterable):
+            found[argument.name] = [str(choice) for choice in choices]
+    return found
+
+
 def undescribed_arguments(description: LaunchDescription) -> list[str]:
     """Return the names of the launch arguments that lack a description."""
     return [

@@ -4,9 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 import os
+from pathlib import Path
 import signal
 import subprocess
 import sys
@@ -56,7 +57,7 @@ class RunningProgram:
         """Tell whether the program has ended."""
         return self._process.poll() is not None
 
-    def wait_for_output(self, text: str, timeout_s: float = 15.0) -> None:
+    def wait_for_output(self, text: str, timeout_s: float = 60.0) -> None:
         """Wait until the text was written on either stream."""
         wait_until(
             lambda: text in self.output or self.has_ended,
@@ -73,7 +74,7 @@ class RunningProgram:
         """Send a signal to the program itself, as `kill` does."""
         self._process.send_signal(number)
 
-    def wait_for_exit(self, timeout_s: float = 15.0) -> ExitReport:
+    def wait_for_exit(self, timeout_s: float = 60.0) -> ExitReport:
         """Wait until the program has ended and all its output was read."""
         wait_until(
             lambda: self.has_ended,
@@ -84,18 +85,26 @@ class RunningProgram:
         self._stderr.join(timeout_s)
         return ExitReport(self._process.returncode, self._stdout.text, self._stderr.text)
 
-    def stop(self, number: signal.Signals, timeout_s: float = 15.0) -> ExitReport:
+    def stop(self, number: signal.Signals, timeout_s: float = 60.0) -> ExitReport:
         """Send the signal and wait for the end."""
         self.send(number)
         return self.wait_for_exit(timeout_s)
 
     def close(self) -> None:
-        """End every process of the group that is still alive."""
-        try:
+        """End what is still alive of the group, and of what the program started elsewhere."""
+        started = [] if self.has_ended else _descendants(self._process.pid)
+        with suppress(ProcessLookupError):
             os.killpg(self._process.pid, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
         self._process.wait()
+        for pid in started:
+            with suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        # A node that is left would be in the domain of the next test.
+        wait_until(
+            lambda: not any(map(is_alive, started)),
+            60.0,
+            lambda: f'the end of all that {self._command} started',
+        )
 
 
 @contextmanager
@@ -109,6 +118,31 @@ def running_program(
         yield program
     finally:
         program.close()
+
+
+def _descendants(pid: int) -> list[int]:
+    """Return the ids of the processes that a process has started, and those have started."""
+    parents = {}
+    for folder in Path('/proc').glob('[0-9]*'):
+        with suppress(OSError):
+            parents[int(folder.name)] = int(_stat_of(folder)[1])
+    found = [pid]
+    for ancestor in found:  # grows meanwhile
+        found.extend(child for child, parent in parents.items() if parent == ancestor)
+    return found[1:]
+
+
+def is_alive(pid: int) -> bool:
+    """Tell whether a process is there and is more than a zombie."""
+    try:
+        return _stat_of(Path(f'/proc/{pid}'))[0] != 'Z'
+    except OSError:
+        return False
+
+
+def _stat_of(folder: Path) -> list[str]:
+    """Return what the kernel says of a process, beginning with its state."""
+    return (folder / 'stat').read_text().rpartition(')')[2].split()
 
 
 def module_command(module: str, *arguments: str) -> list[str]:

@@ -5,18 +5,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+import gc
 import os
 from typing import Any, TypeVar
 
 from domain_coordinator import domain_id
+from humanoid_common.executing import destroy, make_executor
 from humanoid_common.testing.waiting import wait_until
 import rclpy
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 NodeT = TypeVar('NodeT', bound=Node)
+SLICE_S = 0.01
+"""How long to wait between two looks at a condition for something to happen."""
 
 
 class RosSandbox:
@@ -30,7 +33,7 @@ class RosSandbox:
         }
         self._context = Context()
         rclpy.init(args=[], context=self._context, domain_id=domain)
-        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor = make_executor(self._context)
         self._nodes: list[Node] = []
 
     def start(
@@ -53,23 +56,38 @@ class RosSandbox:
     def wait_until(
         self,
         predicate: Callable[[], bool],
-        timeout_s: float = 100.0,
+        timeout_s: float = 60.0,
         what: str = 'the condition',
     ) -> None:
-        """Spin until the predicate holds; a failure tells which topics exist."""
+        """
+        Spin until the predicate holds; a failure tells which topics exist.
+
+        All that has come is handled between two looks: with one event for each, a predicate that
+        publishes would fill the queue faster than it is emptied.
+        """
         wait_until(
             predicate,
             timeout_s,
             lambda: f'{what}; {self._graph()}',
-            lambda: self._executor.spin_once(timeout_sec=0.05),
+            self._handle,
         )
+
+    def _handle(self) -> None:
+        """Wait a moment for something to come, and handle it with all that came before."""
+        self._executor.spin_once(timeout_sec=SLICE_S)
+        # A timer that is always due keeps a spin from ending by its timeout; a task ends it.
+        last = self._executor.create_task(_nothing)
+        self._executor.spin_until_future_complete(last, timeout_sec=SLICE_S)
 
     def close(self) -> None:
         """Destroy the nodes and end ROS."""
         self._executor.shutdown()
         for node in self._nodes:
-            node.destroy_node()
+            destroy(node)
         self._context.try_shutdown()
+        # A node whose making failed still has its participant, which others would meet who get
+        # the domain next.
+        gc.collect()
 
     def _graph(self) -> str:
         """Describe the topics that the nodes see."""
@@ -81,6 +99,10 @@ class RosSandbox:
             }
         )
         return f'topics: {", ".join(names)}'
+
+
+def _nothing() -> None:
+    """Do nothing, but after all that was there before."""
 
 
 @contextmanager

@@ -13,7 +13,7 @@ class WaitedInVainError(AssertionError):
 
 def wait_until(
     predicate: Callable[[], bool],
-    timeout_s: float = 100.0,
+    timeout_s: float = 60.0,
     message: Callable[[], str] = lambda: 'the condition',
     pause: Callable[[], None] = lambda: time.sleep(0.01),
 ) -> None:

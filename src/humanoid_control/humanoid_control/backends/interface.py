@@ -7,10 +7,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
+from humanoid_common.errors import NodeStartError
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+
+class BackendError(NodeStartError):
+    """Tell why a robot can no longer be moved; its node ends with this sentence."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +45,34 @@ class Observation:
     """(2, 3)"""
     foot_torques_nm: Array
     """(2, 3)"""
+
+
+@dataclass(frozen=True)
+class ImuNoise:
+    """
+    How far an inertial measurement unit without a compass is off: standard deviations.
+
+    Biases are part of the errors: whoever uses a measurement does not know them. All zero is a
+    sensor whose errors are not known.
+    """
+
+    tilt_rad: float = 0.0
+    """Of roll and pitch, which gravity bounds."""
+    angular_velocity_rad_s: float = 0.0
+    """About each axis."""
+    acceleration_m_s2: float = 0.0
+    """Along each axis."""
+    heading_drift_rad_s: float = 0.0
+    """Of the constant rate at which the heading drifts."""
+    heading_walk_rad_sqrt_s: float = 0.0
+    """Of the heading after a second, besides the drift; it grows with the root of the time."""
+    tilt_bias_rad: float = 0.0
+    """Of that part of roll and pitch which stays: the sensor takes level ground for a slope."""
+
+    def heading_variance_rad2(self, passed_s: float) -> float:
+        """Return the variance of the heading after some time without a correction, in rad2."""
+        drift_rad = self.heading_drift_rad_s * passed_s
+        return drift_rad * drift_rad + self.heading_walk_rad_sqrt_s**2 * passed_s
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +109,7 @@ class Backend(Protocol):
         """Return the time of a step."""
 
     def observe(self) -> Mapping[str, Observation]:
-        """Return what the sensors of every robot say now."""
+        """Return what the sensors of every robot say now, or raise BackendError."""
 
     def step(self, targets: Mapping[str, JointTargets]) -> None:
         """Let time pass; a robot without targets keeps those that it had."""

@@ -5,23 +5,41 @@ from humanoid_control.controllers.commands import CommandError, JointNames, Part
 from humanoid_control.controllers.follower import Follower
 from humanoid_control.controllers.hold import Hold
 from humanoid_control.controllers.interface import Controller, Guest
+from humanoid_control.controllers.joint_trajectory_controller import (
+    ErrorCode,
+    GoalResult,
+    JointTrajectoryController,
+)
 from humanoid_control.controllers.manager import ControllerManager
 from humanoid_control.controllers.modes import follow_mode, hold_mode, Mode
+from humanoid_control.controllers.tolerances import JointTolerance
 from humanoid_control.controllers.trajectory import checked_trajectory, TrajectoryPoint
+from humanoid_control.controllers.trajectory_goal import (
+    checked_goal,
+    TrajectoryGoal,
+    TrajectoryRequest,
+)
 from humanoid_control.controllers.trajectory_runner import TrajectoryRunner
 
 __all__ = [
     'CommandError',
     'Controller',
     'ControllerManager',
+    'ErrorCode',
     'Follower',
+    'GoalResult',
     'Guest',
     'Hold',
     'JointNames',
+    'JointTolerance',
+    'JointTrajectoryController',
     'Mode',
     'PartialTargets',
+    'TrajectoryGoal',
     'TrajectoryPoint',
+    'TrajectoryRequest',
     'TrajectoryRunner',
+    'checked_goal',
     'checked_trajectory',
     'follow_mode',
     'hold_mode',

@@ -22,6 +22,8 @@ class Follower:
     until those have been silent for the timeout.
     """
 
+    way_out = 'wait until its commands end'
+
     def __init__(
         self,
         joints: Sequence[str],

@@ -34,6 +34,10 @@ class Guest(Controller, Protocol):
     """Moves joints that are lent to it, for as long as it has commands for them."""
 
     @property
+    def way_out(self) -> str:
+        """Say what somebody else who wants its joints can do, as the end of a sentence."""
+
+    @property
     def waits(self) -> bool:
         """Tell whether it is to be started, even if it has its joints already."""
 

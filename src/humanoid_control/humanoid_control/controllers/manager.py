@@ -68,6 +68,14 @@ class ControllerManager:
         """Return the names of all modes."""
         return tuple(self._modes)
 
+    @property
+    def mode_types(self) -> dict[str, str]:
+        """Return the types of the controllers of all modes, by the names of the modes."""
+        return {
+            name: f'humanoid_control/{type(mode.controller).__name__}'
+            for name, mode in self._modes.items()
+        }
+
     def switch(self, mode: str) -> None:
         """Go over to another mode, as soon as the present one can be left, and smoothly."""
         if mode not in self._modes:
@@ -93,6 +101,23 @@ class ControllerManager:
         """Return the name of the controller that moves a joint."""
         return self._name_of(self._owners[self.joints.index(joint)])
 
+    @property
+    def guests(self) -> tuple[Guest, ...]:
+        """Return all who may borrow joints, in the order of their priority."""
+        return self._guests
+
+    def joints_of(self, name: str) -> tuple[str, ...]:
+        """Return the joints that a mode or a guest owns now."""
+        return tuple(joint for joint in self.joints if self.owner(joint) == name)
+
+    def is_lent(self, places: Indices) -> bool:
+        """Whether the mode lends all of some joints now."""
+        return bool(self._may_lend[places].all()) and not self.trouble
+
+    def owns(self, guest: Guest, places: Indices) -> bool:
+        """Whether a guest owns all of some joints."""
+        return bool((self._owners[places] == self._guests.index(guest)).all())
+
     def lent(self) -> dict[str, str]:
         """Return the joints that belong to guests now, with the names of these."""
         places = np.flatnonzero(self._owners != _MODE)
@@ -104,15 +129,15 @@ class ControllerManager:
             raise CommandError(self._not_lent(self.joints[place]))
         if self.trouble:
             raise CommandError(
-                f"The mode '{self.mode}' lends nothing for the moment: {self.trouble}."
+                f"The mode '{self.mode}' accepts no joint commands now: {self.trouble}."
             )
         rank = self._guests.index(guest)
         owners = self._owners[places]
         for place in places[(owners >= 0) & (owners < rank)]:
-            owner = self._name_of(self._owners[place])
+            owner = self._guests[self._owners[place]]
             raise CommandError(
-                f"'{self.joints[place]}' belongs to '{owner}' as long as that goes on. "
-                'Leave the joint out, or wait.'
+                f"'{self.joints[place]}' belongs to '{owner.name}'. Leave the joint out, or "
+                f'{owner.way_out}.'
             )
 
     def update(self, observation: Observation) -> JointTargets:

@@ -13,6 +13,8 @@ import numpy as np
 class Still(Hold):
     """Wants every joint that is lent while it is switched on, to hold it where it is."""
 
+    way_out = 'wait until the robot is released'
+
     def __init__(self, joints: Sequence[str]) -> None:
         """Begin switched off."""
         super().__init__(joints, name='stop')

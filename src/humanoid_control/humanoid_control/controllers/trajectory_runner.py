@@ -20,6 +20,8 @@ class TrajectoryRunner:
     passed as smoothly as their positions allow; those without accelerations have none.
     """
 
+    way_out = 'wait until its end'
+
     def __init__(self, joints: Sequence[str], name: str = 'joint_trajectory') -> None:
         """Want nothing yet."""
         self.name = name
@@ -55,7 +57,7 @@ class TrajectoryRunner:
             trajectory, self._waiting = self._waiting, None
             self._start_s = observation.time_s
             self._places = trajectory.places
-            self._spline = _spline(trajectory, held)
+            self._spline = spline_from(trajectory, held)
 
     def update(self, observation: Observation) -> JointTargets:
         """Return the targets of now; those of joints that it does not want mean nothing."""
@@ -71,8 +73,24 @@ class TrajectoryRunner:
         self._wanted = np.zeros(len(self.joints), dtype=np.bool_)
 
 
-def _spline(trajectory: Trajectory, held: JointTargets) -> Spline:
-    """Return the way from where joints are told to be through the points."""
+def spline_from(trajectory: Trajectory, held: JointTargets) -> Spline:
+    """
+    Compute the way from what joints were told last through the points of a trajectory.
+
+    Parameters
+    ----------
+    trajectory
+        Its m joints and points; times are those since now.
+    held
+        What all joints of the robot were told last. The way begins at their position and velocity,
+        unless the trajectory has a point at time zero or before.
+
+    Returns
+    -------
+    Spline
+        Of the m joints; it ends at rest if the points say nothing of velocities.
+
+    """
     times_s, positions_rad = trajectory.times_s, trajectory.positions_rad
     velocities_rad_s, accelerations = trajectory.velocities_rad_s, trajectory.accelerations_rad_s2
     begins = times_s[0] > 0.0
@@ -81,6 +99,8 @@ def _spline(trajectory: Trajectory, held: JointTargets) -> Spline:
         positions_rad = _led_by(held.positions_rad[trajectory.places], positions_rad)
     if velocities_rad_s is None:
         velocities_rad_s = inner_velocities(times_s, positions_rad)
+        if begins:
+            velocities_rad_s[0] = held.velocities_rad_s[trajectory.places]
     elif begins:
         velocities_rad_s = _led_by(held.velocities_rad_s[trajectory.places], velocities_rad_s)
     if accelerations is not None and begins:

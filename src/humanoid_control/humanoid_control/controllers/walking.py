@@ -35,8 +35,7 @@ class WalkingController:
 
     def is_at_rest(self) -> bool:
         """Tell whether the robot can be held as it is: in the middle of a step it would fall."""
-        status = self.walker.status
-        return status is None or status.phase not in MOVING
+        return self.walker.phase not in MOVING
 
     def needs_all_because(self) -> str:
         """Return why it lends nothing for the moment, or nothing."""

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from geometry_msgs.msg import Twist
 from humanoid_control.controllers import CommandError, TrajectoryPoint
 from humanoid_control.walking.velocity_command import VelocityCommand
@@ -17,6 +19,11 @@ def velocity_of(message: Twist) -> VelocityCommand:
     return VelocityCommand(message.linear.x, message.linear.y, message.angular.z)
 
 
+def seconds(time: Any) -> float:
+    """Return a time or a duration of `builtin_interfaces` in seconds."""
+    return float(time.sec + time.nanosec * 1e-9)
+
+
 def points_of(message: JointTrajectory) -> list[TrajectoryPoint]:
     """Return the points of a trajectory, or raise CommandError if they are too many."""
     count = len(message.points)
@@ -29,7 +36,5 @@ def points_of(message: JointTrajectory) -> list[TrajectoryPoint]:
 
 
 def _point_of(point: JointTrajectoryPoint) -> TrajectoryPoint:
-    time = point.time_from_start
-    return TrajectoryPoint(
-        time.sec + time.nanosec * 1e-9, point.positions, point.velocities, point.accelerations
-    )
+    time_s = seconds(point.time_from_start)
+    return TrajectoryPoint(time_s, point.positions, point.velocities, point.accelerations)

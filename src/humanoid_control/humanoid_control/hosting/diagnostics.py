@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 import time
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from humanoid_common.qos import STATE
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots, RobotHealth
+from humanoid_control.hosting.slowness import Slowness, Speed
 from humanoid_control.hosting.topics.filling import fill_stamp
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
@@ -20,9 +21,16 @@ PERIOD_S = 1.0
 class HostDiagnostics:
     """The topic `diagnostics`, in the robots' time: the control loop, and each robot."""
 
-    def __init__(self, node: Node, host: Host, robots: HostedRobots) -> None:
-        """Begin to publish, once a second."""
-        self._host, self._robots = host, robots
+    def __init__(
+        self,
+        node: Node,
+        host: Host,
+        robots: HostedRobots,
+        speed: Callable[[], Speed | None] = lambda: None,
+    ) -> None:
+        """Begin to publish, once a second; `speed` is how fast the robots' time passes."""
+        self._host, self._robots, self._speed = host, robots, speed
+        self._slowness = Slowness()
         self._name = node.get_fully_qualified_name().lstrip('/')
         self._publisher = node.create_publisher(DiagnosticArray, 'diagnostics', STATE)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -37,17 +45,22 @@ class HostDiagnostics:
 
     def _loop(self) -> DiagnosticStatus:
         """Return the status of the control loop."""
-        load = self._host.load.report(time.monotonic())
+        now_s = time.monotonic()
+        load, speed = self._host.load.report(now_s), self._speed()
+        complaint = self._slowness.complaint(speed, now_s)
+        values = {
+            'ticks': f'{load.ticks}',
+            'mean of a tick': f'{load.mean_ms:.2f} ms',
+            'longest tick': f'{load.worst_ms:.2f} ms',
+            'busy': f'{100.0 * load.share:.0f} %',
+        }
+        if speed is not None:
+            values['real-time factor'] = f'{speed.reached:.2f}'
         return self._status(
             'control loop',
-            DiagnosticStatus.OK,
-            'paused' if self._host.paused else 'runs',
-            {
-                'ticks': f'{load.ticks}',
-                'mean of a tick': f'{load.mean_ms:.2f} ms',
-                'longest tick': f'{load.worst_ms:.2f} ms',
-                'busy': f'{100.0 * load.share:.0f} %',
-            },
+            DiagnosticStatus.WARN if complaint else DiagnosticStatus.OK,
+            complaint or ('paused' if self._host.paused else 'runs'),
+            values,
         )
 
     def _robot(self, robot: str, health: RobotHealth) -> DiagnosticStatus:
@@ -73,4 +86,6 @@ def _verdict(health: RobotHealth) -> tuple[bytes, str]:
         return DiagnosticStatus.ERROR, health.trouble
     if health.holds_because:
         return DiagnosticStatus.WARN, f'holds still: {health.holds_because}'
+    if health.is_blocked:
+        return DiagnosticStatus.WARN, 'something is in the way, and it goes no further that way'
     return DiagnosticStatus.OK, health.mode

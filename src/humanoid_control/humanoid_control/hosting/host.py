@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 import time
 
+from humanoid_common.running import ending
 from humanoid_control.backends import Observation
 from humanoid_control.hosting.control_loop import ControlLoop
 from humanoid_control.hosting.load import Load
@@ -53,12 +54,18 @@ class Host:
         self._done: Callable[[], None] = _nothing
         self.load = Load(time.monotonic())
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._timer = node.create_timer(interval_s or _AT_ONCE_S, self._run, clock=steady)
+        run = ending(node, self._run)
+        self._timer = node.create_timer(interval_s or _AT_ONCE_S, run, clock=steady)
 
     @property
     def paused(self) -> bool:
         """Tell whether no time passes but by `tick`."""
         return self._paused
+
+    @property
+    def is_stepping(self) -> bool:
+        """Tell whether periods are still to pass that `tick_in_pause` asked for."""
+        return self._owed > 0
 
     def pause(self, paused: bool) -> None:
         """Stop the time, or let it go on; periods that were still to pass do not."""

@@ -7,7 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from humanoid_control.backends import Observation
+from humanoid_control.hosting.controller_services import ControllerServices
 from humanoid_control.hosting.fall_report import FallReport
+from humanoid_control.hosting.follow_joint_trajectory import FollowJointTrajectoryServers
+from humanoid_control.hosting.obstacle_report import ObstacleReport
 from humanoid_control.hosting.parameters import HostParameters
 from humanoid_control.hosting.robot_inputs import RobotInputs
 from humanoid_control.hosting.robot_outputs import RobotOutputs
@@ -23,18 +26,24 @@ class RobotHealth:
     walk: str
     trouble: str
     """Why the mode cannot do what it should, empty if it can."""
+    is_blocked: bool
+    """Whether something is in its way."""
     holds_because: str
     lent: Mapping[str, str]
     """The joints that belong to others than the mode, and these."""
 
 
 class HostedRobots:
-    """Wires the control of each robot to the topics in its namespace."""
+    """Wires the control of each robot to topics, actions and services in its namespace."""
 
     def __init__(
-        self, node: Node, robots: Mapping[str, WalkingRobotControl], parameters: HostParameters
+        self,
+        node: Node,
+        robots: Mapping[str, WalkingRobotControl],
+        parameters: HostParameters,
+        hardware: str,
     ) -> None:
-        """Make the topics."""
+        """Make topics, actions and services; `hardware` is the class of what moves the joints."""
         self._robots = dict(robots)
         self.time_s = 0.0
         timeout_s = parameters.heartbeat_timeout_s
@@ -45,8 +54,18 @@ class HostedRobots:
         self._outputs = {
             name: RobotOutputs(node, name, robot, parameters) for name, robot in robots.items()
         }
+        self._actions = {
+            name: FollowJointTrajectoryServers(node, name, robot.control)
+            for name, robot in robots.items()
+        }
+        rate_hz, prefix = parameters.control_rate_hz, parameters.prefix
+        self._services = [
+            ControllerServices(node, name, robot.control, hardware, rate_hz, prefix)
+            for name, robot in robots.items()
+        ]
         log = node.get_logger()
         self._falls = {name: FallReport(log, name) for name in robots}
+        self._obstacles = {name: ObstacleReport(log, name) for name in robots}
         self.change(parameters)
 
     def change(self, parameters: HostParameters) -> None:
@@ -68,7 +87,10 @@ class HostedRobots:
         for name, outputs in self._outputs.items():
             outputs.publish(observations[name])
             self.time_s = observations[name].time_s
-            self._falls[name].look(self._robots[name].walker.has_fallen)
+            self._actions[name].tell(self.time_s)
+            walker = self._robots[name].walker
+            self._falls[name].look(walker.has_fallen)
+            self._obstacles[name].look(walker.is_blocked)
 
     def health(self) -> dict[str, RobotHealth]:
         """Return how each robot is."""
@@ -76,11 +98,12 @@ class HostedRobots:
 
     def _health_of(self, name: str) -> RobotHealth:
         robot = self._robots[name]
-        manager, status = robot.control.manager, robot.walker.status
+        manager = robot.control.manager
         return RobotHealth(
             mode=manager.mode,
-            walk='' if status is None else status.phase,
+            walk=robot.walker.phase or '',
             trouble=manager.trouble,
+            is_blocked=robot.walker.is_blocked,
             holds_because=self._inputs[name].stop.guard.reason,
             lent=manager.lent(),
         )

@@ -7,15 +7,20 @@ from collections.abc import Callable, Sequence
 
 from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.controllers import (
+    checked_goal,
     checked_trajectory,
     CommandError,
     ControllerManager,
     Follower,
+    Guest,
     JointNames,
     Mode,
+    TrajectoryGoal,
     TrajectoryPoint,
+    TrajectoryRequest,
     TrajectoryRunner,
 )
+from humanoid_control.controllers.limbs import limb_controllers
 from humanoid_control.controllers.silence import Clock
 from humanoid_control.controllers.still import Still
 from humanoid_control.hosting.velocity_input import VelocityInput
@@ -23,6 +28,7 @@ from humanoid_control.limits import JointLimits
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
 Drive = Callable[[VelocityCommand], None]
+HELD = 'The robot must hold still; stop_state says why.'
 
 
 class RobotControl:
@@ -44,17 +50,21 @@ class RobotControl:
     ) -> None:
         """Begin in the first mode; `drive` is what walks, if anything does."""
         self._names, self._limits, self._drive = JointNames(joints), limits, drive
-        self._still = Still(joints)
+        self.still = Still(joints)
+        """Owns the joints while the robot must hold still."""
         self._runner = TrajectoryRunner(joints)
         self._follower = Follower(joints, clock=clock)
         self._velocity = VelocityInput(clock=clock)
-        guests = (self._still, self._runner, self._follower)
+        self.controllers = {each.name: each for each in limb_controllers(joints)}
+        """Those that take goals, by their names."""
+        limbs = self.controllers.values()
+        guests: list[Guest] = [self.still, *limbs, self._runner, self._follower]
         self.manager = ControllerManager(joints, modes, guests, limits, say)
 
     @property
     def must_hold(self) -> bool:
         """Tell whether the robot must hold still."""
-        return self._still.on
+        return self.still.on
 
     def follow(
         self,
@@ -76,6 +86,20 @@ class RobotControl:
             self.manager.check(self._runner, trajectory.places)
             self._runner.accept(trajectory)
 
+    def checked_goal(self, controller: str, request: TrajectoryRequest) -> TrajectoryGoal:
+        """Return a goal that a controller can be given now, or raise CommandError."""
+        wanted = self.controllers[controller]
+        goal = checked_goal(controller, wanted.own, self._names, self._limits, request)
+        if not wanted.is_active:
+            raise CommandError(
+                f"'{controller}' is inactive. Activate it: ros2 control switch_controllers "
+                f'--activate {controller}'
+            )
+        if self.must_hold:
+            raise CommandError(HELD)
+        self.manager.check(wanted, goal.trajectory.places)
+        return goal
+
     def walk(self, velocity: VelocityCommand) -> None:
         """Walk at a velocity until the timeout, or raise CommandError."""
         if self._drive is None:
@@ -87,7 +111,9 @@ class RobotControl:
         """Begin to hold still, or be released; what was commanded before is forgotten."""
         if must and not self.must_hold:
             self._forget()
-        self._still.on = must
+            for controller in self.controllers.values():
+                controller.abort(HELD)
+        self.still.on = must
 
     def update(self, observation: Observation) -> JointTargets:
         """Return the targets of all joints for the coming period."""
@@ -95,12 +121,25 @@ class RobotControl:
             velocity = self._velocity.at(observation.time_s)
             must_stand = self.must_hold or self.manager.is_leaving
             self._drive(STANDING if must_stand else velocity)
-        return self.manager.update(observation)
+        targets = self.manager.update(observation)
+        self._end_lost_goals()
+        return targets
 
     def reset(self) -> None:
         """Begin anew with the next observation."""
         self._forget()
         self.manager.reset()
+
+    def _end_lost_goals(self) -> None:
+        """End the goals of controllers whose joints somebody else has taken."""
+        trouble = self.manager.trouble
+        for controller in self.controllers.values():
+            if trouble:
+                controller.release(f'{trouble[:1].upper()}{trouble[1:]}.')
+            elif controller.has_goal and not self.manager.owns(controller, controller.places):
+                owners = {self.manager.owner(joint) for joint in controller.own}
+                others = ', '.join(f"'{name}'" for name in sorted(owners - {controller.name}))
+                controller.abort(f'Its joints were taken by {others}.')
 
     def _forget(self) -> None:
         """Forget what was commanded."""

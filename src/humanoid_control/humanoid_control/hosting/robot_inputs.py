@@ -43,7 +43,7 @@ class RobotInputs:
 
     def look(self) -> None:
         """Hold still if the robot must; to be called before each tick."""
-        self._control.hold_still(self.stop.must_hold())
+        self._control.hold_still(self.stop.must_hold)
 
     def _walk(self, message: Twist) -> None:
         self._attempt('cmd_vel', lambda: self._control.walk(velocity_of(message)))

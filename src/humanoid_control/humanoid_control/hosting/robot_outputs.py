@@ -11,8 +11,10 @@ from humanoid_control.hosting.topics.joint_states import JointStatesTopic
 from humanoid_control.hosting.topics.odometry import ODOM, OdometryTopics
 from humanoid_control.hosting.topics.walk import BalanceTopics, FootstepsTopic, WalkingStateTopic
 from humanoid_control.hosting.walking_robot import WalkingRobotControl
-from humanoid_control.walking.status import WalkStatus
 from rclpy.node import Node
+
+BLOCKED = 'blocked'
+"""The state of a robot that something is in the way of, whether it steps back or stands."""
 
 
 class RobotOutputs:
@@ -25,7 +27,7 @@ class RobotOutputs:
         odom = parameters.prefix + ODOM
         self._robot = robot
         self._joint_states = JointStatesTopic(node, name, robot.control.manager.joints)
-        self._imu = ImuTopic(node, name, parameters.prefix)
+        self._imu = ImuTopic(node, name, parameters.prefix, robot.walker.imu)
         self._odometry = OdometryTopics(node, name, parameters.prefix)
         self._state = WalkingStateTopic(node, name)
         self._balance = BalanceTopics(node, name, odom)
@@ -46,18 +48,19 @@ class RobotOutputs:
             self._joint_states.publish(observation)
         if self._imu_due.is_due(now_s):
             self._imu.publish(observation)
+        self._publish_state()
         odometry, debug = self._odometry_due.is_due(now_s), self._debug_due.is_due(now_s)
         status = self._robot.walker.status if odometry or debug else None
-        if status is None:
-            return
-        self._state.publish(self._state_of(status))
-        if odometry:
+        if status is not None and odometry:
             self._odometry.publish(now_s, status.odometry)
-        if debug:
+        if status is not None and debug:
             self._balance.publish(now_s, status)
             self._footsteps.publish(now_s, status)
 
-    def _state_of(self, status: WalkStatus) -> str:
-        """Return how the robot walks, or the mode in which it does not."""
+    def _publish_state(self) -> None:
+        """Say how the robot walks, or the mode in which it does not."""
         mode = self._robot.control.manager.mode
-        return status.phase if mode == WALKING else mode
+        walker = self._robot.walker
+        state = (BLOCKED if walker.is_blocked else walker.phase) if mode == WALKING else mode
+        if state is not None:
+            self._state.publish(state)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from humanoid_control.backends import ImuNoise
 from humanoid_control.controllers import follow_mode, hold_mode
 from humanoid_control.controllers.silence import Clock
 from humanoid_control.controllers.walking import walking_mode, WalkingController
@@ -39,6 +40,7 @@ class WalkingRobotControl:
         clock: Clock | None = None,
         say: Callable[[str], None] = lambda sentence: None,
         able: Callable[[VelocityCommand], VelocityCommand] = lambda velocity: velocity,
+        imu: ImuNoise = ImuNoise(),
     ) -> WalkingRobotControl:
         """
         Return the control of a robot that begins in the mode `walking`.
@@ -47,9 +49,10 @@ class WalkingRobotControl:
         :param clock: the computer's, by which commands time out beside the robot's own time
         :param say: gets a sentence when a controller is at fault
         :param able: makes of a velocity that is wanted what the robot can do, within the gait
+        :param imu: how far the inertial sensor is off
         """
         joints = tuple(drives)
-        walker = Walker.of(robot, drives, joints, WalkParameters().scaled(scale))
+        walker = Walker.of(robot, drives, joints, WalkParameters().scaled(scale), imu)
         walking = WalkingController(walker)
         modes = (walking_mode(walking), follow_mode(joints), hold_mode(joints))
         limits = JointLimits.of(drives, joints)

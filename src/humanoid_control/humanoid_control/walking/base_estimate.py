@@ -10,12 +10,18 @@ from humanoid_control.dynamics.frames import Frame, Twist
 from humanoid_control.walking.base_motion import BaseMotion
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.pendulum import Motion
+from humanoid_control.walking.planar import limited
 from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.walking_robot import WalkingRobot
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+_SURE_LOAD = 0.2
+"""A foot that carries this share of the weight surely stands."""
+_LEAST_TRUST = 0.02
+"""With less than this the robot is in the air, or falls: then the command has to do."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +45,22 @@ class BaseEstimate:
         position = self.position_m + state.com_m
         velocity = self.velocity_m_s + state.com_velocity_m_s
         return Motion(complex(position[0], position[1]), complex(velocity[0], velocity[1]))
+
+
+def carrying(shares: tuple[float, float], loads: tuple[float, float]) -> tuple[float, float]:
+    """
+    Return how much each foot says of where the base is; the parts sum up to 1.
+
+    A foot that is told to carry weight but does not need not be where it is told to stand.
+
+    :param shares: of the feet in the weight, as commanded
+    :param loads: the weight on the soles as measured, as shares of the robot's
+    """
+    left, right = (
+        share * limited(load / _SURE_LOAD, 0.0, 1.0) for share, load in zip(shares, loads)
+    )
+    total = left + right
+    return (left / total, right / total) if total > _LEAST_TRUST else shares
 
 
 def base_on(

@@ -48,12 +48,19 @@ class Gait:
         """Return the steps that are planned."""
         return self._phase.footsteps
 
+    @property
+    def is_blocked(self) -> bool:
+        """Whether something is in the way of the robot."""
+        return self._gear.guard.blockage is not None
+
     def command(self, velocity: VelocityCommand) -> None:
         """Go at another velocity, as soon as the limits allow."""
-        self._gear.target = self._gear.parameters.velocity_limits.applied(velocity)
+        self._gear.wanted = self._gear.parameters.velocity_limits.applied(velocity)
 
     def update(self, now: GaitInput) -> GaitOutput:
         """Let time pass."""
+        if self._gear.heed_obstacles(now, self._phase.leg_in_air(now)):
+            self._phase.replan(now)
         self._phase = phase = self._phase.advance(now)
         reference, footing = phase.reference(now), self._gear.footing
         # The DCM tracking law of Englsberger et al.: push the zero-moment point beyond the error.

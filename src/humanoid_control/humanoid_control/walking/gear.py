@@ -9,11 +9,14 @@ from humanoid_control.walking.course import Course
 from humanoid_control.walking.dcm_plan import DcmPlan, ZmpSegment
 from humanoid_control.walking.footing import Footing
 from humanoid_control.walking.footsteps import Footstep, FootstepPlanner
+from humanoid_control.walking.obstacle_guard import Contact, LegInAir, ObstacleGuard
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.pendulum import Pendulum
 from humanoid_control.walking.planar import PlanarPose, Point
+from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.step_adjustment import StepAdjuster
 from humanoid_control.walking.terrain import Facet
+from humanoid_control.walking.touch import NOTHING, Touch
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
 
@@ -25,6 +28,8 @@ class SoleReading:
     facet: Facet
     load: float
     """As a share of the robot's weight."""
+    drag: Point = 0j
+    """The horizontal force on it, as a share of the robot's weight."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +42,11 @@ class GaitInput:
     zmp_m: Point
     """The zero-moment point in use, commanded at the tick before."""
     soles: tuple[SoleReading, SoleReading]
+    error_m: Point = 0j
+    """How far the divergent component was from its reference at the tick before."""
+    force_n: Point = 0j
+    """What pushes the robot elsewhere than at its feet, horizontally."""
+    touch: Touch = NOTHING
 
 
 @dataclass
@@ -46,19 +56,45 @@ class Gear:
     parameters: WalkParameters
     pendulum: Pendulum
     footing: Footing
+    wanted: VelocityCommand = STANDING
+    """The velocity that was asked for, within the limits of the gait ..."""
     target: VelocityCommand = STANDING
+    """... what obstacles leave of it ..."""
     command: VelocityCommand = STANDING
+    """... and the velocity now."""
     slope: Point = 0j
     """The tilt of the ground ahead."""
     planner: FootstepPlanner = field(init=False)
     adjuster: StepAdjuster = field(init=False)
     course: Course = field(init=False)
+    guard: ObstacleGuard = field(init=False)
 
     def __post_init__(self) -> None:
         """Make what plans with the parameters."""
         self.planner = FootstepPlanner(self.parameters)
         self.adjuster = StepAdjuster(self.planner, self.pendulum.rate_1_s)
         self.course = Course(self.planner)
+        self.guard = ObstacleGuard(self.parameters)
+
+    def heed_obstacles(self, now: GaitInput, leg: LegInAir | None) -> bool:
+        """
+        Set the target to what obstacles leave of the wanted velocity; return whether one is new.
+
+        :param leg: the leg in the air, if one is
+        """
+        left, right = (self.planner.middle_beside(self.footing.pose(side), side) for side in SIDES)
+        going = self.command if self.command.linear_m_s else self.wanted
+        contact = Contact(now.force_n, now.touch.arms_nm, leg)
+        met = self.guard.update(
+            contact, (left, right), self.wanted, going, now.error_m, now.passed_s
+        )
+        self.target = self.parameters.velocity_limits.applied(
+            self.guard.allowed(self.wanted, left.halfway(right).yaw_rad)
+        )
+        if met:
+            self.command = STANDING
+            self.course.restart()
+        return met
 
     def approach_target(self, time_s: float) -> None:
         """Bring the velocity nearer to what is wanted, by what is allowed in a time."""
@@ -78,7 +114,12 @@ class Gear:
         return DcmPlan(segments, self.pendulum.rate_1_s)
 
     def footsteps(self, landing: PlanarPose, support: int) -> list[Footstep]:
-        """Return the steps planned, from the one that is under way to where the robot rests."""
+        """
+        Return the steps planned, from the one that is under way to where the robot rests.
+
+        :param landing: where the foot in the air lands, in the plane of the odometry (m, rad)
+        :param support: the side of the foot that carries the robot
+        """
         steps: list[Footstep] = []
         before = Footstep(support, self.footing.pose(support))
         for step in self.planner.footsteps(landing, support, self.command):
@@ -94,7 +135,14 @@ class Gear:
     def step_segments(
         self, support: int, steps: list[Footstep], start_m: Point, shift_s: float
     ) -> list[ZmpSegment]:
-        """Return the way of the zero-moment point from the begin of a step to rest."""
+        """
+        Return the way of the zero-moment point from the begin of a step to rest.
+
+        :param support: the side of the foot that carries the robot during the step
+        :param steps: the steps planned, from this one on
+        :param start_m: where the zero-moment point is now, in the plane of the odometry
+        :param shift_s: the time in which it goes to the support
+        """
         p, load = self.parameters, self.footing.load_point(support)
         segments = [
             ZmpSegment(shift_s, start_m, load),

@@ -139,12 +139,20 @@ class WalkParameters:
     """How fast it goes on down when the ground is late."""
     deepest_m: float = _length(0.06)
     """How far below the expected ground it goes."""
+    longest_tick_s: float = _time(0.04)
+    """When control was away for longer, the foot in the air has not gone on as planned."""
     touchdown_phase: float = 0.5
     """From which share of the swing on a foot that meets something stays there."""
     touchdown_load: float = 0.12
     """How much of the weight it has to carry for that ..."""
     touch_load: float = 0.06
     """... and how much near the end of the swing, ..."""
+    lost_load: float = 0.03
+    """A foot with less than this for a while has lost what it met, and swings on ..."""
+    lost_s: float = _time(0.025)
+    """... after so long; ..."""
+    least_swing_s: float = _time(0.08)
+    """... with less time than this it goes straight down."""
     gentle_phase: float = 0.75
     """... which begins at this share."""
     landing_phase: float = 0.85
@@ -193,6 +201,45 @@ class WalkParameters:
     """How long the joints take to the posture of standing."""
     standing_load: float = 0.6
     """The share of the weight on the soles at which a robot that has stood up walks again."""
+
+    # Obstacles.
+    force_rate_1_s: float = _rate(8.0)
+    """How fast the estimate of forces from outside follows."""
+    bump_ns: float = _growing(3.5, 12.0)
+    """The impulse against its motion from which on the robot takes its way for blocked ..."""
+    bump_memory_s: float = _time(0.8)
+    """... and how long an impulse is remembered."""
+    turn_back_m_s: float = _speed(0.8)
+    """How fast the foot in the air goes to where it lands instead."""
+    keep_off_m: float = _length(0.01)
+    """How far from where a foot has met something the feet stay ..."""
+    keep_off_slope: float = 0.15
+    """... and how much of their distance aside less: its direction is known about so well."""
+    touch_rate_1_s: float = _rate(16.0)
+    """How fast the estimate of what limbs touch follows."""
+    touch_gap_s: float = _time(0.025)
+    """Observations that are farther apart say nothing of what limbs touch."""
+    leg_touch_nm: float = _growing(4.0, 16.0)
+    """The moment about its hip, against the motion, at which a leg in the air has met something:
+    forwards or backwards ..."""
+    leg_touch_aside_nm: float = _growing(4.0, 10.0)
+    """... and to the side, where a step needs less ..."""
+    leg_touch_from_phase: float = 0.1
+    """... if the foot has left the ground for this share of the swing."""
+    arm_touch_nm: float = _growing(4.0, 4.0)
+    """The moment about its shoulder at which an arm has met something."""
+    retreat_m_s: float = _speed(0.12)
+    """How fast the robot steps back from an obstacle ..."""
+    retreat_m: float = _length(0.12)
+    """... and how far, ..."""
+    lean_m: float = _length(0.03)
+    """It does not step back while the divergent component is so far off towards the obstacle."""
+    retreat_s: float = _time(4.0)
+    """... for at most so long."""
+    let_go_s: float = _time(0.5)
+    """For how long nobody has to want to go there until it may try again."""
+    forget_m: float = _length(0.5)
+    """So far from an obstacle it no longer counts."""
 
     # Joints.
     velocity_limit_rad_s: float = _rate(12.0)

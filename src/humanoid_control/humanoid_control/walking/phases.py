@@ -9,12 +9,15 @@ from typing import Protocol
 from humanoid_control.walking.dcm_plan import BalanceReference, ZmpSegment
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.gear import GaitInput, Gear
+from humanoid_control.walking.obstacle_guard import LegInAir
 from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.sides import LEFT, RIGHT, SIDES
 from humanoid_control.walking.step import Step
 from humanoid_control.walking.swing_foot import Swing
 from humanoid_control.walking.turning import Turning
 
+STAND = 'stand'
+"""The name of the phase in which nothing moves."""
 _SETTLED_S = 0.3
 """A robot that just begins to stand does not step against pushes yet."""
 _REST_S = 0.1
@@ -41,6 +44,12 @@ class Phase(Protocol):
     @property
     def footsteps(self) -> Sequence[Footstep]:
         """Return the steps that are planned."""
+
+    def replan(self, now: GaitInput) -> None:
+        """Plan anew for a velocity that has changed at once."""
+
+    def leg_in_air(self, now: GaitInput) -> LegInAir | None:
+        """Return the leg in the air, if one is."""
 
     def advance(self, now: GaitInput) -> Phase:
         """Let time pass; return the phase that is now: this one or one that follows."""
@@ -72,11 +81,18 @@ class _OnBothFeet:
         """Return that no foot swings."""
         return None
 
+    def replan(self, now: GaitInput) -> None:
+        """Do nothing: where the weight goes does not depend on the velocity."""
+
+    def leg_in_air(self, now: GaitInput) -> LegInAir | None:
+        """Return nothing: both feet are on the ground."""
+        return None
+
 
 class Standing(_OnBothFeet):
     """The robot stands; it steps for a velocity, or when it is pushed hard."""
 
-    name = 'stand'
+    name = STAND
 
     def advance(self, now: GaitInput) -> Phase:
         """Go on standing, or step."""
@@ -141,6 +157,14 @@ class Stepping:
     def footsteps(self) -> Sequence[Footstep]:
         """Return the steps that are planned."""
         return self._step.footsteps
+
+    def replan(self, now: GaitInput) -> None:
+        """Plan the landing anew."""
+        self._step.replan(now)
+
+    def leg_in_air(self, now: GaitInput) -> LegInAir | None:
+        """Return the leg in the air, if one is."""
+        return self._step.leg_in_air(now)
 
     def advance(self, now: GaitInput) -> Phase:
         """Go on with the step; when the foot has landed, with the next one, or stop."""

@@ -13,6 +13,7 @@ from humanoid_control.walking.attitude import Attitude
 from humanoid_control.walking.errors import WalkingError
 from humanoid_control.walking.heading import HeadingFrame
 from humanoid_control.walking.pendulum import GRAVITY_M_S2
+from humanoid_control.walking.planar import Point
 from humanoid_control.walking.walking_robot import WalkingRobot
 
 
@@ -25,6 +26,12 @@ class Sensed:
     attitude: Attitude
     loads: tuple[float, float]
     """The weight on the soles, as shares of the robot's weight."""
+    drags: tuple[Point, Point]
+    """The horizontal forces of the ground, or of what else they touch, on the soles, likewise."""
+    efforts_nm: Array
+    """(n,) what the drives exert"""
+    acceleration_m_s2: Array
+    """(3,) of the inertial sensor, in the axes of the odometry, without gravity"""
 
 
 class Senses:
@@ -59,7 +66,25 @@ class Senses:
             state,
             Attitude(*to_rpy(rotation), (x, y, z)),
             (left_n / self._weight_n, right_n / self._weight_n),
+            self._drags(state, observation.foot_forces_n),
+            observation.efforts_nm,
+            self._acceleration(rotation, observation),
         )
+
+    def _acceleration(self, rotation: Array, observation: Observation) -> Array:
+        """Return the acceleration (3,) of the inertial sensor; it measures gravity as well."""
+        specific = self._robot.imu_in_base @ observation.linear_acceleration_m_s2
+        acceleration: Array = rotation @ specific
+        acceleration[2] -= GRAVITY_M_S2
+        return acceleration
+
+    def _drags(self, state: BodyState, forces_n: Array) -> tuple[Point, Point]:
+        """Return the horizontal parts of forces (2, 3), which are in the axes of the soles."""
+        left, right = (
+            state.rotation(leg.sole) @ force / self._weight_n
+            for leg, force in zip(self._robot.legs, forces_n)
+        )
+        return complex(left[0], left[1]), complex(right[0], right[1])
 
 
 def _check(name: str, values: Array, shape: tuple[int, ...]) -> None:

@@ -59,4 +59,5 @@ def _reading(
     x, y, z = (base_m + sensed.state.position_m(sole)).tolist()
     rotation = sensed.state.rotation(sole)
     facet = Facet(z, tilt_of(rotation, most_tilt_rad))
-    return SoleReading(PlanarPose(complex(x, y), yaw_of(rotation)), facet, sensed.loads[side])
+    pose = PlanarPose(complex(x, y), yaw_of(rotation))
+    return SoleReading(pose, facet, sensed.loads[side], sensed.drags[side])

@@ -18,7 +18,7 @@ class WalkStatus:
     phase: str
     """'stand', 'walk', 'stop', 'fallen' or 'stand_up'."""
     support: tuple[int, ...]
-    """The sides whose feet carry the robot: 0 left, 1 right."""
+    """The sides whose feet carry the robot: 0 left, 1 right; none while it is down."""
     feet: tuple[PlanarPose, PlanarPose]
     """Where the soles stand, or stood last."""
     footsteps: Sequence[Footstep]

@@ -7,6 +7,7 @@ from humanoid_control.walking.dcm_plan import BalanceReference, DcmPlan
 from humanoid_control.walking.footing import Foothold
 from humanoid_control.walking.footsteps import Footstep
 from humanoid_control.walking.gear import GaitInput, Gear, SoleReading
+from humanoid_control.walking.obstacle_guard import LegInAir
 from humanoid_control.walking.planar import PlanarPose, Point
 from humanoid_control.walking.sides import other, SIDES
 from humanoid_control.walking.step_adjustment import Residual
@@ -33,12 +34,14 @@ class Step:
         self.elapsed_s = 0.0
         self.rate = 1.0
         self.error_m = 0.0
-        self._lift_off = gear.footing.pose(self.side)
+        self._lifted_from = gear.footing[self.side]
+        self._lift_off = self._lifted_from.pose
         self._foot = SwingFoot(self._lift_off)
         p = gear.parameters
         self._lift = Lift(p.swing_height_m, p.swing_s, p.reach_down_m_s, p.deepest_m)
         self._tilt = gear.slope
         self._has_touched = False
+        self._lost_s = 0.0
         self._nominal = self._next_landing()
         self._planned_for = gear.is_stopping
         self._nominal_plan = self._planned(self._nominal)
@@ -49,6 +52,10 @@ class Step:
     def end_s(self) -> float:
         """Return the time at which the foot lands by plan."""
         return self._shift_s + self._gear.parameters.swing_s
+
+    @property
+    def _adjustable_until_s(self) -> float:
+        return self.end_s - self._gear.parameters.adjust_until_s
 
     @property
     def duration_s(self) -> float:
@@ -71,19 +78,82 @@ class Step:
         return self._gear.footsteps(self.landing, self.support)
 
     def advance(self, passed_s: float) -> None:
-        """Let time pass."""
-        self._passed_s = passed_s
+        """
+        Let time pass.
+
+        While control was away the foot in the air got no targets. It must not make up for that
+        in haste: the step waits for it.
+        """
+        p, before_s = self._gear.parameters, self.elapsed_s
+        self._passed_s = min(passed_s, p.longest_tick_s)
         self._real_s += passed_s
         self.elapsed_s += passed_s * self.rate
+        if not self._has_touched:
+            in_air_s = before_s + self._passed_s * self.rate
+            self.elapsed_s = min(self.elapsed_s, max(self._shift_s, in_air_s))
+
+    def replan(self, now: GaitInput) -> None:
+        """Plan the landing anew for a velocity that has changed at once."""
+        if self._has_touched or self.elapsed_s > self._adjustable_until_s:
+            return
+        blockage = self._gear.guard.blockage
+        if blockage and blockage.leg is not None:
+            # It is not where it was to be.
+            self._foot = SwingFoot(now.soles[self.side].pose)
+        self._planned_for = self._gear.is_stopping
+        self._nominal = self.landing = self._in_time(self._next_landing())
+        self._nominal_plan = self._plan = self._planned(self._nominal)
+
+    def _in_time(self, landing: PlanarPose) -> PlanarPose:
+        """Return a landing that the foot reaches without haste: haste throws the robot over."""
+        if self.swing_phase <= 0.0:
+            return landing
+        start_m = self._foot.pose.position_m
+        way_m = landing.position_m - start_m
+        most_m = self._gear.parameters.turn_back_m_s * max(0.0, self._arrival_s)
+        if abs(way_m) <= most_m:
+            return landing
+        return PlanarPose(start_m + way_m * (most_m / abs(way_m)), landing.yaw_rad)
+
+    def leg_in_air(self, now: GaitInput) -> LegInAir | None:
+        """Return the leg that swings, if nothing but an obstacle can push it now."""
+        p, sole = self._gear.parameters, now.soles[self.side]
+        swings = p.leg_touch_from_phase < self.swing_phase < 1.0 and not self._has_touched
+        if not swings or sole.load > p.touch_load:
+            return None
+        return LegInAir(self.side, now.touch.legs_nm[self.side], sole.pose.position_m)
 
     def feel(self, now: GaitInput) -> None:
-        """Leave the foot where it touches the ground, early or late, until the step ends."""
+        """
+        Leave the foot where it touches the ground, early or late, until the step ends.
+
+        What gives way under it, or was only grazed, was not the ground: the foot goes on.
+        """
         sole = now.soles[self.side]
-        if self._has_touched or not (self._touches(sole) or self._is_late):
+        if self._has_touched:
+            self._notice_loss(sole, now.passed_s)
+            return
+        if now.passed_s > self._passed_s and self.swing_phase > 0.0:
+            self._foot = SwingFoot(sole.pose)
+        if not (self._touches(sole) or self._is_late):
             return
         self._has_touched = True
         facet = Facet(sole.facet.height_m, self._tilt)
         self._gear.footing.put(self.side, Foothold(sole.pose, facet))
+
+    def _notice_loss(self, sole: SoleReading, passed_s: float) -> None:
+        """Let the foot swing on if it no longer touches anything before it should have landed."""
+        p = self._gear.parameters
+        bears = sole.load > p.lost_load or self.swing_phase > 1.0
+        self._lost_s = 0.0 if bears else self._lost_s + passed_s
+        if self._lost_s < p.lost_s:
+            return
+        self._has_touched, self._lost_s = False, 0.0
+        self._gear.footing.put(self.side, self._lifted_from)
+        self._foot = SwingFoot(sole.pose)
+        if self._arrival_s < p.least_swing_s:
+            self.landing = sole.pose
+            self._plan = self._planned(self.landing)
 
     def has_landed(self, now: GaitInput) -> bool:
         """Tell whether the foot can take the weight, or should have long ago."""
@@ -95,7 +165,7 @@ class Step:
         """Return where the divergent component and the zero-moment point should be now."""
         self._replan_if_stopping_changed()
         time_s = min(self.elapsed_s, self.end_s - _INSTANT_S)
-        if self.elapsed_s < self.end_s - self._gear.parameters.adjust_until_s:
+        if self.elapsed_s < self._adjustable_until_s:
             self._adjust(now, time_s)
         reference = self._plan.at(time_s)
         self.error_m = abs(now.dcm_m - reference.dcm_m)
@@ -111,11 +181,11 @@ class Step:
 
     def swing(self) -> Swing | None:
         """Return where the sole in the air is to be; to be asked once a tick."""
-        p, in_air_s = self._gear.parameters, self.elapsed_s - self._shift_s
+        in_air_s = self.elapsed_s - self._shift_s
         if in_air_s <= 0.0 or self._has_touched:
             return None
         passed_s = min(self._passed_s, in_air_s / self.rate)
-        remaining_s = (p.early_arrival * p.swing_s - in_air_s) / self.rate + passed_s
+        remaining_s = self._arrival_s + passed_s
         foot = self._foot
         foot.advance(self.landing, remaining_s, passed_s)
         start, rise_m = self._gear.footing[self.side].facet, self._rise_m
@@ -135,6 +205,12 @@ class Step:
         return Swing(self.side, motion)
 
     @property
+    def _arrival_s(self) -> float:
+        """How long it takes the foot to be above its landing."""
+        p, in_air_s = self._gear.parameters, self.elapsed_s - self._shift_s
+        return (p.early_arrival * p.swing_s - in_air_s) / self.rate
+
+    @property
     def _rise_m(self) -> float:
         """Return how much higher the ground is expected at the landing than at the lift-off."""
         footing, slope = self._gear.footing, self._gear.slope
@@ -151,7 +227,9 @@ class Step:
         """Tell whether the foot meets the ground while it goes down."""
         p, phase = self._gear.parameters, self.swing_phase
         enough = p.touch_load if phase > p.gentle_phase else p.touchdown_load
-        return phase > p.touchdown_phase and sole.load > enough
+        # Friction on the front of an obstacle is no ground.
+        is_below = abs(sole.drag) < sole.load
+        return phase > p.touchdown_phase and sole.load > enough and is_below
 
     def _next_landing(self) -> PlanarPose:
         """Return where the foot lands by plan, on the robot's course unless it stops."""
@@ -160,7 +238,8 @@ class Step:
         if not self._gear.is_stopping:
             start = self._gear.course.corrected(start)
         goal = planner.next_middle(start, self.support, self._gear.command)
-        return planner.landing(support, self.support, goal)
+        landing = planner.landing(support, self.support, goal)
+        return PlanarPose(self._gear.guard.kept_off(landing.position_m), landing.yaw_rad)
 
     def _planned(self, landing: PlanarPose) -> DcmPlan:
         """Return the plan from the begin of the step to rest for a landing."""
@@ -187,7 +266,12 @@ class Step:
             support,
         )
         adjustment = self._gear.adjuster.adjusted(
-            self._nominal, support, self.support, residual, self.end_s - time_s, self.rate
+            self._nominal,
+            support,
+            self.support,
+            residual,
+            self.end_s - time_s,
+            self.rate,
         )
         self.rate = adjustment.rate
         if adjustment.landing != self.landing:

@@ -101,14 +101,26 @@ class Residual:
         polygon: SupportPolygon,
         support: PlanarPose,
     ) -> Residual:
-        """Compare the divergent component with its reference."""
+        """
+        Compare the divergent component with its reference.
+
+        :param dcm: the divergent component, in the plane of the odometry (m)
+        :param gain: how far the zero-moment point goes for each metre of the error
+        :param polygon: where the feet on the ground allow that point to be
+        :param support: the pose of the foot that carries the robot
+        """
         turn = cmath.rect(1.0, -support.yaw_rad)
         error = dcm - reference.dcm_m
         shift = polygon.clamped(reference.zmp_m + gain * error) - reference.zmp_m
         return cls(error * turn, gain * error * turn, shift * turn, support.yaw_rad)
 
     def at_landing(self, growth: float, parameters: WalkParameters) -> Point:
-        """Return the error that is left when it has grown by a factor, without a dead band."""
+        """
+        Return the error that is left when it has grown by a factor, without a dead band.
+
+        :param growth: the factor by which an error that nothing counters grows until the landing
+        :param parameters: they have the dead band
+        """
         left = self.error_m * growth - self.shift_m * (growth - 1.0)
         dead_band_m = parameters.adjust_dead_band_m
         return cmath.rect(1.0, self.yaw_rad) * complex(

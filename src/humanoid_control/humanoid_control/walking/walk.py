@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 from humanoid_control.backends import JointTargets
-from humanoid_control.walking.base_estimate import base_on, BaseEstimate
+from humanoid_control.walking.base_estimate import base_on, BaseEstimate, carrying
 from humanoid_control.walking.base_motion import BaseMotion
 from humanoid_control.walking.com_observer import ComObserver
 from humanoid_control.walking.com_reference import ComReference
 from humanoid_control.walking.conforming import Conforming
+from humanoid_control.walking.external_force import ForceObserver
 from humanoid_control.walking.foot_shape import FootShape
 from humanoid_control.walking.footing import Footing, loads_for
 from humanoid_control.walking.gait import Gait, GaitOutput
@@ -16,12 +17,14 @@ from humanoid_control.walking.gear import GaitInput, Gear, SoleReading
 from humanoid_control.walking.home_posture import HomePosture
 from humanoid_control.walking.inverse_dynamics import InverseDynamics
 from humanoid_control.walking.parameters import WalkParameters
-from humanoid_control.walking.pendulum import Motion, Pendulum
+from humanoid_control.walking.pendulum import GRAVITY_M_S2, Motion, Pendulum
+from humanoid_control.walking.phases import STAND
 from humanoid_control.walking.planar import Point
 from humanoid_control.walking.planned_acceleration import PlannedAcceleration, within
 from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.soles import footing_below, soles_below
 from humanoid_control.walking.terrain import GroundLevel
+from humanoid_control.walking.touch import NOTHING, Touch, TouchObserver
 from humanoid_control.walking.walking_robot import WalkingRobot
 from humanoid_control.walking.wanted_base import base_below, within_reach
 from humanoid_control.walking.whole_body import JointMotion, WholeBody
@@ -59,8 +62,11 @@ class Walk:
         self._level = GroundLevel(
             parameters.level_rate_1_s, parameters.level_leak_1_s, parameters.level_distance_m
         )
+        self._force = ForceObserver(robot.body.mass_kg, parameters.force_rate_1_s)
+        self._touch = TouchObserver(robot, parameters)
         self._shares = (0.5, 0.5)
         self._zmp_m = self._footing.rest_point
+        self._error_m = 0j
         self._last_s = sensed.time_s
         self.sensed = sensed
         self.base = base_on(self._footing, self._shares, robot, sensed.state)
@@ -84,9 +90,18 @@ class Walk:
         self._estimate(passed_s)
         soles = soles_below(self.base.position_m, self._robot, sensed, self._parameters)
         output = self.output = self.gait.update(
-            GaitInput(passed_s, self.dcm_m, self._zmp_m, soles)
+            GaitInput(
+                passed_s,
+                self.dcm_m,
+                self._zmp_m,
+                soles,
+                self._error_m,
+                self._force.force_n,
+                self._felt(),
+            )
         )
         self._zmp_m = output.zmp_m
+        self._error_m = self.dcm_m - output.reference.dcm_m
         wanted = self._reference.update(self.com, output.zmp_m, passed_s)
         self._give_way(soles, output, passed_s)
         joints = self._whole_body.motion(
@@ -117,9 +132,26 @@ class Walk:
     def _estimate(self, passed_s: float) -> None:
         """Find base and centre of mass from the feet that carried weight until now."""
         state = self.sensed.state
-        self.base = base_on(self._footing, self._shares, self._robot, state)
+        shares = carrying(self._shares, self.sensed.loads)
+        self.base = base_on(self._footing, shares, self._robot, state)
         measured = self.base.com_motion(state)
         self.com = self._observer.update(measured, self._zmp_m, passed_s)
+        swing = self.output.swing if self.output else None
+        # What a foot meets in the air is not the ground.
+        drag = sum(
+            drag
+            for side, drag in enumerate(self.sensed.drags)
+            if swing is None or side != swing.side
+        )
+        weight_n = self._robot.body.mass_kg * GRAVITY_M_S2
+        self._force.update(measured.velocity_m_s, weight_n * drag, passed_s)
+
+    def _felt(self) -> Touch:
+        """Return what the limbs touch; who stands walks into nothing."""
+        if self.gait.phase == STAND:
+            self._touch.rest()
+            return NOTHING
+        return self._touch.update(self.sensed)
 
     def _give_way(
         self, soles: tuple[SoleReading, SoleReading], output: GaitOutput, passed_s: float

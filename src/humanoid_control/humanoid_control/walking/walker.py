@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from humanoid_control.backends import Array, JointTargets, Observation
+from humanoid_control.backends import Array, ImuNoise, JointTargets, Observation
 from humanoid_control.walking.fall_detector import Stance
 from humanoid_control.walking.foot_shape import FootShape
 from humanoid_control.walking.heading import quaternion_of
@@ -38,17 +38,19 @@ class Walker:
     shape: FootShape
     home: HomePosture
     parameters: WalkParameters
+    imu: ImuNoise = field(default_factory=ImuNoise)
     _senses: Senses = field(init=False)
     _velocity: VelocityCommand = field(init=False, default=STANDING)
     _walk: Walk | None = field(init=False, default=None)
     _targets: JointTargets | None = field(init=False, default=None)
     _start_m: Point = field(init=False, default=0j)
-    _uncertainty: Uncertainty = field(init=False, default_factory=Uncertainty)
+    _uncertainty: Uncertainty = field(init=False)
     _recovery: Recovery = field(init=False)
 
     def __post_init__(self) -> None:
         """Begin."""
         self._senses = Senses(self.robot)
+        self._uncertainty = Uncertainty(self.imu, self.home.base_height_m)
         self._recovery = Recovery(self.robot, self.home, self.parameters)
 
     @classmethod
@@ -58,12 +60,14 @@ class Walker:
         drives: Mapping[str, Drive],
         joints: Sequence[str],
         parameters: WalkParameters,
+        imu: ImuNoise = ImuNoise(),
     ) -> Walker:
         """
         Return the walker of a robot.
 
         :param joints: all driven joints, in the order of observations and targets
         :param parameters: the gait; `WalkParameters().scaled(scale)` for a robot of another size
+        :param imu: how far the inertial sensor is off, which makes odometry uncertain
         """
         walking = WalkingRobot.of(robot, drives, joints)
         return cls(
@@ -71,13 +75,14 @@ class Walker:
             FootShape.of(robot, parameters),
             HomePosture.of(walking, parameters),
             parameters,
+            imu,
         )
 
     def reset(self) -> None:
         """Forget everything: the robot has been put somewhere, and odometry begins anew."""
         self._senses = Senses(self.robot)
         self._recovery = Recovery(self.robot, self.home, self.parameters)
-        self._uncertainty = Uncertainty()
+        self._uncertainty = Uncertainty(self.imu, self.home.base_height_m)
         self._start_m = 0j
         self._walk = self._targets = None
         self._velocity = STANDING
@@ -116,7 +121,7 @@ class Walker:
         if targets is None:
             walk = self._walk or self._begin(sensed)
             targets = walk.update(sensed)
-            self._uncertainty.update(self._pose(walk))
+        self._uncertainty.update(self._pose(walk), sensed.time_s)
         self._targets = targets
         return targets
 
@@ -124,6 +129,12 @@ class Walker:
     def has_fallen(self) -> bool:
         """Tell whether the robot lies, falls or is being put onto its feet."""
         return self._recovery.phase is not None
+
+    @property
+    def is_blocked(self) -> bool:
+        """Whether something is in the way, which the robot does not walk into any further."""
+        walk = self._walk
+        return walk is not None and walk.gait.is_blocked and not self.has_fallen
 
     def _begin(self, sensed: Sensed) -> Walk:
         """Begin to walk from where the feet are."""
@@ -145,21 +156,28 @@ class Walker:
         return targets
 
     @property
+    def phase(self) -> str | None:
+        """Return what the robot does, as in `WalkStatus`; None before the first tick."""
+        return (self._recovery.phase or self._walk.gait.phase) if self._walk else None
+
+    @property
     def status(self) -> WalkStatus | None:
         """Return where the walk is; None before the first tick."""
-        walk = self._walk
-        if walk is None or walk.output is None:
+        walk, phase = self._walk, self.phase
+        if walk is None or phase is None:
             return None
+        # A robot that lies has no plan: nothing carries it, and its references are where it is.
+        output = None if self.has_fallen else walk.output
         return WalkStatus(
-            phase=self._recovery.phase or walk.gait.phase,
-            support=walk.output.sides,
+            phase=phase,
+            support=output.sides if output else (),
             feet=(walk.footing.pose(LEFT), walk.footing.pose(RIGHT)),
-            footsteps=walk.gait.footsteps,
+            footsteps=walk.gait.footsteps if output else (),
             odometry=self._odometry(walk),
             dcm_m=walk.dcm_m,
-            dcm_reference_m=walk.output.reference.dcm_m,
-            zmp_m=walk.output.zmp_m,
-            zmp_reference_m=walk.output.reference.zmp_m,
+            dcm_reference_m=output.reference.dcm_m if output else walk.dcm_m,
+            zmp_m=output.zmp_m if output else walk.dcm_m,
+            zmp_reference_m=output.reference.zmp_m if output else walk.dcm_m,
         )
 
     def _pose(self, walk: Walk) -> PlanarPose:
@@ -177,6 +195,5 @@ class Walker:
             orientation=quaternion_of(state.base_rotation),
             linear_velocity_m_s=to_base @ walk.base.velocity_m_s,
             angular_velocity_rad_s=to_base @ state.base_angular_velocity_rad_s,
-            position_variance_m2=self._uncertainty.position_variance_m2,
-            heading_variance_rad2=self._uncertainty.heading_variance_rad2,
+            covariance=self._uncertainty.covariance,
         )

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import product
 from typing import Any
 
 from humanoid_control.backends import Array
 from humanoid_simulation.backend.floating import floating_body
+from humanoid_simulation.backend.names import ALONE, Names
+from humanoid_simulation.choosing import named
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.rotations import inverse, rotated
 import mujoco
@@ -17,6 +19,8 @@ import numpy as np
 FARTHEST_M = 1e4
 """Beyond so far, numbers are too coarse for contacts."""
 FASTEST_M_S, FASTEST_RAD_S = 1e3, 1e3
+_CORNERS = np.array(list(product((-1.0, 1.0), repeat=3)))
+"""Of a cube around the origin, (8, 3)."""
 
 
 def _zero() -> Array:
@@ -29,13 +33,16 @@ class EntityState:
     """
     Where the origin of an entity is in the world, and how it moves.
 
-    The orientation is a unit quaternion w, x, y, z; velocities are in world axes.
+    The orientation is a unit quaternion w, x, y, z; velocities and accelerations are in world
+    axes. Accelerations are told only: they follow from forces.
     """
 
     position_m: Array
     orientation: Array
     linear_velocity_m_s: Array = field(default_factory=_zero)
     angular_velocity_rad_s: Array = field(default_factory=_zero)
+    linear_acceleration_m_s2: Array = field(default_factory=_zero)
+    angular_acceleration_rad_s2: Array = field(default_factory=_zero)
 
     def __post_init__(self) -> None:
         """Refuse what is no state."""
@@ -59,29 +66,60 @@ class EntityState:
 
 
 class Entities:
-    """The bodies of a world that float, by name."""
+    """The robots and things of a world, by name."""
 
-    def __init__(self, model: Any, data: Any, joints: Mapping[str, str]) -> None:
-        """Take the names of the entities, with those of their floating joints."""
-        self._data = data
-        self._floating = {name: floating_body(model, joint) for name, joint in joints.items()}
+    def __init__(self, model: Any, data: Any, names: Names) -> None:
+        """Look up where the numbers of each entity are."""
+        self._model, self._data = model, data
+        self._floating = {
+            name: floating_body(model, joint) for name, joint in names.floating.items()
+        }
+        self._bodies = {name: names.number(names.body(name)) for name in names.floating}
+        self._bodies |= {name: names.number(name) for name in names.fixed}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Return the names: first of what floats."""
+        return tuple(self._bodies)
+
+    def named(self, name: str) -> str:
+        """Return the entity that is meant, or raise SimulationError."""
+        name = name or ALONE
+        named('entity', name, self._bodies)
+        return name
 
     def state(self, name: str) -> EntityState:
         """Return where an entity is."""
+        data = self._data
+        if name not in self._floating:
+            body = self._bodies[name]
+            return EntityState(data.xpos[body].copy(), data.xquat[body].copy())
         at = self._floating[name]
-        qpos, qvel = self._data.qpos, self._data.qvel
-        orientation = qpos[at.orientation].copy()
+        orientation = data.qpos[at.orientation].copy()
         return EntityState(
-            qpos[at.position].copy(),
+            data.qpos[at.position].copy(),
             orientation,
-            qvel[at.linear].copy(),
-            rotated(qvel[at.angular], orientation),
+            data.qvel[at.linear].copy(),
+            rotated(data.qvel[at.angular], orientation),
+            data.qacc[at.linear].copy(),
+            rotated(data.qacc[at.angular], orientation),
         )
+
+    def box(self, name: str) -> tuple[Array, Array]:
+        """Return two corners, (3,), of the box around an entity, in its axes."""
+        model, data, body = self._model, self._data, self._bodies[name]
+        of_body = model.body_rootid[model.geom_bodyid] == model.body_rootid[body]
+        geoms = np.flatnonzero(of_body & (model.geom_rbound > 0.0))
+        turns = data.geom_xmat[geoms].reshape(-1, 3, 3)
+        corners = model.geom_aabb[geoms, None, :3] + _CORNERS * model.geom_aabb[geoms, None, 3:]
+        in_world = corners @ turns.transpose(0, 2, 1) + data.geom_xpos[geoms, None]
+        own = (in_world.reshape(-1, 3) - data.xpos[body]) @ data.xmat[body].reshape(3, 3)
+        return own.min(axis=0), own.max(axis=0)
 
     def put(self, name: str, state: EntityState) -> None:
         """Put an entity somewhere; refuse what the physics could not go on from."""
-        _check_bounds(state)
-        at = self._floating[name]
+        check_bounds(state)
+        at = named('entity that can be moved', name, self._floating)
         qpos, qvel = self._data.qpos, self._data.qvel
         orientation = state.orientation.copy()
         mujoco.mju_normalize4(orientation)
@@ -90,7 +128,7 @@ class Entities:
         qvel[at.angular] = rotated(state.angular_velocity_rad_s, inverse(orientation))
 
 
-def _check_bounds(state: EntityState) -> None:
+def check_bounds(state: EntityState) -> None:
     """Refuse a state that is beyond what can be computed."""
     for kind, array, most in (
         ('position_m', state.position_m, FARTHEST_M),

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from humanoid_control.backends import Array
@@ -26,6 +26,11 @@ class Hoists:
         """Begin without any."""
         self._model, self._data, self._wrenches = model, data, wrenches
         self._working: dict[int, tuple[Hoist, Callable[[], EntityState]]] = {}
+
+    def enter(self, model: Any, data: Any, numbers: Mapping[int, int]) -> None:
+        """Go on in a world in which the links that are lifted have other numbers."""
+        self._model, self._data = model, data
+        self._working = {numbers[base]: hoist for base, hoist in self._working.items()}
 
     def begin(self, base: int, standing_m: float, state: Callable[[], EntityState]) -> None:
         """

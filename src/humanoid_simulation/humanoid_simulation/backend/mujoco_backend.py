@@ -14,7 +14,7 @@ from humanoid_simulation.backend.last_sound import LastSound
 from humanoid_simulation.backend.names import ALONE, Names
 from humanoid_simulation.backend.robot import SimulatedRobot
 from humanoid_simulation.backend.settings import BackendSettings
-from humanoid_simulation.backend.snapshot import Snapshot
+from humanoid_simulation.backend.snapshot import carry_over, numbers_in, Snapshot
 from humanoid_simulation.backend.wrenches import Wrench, Wrenches
 from humanoid_simulation.choosing import named
 from humanoid_simulation.errors import SimulationError
@@ -44,8 +44,8 @@ class MujocoBackend:
         keyframes: Mapping[str, Keyframe] | None = None,
     ) -> None:
         """Put robots into a scene, at home; by default the humanoid, alone on a floor."""
-        description = description or humanoid()
-        self._settings = settings
+        self._description = description = description or humanoid()
+        self._placements, self._settings = tuple(placements), settings
         self._keyframes = load_keyframes() if keyframes is None else keyframes
         self._joints = tuple(description.drives)
         mujoco.set_mju_user_warning(_ignore)
@@ -58,11 +58,9 @@ class MujocoBackend:
             )
             for place, seed in zip(placements, seeds)
         }
-        self._names = Names(self._model, scene, self.robots, description.base)
-        self._entities = Entities(self._model, self._data, self._names.floating)
         self._wrenches = Wrenches(self._model, self._data)
         self._hoists = Hoists(self._model, self._data, self._wrenches)
-        self._sound = LastSound(self._model, self._data)
+        self._name(scene)
         self._periods = 0
         self.reset()
         self._standing_m = {
@@ -101,9 +99,14 @@ class MujocoBackend:
         return self._data
 
     @property
+    def scene(self) -> Scene:
+        """Return the scene as it is now, things where their homes are."""
+        return self._scene
+
+    @property
     def entities(self) -> tuple[str, ...]:
-        """Return the names of what can be put somewhere: robots, and things that are not fixed."""
-        return tuple(self._names.floating)
+        """Return the names of the robots and of all things."""
+        return self._entities.names
 
     def observe(self) -> Mapping[str, Observation]:
         """Return what the sensors of every robot say now, the same until time passes."""
@@ -139,13 +142,48 @@ class MujocoBackend:
             robot.put(posture, positions[name])
         self._look_again()
 
+    def change_scene(self, scene: Scene) -> None:
+        """
+        Go on in another scene; robots, and things that are in both scenes, stay as they are.
+
+        Raises
+        ------
+        SimulationError
+            If there can be no such world; all is as before then.
+
+        """
+        before = self._model, self._data
+        model = build_world(self._description, scene, self._placements, self._settings.physics)
+        data = mujoco.MjData(model)
+        carry_over(*before, model, data)
+        self._model, self._data = model, data
+        for robot in self._robots.values():
+            robot.enter(model, data)
+        numbers = numbers_in(before[0], model)
+        self._wrenches.enter(model, data, numbers)
+        self._hoists.enter(model, data, numbers)
+        self._name(scene)
+        self._look_again()
+
     def close(self) -> None:
         """Give back what is held; nothing else may be called after it."""
         self._robots = {}
 
+    def entity(self, name: str) -> str:
+        """Return the entity that is meant; '' is the robot that is alone. Or SimulationError."""
+        return self._entities.named(name)
+
     def entity_state(self, entity: str) -> EntityState:
         """Return where an entity truly is."""
-        return self._entities.state(self._names.entity(entity))
+        return self._entities.state(self.entity(entity))
+
+    def entity_box(self, entity: str) -> tuple[Array, Array]:
+        """
+        Return the lower and the upper corner, (3,) each, of the box around an entity.
+
+        The box lies along the axes of the entity; that of a robot changes with its posture.
+        """
+        return self._entities.box(self.entity(entity))
 
     def ground_truth(self, robot: str = '') -> EntityState:
         """Return where the base of a robot truly is."""
@@ -153,7 +191,7 @@ class MujocoBackend:
 
     def set_entity_state(self, entity: str, state: EntityState) -> None:
         """Put a robot or a thing somewhere; the joints of a robot stay as they are."""
-        self._entities.put(self._names.entity(entity), state)
+        self._entities.put(self.entity(entity), state)
         self._look_again()
 
     def apply_wrench(
@@ -214,6 +252,13 @@ class MujocoBackend:
     def camera(self, robot: str = '') -> str:
         """Return what the camera of a robot is called in the model."""
         return in_world(robot, CAMERA)
+
+    def _name(self, scene: Scene) -> None:
+        """Look up what the scene has in the model."""
+        self._scene = scene
+        self._names = Names(self._model, scene, self.robots, self._description.base)
+        self._entities = Entities(self._model, self._data, self._names)
+        self._sound = LastSound(self._model, self._data)
 
     def _look_again(self) -> None:
         """Compute what follows from a state that was set, and measure it."""

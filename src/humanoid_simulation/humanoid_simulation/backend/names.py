@@ -35,16 +35,17 @@ class Names:
             **things,
         }
         """The joint that lets an entity float, by the name of the entity."""
-
-    def entity(self, name: str) -> str:
-        """Return the entity that is meant; an empty name means the robot that is alone."""
-        name = name or ALONE
-        named('entity that can be moved', name, self.floating)
-        return name
+        self.fixed = tuple(thing.name for thing in scene.things if thing.is_fixed)
+        """The entities that nothing can move."""
 
     def body(self, entity: str, link: str = '') -> str:
-        """Return the body of an entity: a link of a robot, by default its base, or a thing."""
-        entity = self.entity(entity)
+        """
+        Return the body of an entity: a link of a robot, by default its base, or a thing.
+
+        An empty entity is the robot that is alone.
+        """
+        entity = entity or ALONE
+        named('entity that can be moved', entity, self.floating)
         if entity == ALONE and '' in self._robots:
             return link or self._base
         if entity in self._robots:

@@ -6,9 +6,10 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 import math
 
-from humanoid_control.backends import Array
+from humanoid_control.backends import Array, ImuNoise
 from humanoid_simulation.backend.channels import Channels, channels_of
 from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.rotations import rotated
 import numpy as np
 
 
@@ -20,7 +21,7 @@ class SensorNoise:
     velocity_rad_s: float = 0.0
     effort_nm: float = 0.0
     tilt_rad: float = 0.0
-    """Of the orientation, about each axis."""
+    """Of roll and pitch; the heading is integrated from the angular velocity."""
     angular_velocity_rad_s: float = 0.0
     acceleration_m_s2: float = 0.0
     foot_force_n: float = 0.0
@@ -36,6 +37,31 @@ class SensorNoise:
                 raise SimulationError(
                     f'The noise {each.name} cannot be {value:g}. Give a number from zero on.'
                 )
+
+    def imu(self, period_s: float) -> ImuNoise:
+        """
+        Describe the errors of the inertial measurement unit to those who use it.
+
+        Parameters
+        ----------
+        period_s
+            Time from one measurement to the next.
+
+        """
+        tilt_bias_rad = math.hypot(
+            self.angular_velocity_bias_rad_s * ATTITUDE_FILTER_S,
+            self.acceleration_bias_m_s2 / GRAVITY_M_S2,
+        )
+        return ImuNoise(
+            tilt_rad=math.hypot(self.tilt_rad, tilt_bias_rad),
+            angular_velocity_rad_s=math.hypot(
+                self.angular_velocity_rad_s, self.angular_velocity_bias_rad_s
+            ),
+            acceleration_m_s2=math.hypot(self.acceleration_m_s2, self.acceleration_bias_m_s2),
+            heading_drift_rad_s=self.angular_velocity_bias_rad_s,
+            heading_walk_rad_sqrt_s=self.angular_velocity_rad_s * math.sqrt(period_s),
+            tilt_bias_rad=tilt_bias_rad,
+        )
 
     def scaled(self, factor: float) -> SensorNoise:
         """Return the same noise, so much stronger."""
@@ -57,27 +83,98 @@ REALISTIC = SensorNoise(
 """About that of encoders, of a cheap inertial measurement unit, and of strain gauges."""
 
 
+ATTITUDE_FILTER_S = 1.0
+"""Time constant with which the attitude filter of the sensor follows the accelerometers."""
+GRAVITY_M_S2 = 9.81
+
+
 class NoiseSource:
     """Draws the errors of the measurements of a robot with n joints."""
 
     def __init__(self, noise: SensorNoise, joints: int, random: np.random.Generator) -> None:
         """Draw the biases, which last."""
         self._random = random
-        self._deviations = _deviations(noise, channels_of(joints))
-        self._biases = _biases(noise, channels_of(joints), random)
+        self._channels = channels_of(joints)
+        self._deviations = _deviations(noise, self._channels)
+        self._biases = _biases(noise, self._channels, random)
         self._tilt_rad = noise.tilt_rad
+        self._attitude = AttitudeError(self._biases[self._channels.acceleration])
         self.is_silent = noise == SensorNoise()
 
-    def draw(self) -> tuple[Array, Array]:
+    def draw(self, orientation: Array, time_s: float) -> tuple[Array, Array]:
         """
-        Return errors for a measurement.
+        Draw the errors of a measurement.
 
-        The first ones are of the channels (3 n + 18,); the others are a turn of the orientation,
-        a vector (3,) in its axes.
+        Parameters
+        ----------
+        orientation
+            The true one of the inertial sensor, w, x, y, z.
+        time_s
+            When it is measured.
+
+        Returns
+        -------
+        tuple[Array, Array]
+            The errors of the channels (3 n + 18,), and the one of the orientation: a small turn
+            (3,) in the axes of the world.
+
         """
         errors = self._random.standard_normal(len(self._deviations)) * self._deviations
         errors += self._biases
-        return errors, self._random.standard_normal(3) * self._tilt_rad
+        rates = rotated(errors[self._channels.angular_velocity], orientation)
+        turn = self._attitude.update(rates, orientation, time_s)
+        turn[:2] += self._random.standard_normal(2) * self._tilt_rad
+        return errors, turn
+
+
+class AttitudeError:
+    """
+    How far the attitude is off that a filter makes of gyroscopes and accelerometers (6 axes).
+
+    The filter integrates the angular velocity, and leans towards what the accelerometers take for
+    the vertical. So its tilt stays bounded: it is off by as much as the gyroscopes drift in the
+    filter's time constant, and by the angle of the accelerometers' bias to gravity. No
+    magnetometer corrects the heading, so that the error of the gyroscopes adds up in it.
+    First-order complementary filter, linearised: Mahony, Hamel and Pflimlin, "Nonlinear
+    Complementary Filters on the Special Orthogonal Group" (2008).
+    """
+
+    def __init__(self, acceleration_bias_m_s2: Array) -> None:
+        """Take the bias (3,) of the accelerometers, in the axes of the sensor."""
+        self._bias = acceleration_bias_m_s2
+        self._error_rad: Array | None = None
+        self._time_s = 0.0
+
+    def update(self, rate_error_rad_s: Array, orientation: Array, time_s: float) -> Array:
+        """
+        Let time pass.
+
+        Parameters
+        ----------
+        rate_error_rad_s
+            Error (3,) of the angular velocity, in the axes of the world.
+        orientation
+            The true one of the sensor, w, x, y, z.
+        time_s
+            The time now. The filter has settled when it is asked for the first time.
+
+        Returns
+        -------
+        Array
+            The turn (3,) from the true attitude to that of the filter, in the axes of the world.
+
+        """
+        x, y, _ = (rotated(self._bias, orientation) / GRAVITY_M_S2).tolist()
+        leaning = np.array([y, -x, 0.0])
+        if self._error_rad is None:
+            self._error_rad, self._time_s = leaning, time_s
+        passed_s = time_s - self._time_s
+        self._time_s = time_s
+        error: Array = self._error_rad + rate_error_rad_s * passed_s
+        error[:2] += (leaning - error)[:2] * -math.expm1(-passed_s / ATTITUDE_FILTER_S)
+        self._error_rad = error
+        result: Array = error.copy()
+        return result
 
 
 def _deviations(noise: SensorNoise, channels: Channels) -> Array:

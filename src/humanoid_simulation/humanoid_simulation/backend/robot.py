@@ -31,14 +31,20 @@ class SimulatedRobot:
         random: np.random.Generator,
     ) -> None:
         """Find the robot in the world."""
-        self._model, self._data, self._place = model, data, place
+        self._description, self._place = description, place
         self._joints, self._prefix = tuple(description.drives), description.prefix
-        self._layout = layout_of(model, description, place.robot)
         drives = description.drives.values()
         self._servos = Servos(drives, settings.period_s, settings.extrapolation_s)
-        noise = NoiseSource(settings.noise, len(self._joints), random)
-        self._sensors = Sensors(model, data, self._layout, noise)
+        self._noise = NoiseSource(settings.noise, len(self._joints), random)
         self._measured: deque[Observation] = deque(maxlen=settings.latency_periods + 1)
+        self.enter(model, data)
+
+    def enter(self, model: Any, data: Any) -> None:
+        """Go on in a world in which the robot may have other numbers, as it is."""
+        self._model, self._data = model, data
+        self._layout = layout_of(model, self._description, self._place.robot)
+        self._sensors = Sensors(model, data, self._layout, self._noise)
+        data.ctrl[self._layout.servos] = self._servos.inputs
 
     def check(self, targets: JointTargets) -> None:
         """Refuse targets that the robot cannot be given."""

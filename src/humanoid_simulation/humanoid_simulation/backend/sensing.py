@@ -41,9 +41,9 @@ class Sensors:
         values = self._true_values()
         orientation = product(self._qpos[self._layout.floating.orientation], self._mount)
         if not self._noise.is_silent:
-            errors, turn = self._noise.draw()
+            errors, turn = self._noise.draw(orientation, time_s)
             values += errors
-            orientation = product(orientation, from_vector(turn))
+            orientation = product(from_vector(turn), orientation)
         return self._observation(time_s, values, orientation)
 
     def _true_values(self) -> Array:

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 from humanoid_control.backends import Array
@@ -49,6 +50,15 @@ class Wrenches:
         """Begin without any."""
         self._model, self._data = model, data
         self._acting: list[tuple[Wrench, float]] = []
+
+    def enter(self, model: Any, data: Any, numbers: Mapping[int, int]) -> None:
+        """Go on in a world in which bodies have other numbers, or are gone."""
+        self._model, self._data = model, data
+        self._acting = [
+            (replace(wrench, body=numbers[wrench.body]), left_s)
+            for wrench, left_s in self._acting
+            if wrench.body in numbers
+        ]
 
     def add(self, wrench: Wrench) -> None:
         """Let a wrench act from now on, unless there are too many."""

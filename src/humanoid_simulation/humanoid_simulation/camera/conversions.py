@@ -10,9 +10,10 @@ from builtin_interfaces.msg import Time
 from humanoid_simulation.camera.pinhole import Pinhole
 import numpy as np
 from numpy.typing import NDArray
-from sensor_msgs.msg import CameraInfo, Image
+from sensor_msgs.msg import CameraInfo, Image, PointCloud2, PointField
 
 _NANOSECONDS = 1_000_000_000
+_FLOAT_BYTES = 4
 
 
 def stamp_of(time_ns: int) -> Time:
@@ -31,10 +32,34 @@ def depth_image(pinhole: Pinhole, frame: str) -> Image:
     return _image(pinhole, frame, '32FC1', 4)
 
 
-def fill_image(image: Image, pixels: NDArray[Any], stamp: Time) -> None:
-    """Put a picture of the right size into a message."""
-    np.frombuffer(image.data, np.uint8)[:] = pixels.reshape(-1).view(np.uint8)
-    image.header.stamp = stamp
+def point_cloud(pinhole: Pinhole, frame: str) -> PointCloud2:
+    """Return a message for organised clouds, x, y, z in metres, to be filled again and again."""
+    names = ('x', 'y', 'z')
+    point_bytes = _FLOAT_BYTES * len(names)
+    row_bytes = pinhole.width_px * point_bytes
+    cloud = PointCloud2(
+        width=pinhole.width_px,
+        height=pinhole.height_px,
+        fields=[
+            PointField(
+                name=name, offset=_FLOAT_BYTES * number, datatype=PointField.FLOAT32, count=1
+            )
+            for number, name in enumerate(names)
+        ],
+        is_bigendian=False,
+        point_step=point_bytes,
+        row_step=row_bytes,
+        is_dense=False,
+        data=array('B', bytes(row_bytes * pinhole.height_px)),
+    )
+    cloud.header.frame_id = frame
+    return cloud
+
+
+def fill_data(message: Image | PointCloud2, values: NDArray[Any], stamp: Time) -> None:
+    """Put a picture or cloud of the right size into a message."""
+    np.frombuffer(message.data, np.uint8)[:] = values.reshape(-1).view(np.uint8)
+    message.header.stamp = stamp
 
 
 def camera_info(pinhole: Pinhole, frame: str) -> CameraInfo:

@@ -8,7 +8,7 @@ import mmap
 import os
 from typing import Any
 
-from humanoid_simulation.camera.painter import Color, Depth
+from humanoid_simulation.camera.painter import Cloud, Color, Depth
 from humanoid_simulation.camera.view import CameraView
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ _ALIGNMENT = 64
 
 class Frames:
     """
-    One piece of memory with the positions of a state, and two pictures of each view.
+    One piece of memory with the positions of a state, and two pictures and a cloud of each view.
 
     The memory has no name and is gone with the last process that holds it.
     """
@@ -28,7 +28,7 @@ class Frames:
         sizes = [nq * 8]
         for view in views:
             pixels = view.width_px * view.height_px
-            sizes += [pixels * 3, pixels * 4]
+            sizes += [pixels * 3, pixels * 4, pixels * 12]
         ends = np.cumsum([-(-size // _ALIGNMENT) * _ALIGNMENT for size in sizes])
         os.ftruncate(file, int(ends[-1]))
         self._memory = mmap.mmap(file, int(ends[-1]))
@@ -36,11 +36,15 @@ class Frames:
         self.qpos: NDArray[np.float64] = self._array(np.float64, 0, nq)
         self.colors: list[Color] = [
             self._array(np.uint8, start, view.height_px, view.width_px, 3)
-            for start, view in zip(starts[1::2], views)
+            for start, view in zip(starts[1::3], views)
         ]
         self.depths: list[Depth] = [
             self._array(np.float32, start, view.height_px, view.width_px)
-            for start, view in zip(starts[2::2], views)
+            for start, view in zip(starts[2::3], views)
+        ]
+        self.clouds: list[Cloud] = [
+            self._array(np.float32, start, view.height_px, view.width_px, 3)
+            for start, view in zip(starts[3::3], views)
         ]
 
     def _array(self, kind: Any, start: int, *shape: int) -> NDArray[Any]:

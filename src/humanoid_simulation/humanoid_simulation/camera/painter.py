@@ -13,12 +13,17 @@ NEAR_M = 0.02
 FAR_M = 100.0
 HIDDEN_GROUP = 3
 """The group of geoms, and those above it, that only collisions see."""
+SEEN_GROUPS = np.array([group < HIDDEN_GROUP for group in range(6)], dtype=np.uint8)
+"""For each group of geoms, whether rays meet it, as `mj_multiRay` wants that."""
 
 Color = NDArray[np.uint8]
 """(height, width, 3) red, green, blue"""
 
 Depth = NDArray[np.float32]
 """(height, width) metres along the optical axis; infinite where nothing is (REP 118)"""
+
+Cloud = NDArray[np.float32]
+"""(height, width, 3) points in metres in the optical frame; NaN where nothing is seen"""
 
 
 class Painter(Protocol):

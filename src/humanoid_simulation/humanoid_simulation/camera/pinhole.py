@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
+from humanoid_simulation.camera.painter import Cloud, Depth
 from humanoid_simulation.errors import SimulationError
 import numpy as np
 from numpy.typing import NDArray
@@ -64,3 +65,16 @@ class Pinhole:
         y = (np.arange(self.height_px) - y_px) / self.focal_px
         right, down = np.meshgrid(x, y)
         return np.stack([right, down, np.ones_like(right)], axis=-1)
+
+
+class Deprojection:
+    """Turns the depth pictures of a camera into points, one a pixel."""
+
+    def __init__(self, pinhole: Pinhole) -> None:
+        """Compute the rays of all pixels."""
+        self._rays = pinhole.rays().astype(np.float32)
+
+    def fill(self, cloud: Cloud, depth: Depth) -> None:
+        """Write the point of each pixel; where nothing is seen, NaN."""
+        seen = np.where(np.isfinite(depth), depth, np.float32(np.nan))
+        np.multiply(self._rays, seen[..., None], out=cloud)

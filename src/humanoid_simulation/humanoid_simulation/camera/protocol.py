@@ -4,9 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 import json
 
+from humanoid_simulation.camera.picture_noise import PictureNoise
 from humanoid_simulation.camera.view import CameraView, Wanted
 
 READY = 'ready'
@@ -25,6 +26,7 @@ class Assignment:
     model_file: int
     frames_file: int
     views: tuple[CameraView, ...]
+    noise: PictureNoise = field(default_factory=PictureNoise)
 
     def as_text(self) -> str:
         """Return the assignment as an argument of a command."""
@@ -35,14 +37,15 @@ class Assignment:
         """Return the assignment that `as_text` wrote."""
         given = json.loads(text)
         views = tuple(CameraView(**view) for view in given.pop('views'))
-        return Assignment(**given, views=views)
+        noise = PictureNoise(**given.pop('noise'))
+        return Assignment(**given, views=views, noise=noise)
 
 
 def request_line(wanted: Sequence[Wanted]) -> str:
     """Return the line that asks for pictures, with one element for each view."""
-    return json.dumps([[each.color, each.depth] for each in wanted]) + '\n'
+    return json.dumps([[each.color, each.depth, each.cloud] for each in wanted]) + '\n'
 
 
 def wanted_in(line: str) -> list[Wanted]:
     """Return which pictures a line asks for."""
-    return [Wanted(color, depth) for color, depth in json.loads(line)]
+    return [Wanted(*each) for each in json.loads(line)]

@@ -9,20 +9,21 @@ from humanoid_simulation.camera.conversions import (
     camera_info,
     color_image,
     depth_image,
-    fill_image,
+    fill_data,
+    point_cloud,
 )
-from humanoid_simulation.camera.painter import Color, Depth
+from humanoid_simulation.camera.painter import Cloud, Color, Depth
 from humanoid_simulation.camera.pinhole import Pinhole
 from humanoid_simulation.camera.view import Wanted
 from rclpy.node import Node
-from sensor_msgs.msg import CameraInfo, Image
+from sensor_msgs.msg import CameraInfo, Image, PointCloud2
 
 
 class CameraPublisher:
     """
-    Publishes `camera/image_raw`, `camera/depth/image_raw`, and `camera_info` beside each.
+    Publishes color and depth below `camera`, `camera_info` beside each, and `points`.
 
-    Pictures are reliable: large messages lose parts otherwise, and with them the whole.
+    All of them are reliable: large messages lose parts otherwise, and with them the whole.
     """
 
     def __init__(self, node: Node, folder: str, pinhole: Pinhole, frame: str) -> None:
@@ -32,8 +33,10 @@ class CameraPublisher:
         self._depth = node.create_publisher(Image, f'{base}/depth/image_raw', STATE)
         self._color_info = node.create_publisher(CameraInfo, f'{base}/camera_info', STATE)
         self._depth_info = node.create_publisher(CameraInfo, f'{base}/depth/camera_info', STATE)
+        self._cloud = node.create_publisher(PointCloud2, f'{folder}points', STATE)
         self._color_image = color_image(pinhole, frame)
         self._depth_image = depth_image(pinhole, frame)
+        self._point_cloud = point_cloud(pinhole, frame)
         self._info = camera_info(pinhole, frame)
 
     def wanted(self) -> Wanted:
@@ -41,21 +44,28 @@ class CameraPublisher:
         return Wanted(
             color=self._color.get_subscription_count() > 0,
             depth=self._depth.get_subscription_count() > 0,
+            cloud=self._cloud.get_subscription_count() > 0,
         )
 
     @property
     def subscribers(self) -> int:
-        """Return how many subscribers the pictures have."""
-        return sum(each.get_subscription_count() for each in (self._color, self._depth))
+        """Return how many subscribers the pictures and the points have."""
+        publishers = self._color, self._depth, self._cloud
+        return sum(each.get_subscription_count() for each in publishers)
 
-    def publish(self, wanted: Wanted, color: Color, depth: Depth, stamp: Time) -> None:
-        """Publish the pictures that were wanted, all with the same time."""
+    def publish(
+        self, wanted: Wanted, color: Color, depth: Depth, cloud: Cloud, stamp: Time
+    ) -> None:
+        """Publish what was wanted, all with the same time."""
         if wanted.color:
-            fill_image(self._color_image, color, stamp)
+            fill_data(self._color_image, color, stamp)
             self._color.publish(self._color_image)
         if wanted.depth:
-            fill_image(self._depth_image, depth, stamp)
+            fill_data(self._depth_image, depth, stamp)
             self._depth.publish(self._depth_image)
+        if wanted.cloud:
+            fill_data(self._point_cloud, cloud, stamp)
+            self._cloud.publish(self._point_cloud)
 
     def publish_info(self, stamp: Time) -> None:
         """Publish what the camera is like."""

@@ -7,15 +7,24 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from humanoid_simulation.camera.painter import FAR_M, HIDDEN_GROUP
+from humanoid_simulation.camera.painter import FAR_M, HIDDEN_GROUP, SEEN_GROUPS
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-_SEEN_GROUPS = np.array([group < HIDDEN_GROUP for group in range(6)], dtype=np.uint8)
 _MOST_SHELLS = 8
 """How many things one inside the other a camera may be in."""
+
+
+def see_all(model: mujoco.MjModel) -> None:
+    """
+    Let rays meet all geoms of a model that is used for nothing but rays.
+
+    `mj_multiRay` passes over bodies by boxes around those of their geoms that collide: it would
+    miss geoms beside them that are only to be seen.
+    """
+    model.body_bvhadr[:] = -1
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,15 +48,31 @@ def cast_rays(model: mujoco.MjModel, data: mujoco.MjData, start: Array, rays: Ar
     Things that the point is inside of do not count: OpenGL leaves out what is seen from behind.
     The model must be one that nobody else uses: its geoms are hidden meanwhile.
     """
-    surrounding = np.zeros(0, dtype=np.int32)
+    left_out = _beside(model, data, start, rays)
     for _ in range(_MOST_SHELLS):
-        with _hidden(model, surrounding):
+        with _hidden(model, left_out):
             hits = _cast(model, data, start, rays)
         leaves = (hits.geoms >= 0) & (np.sum(hits.normals * rays, axis=1) > 1e-9)
         if not leaves.any():
             break
-        surrounding = np.union1d(surrounding, hits.geoms[leaves])
+        left_out = np.union1d(left_out, hits.geoms[leaves])
     return hits
+
+
+def _beside(
+    model: mujoco.MjModel, data: mujoco.MjData, start: Array, rays: Array
+) -> NDArray[np.int32]:
+    """Find geoms, by number, whose bounding spheres are outside the cone around all rays."""
+    axis = rays.mean(axis=0)
+    axis = axis / max(float(np.linalg.norm(axis)), 1e-9)
+    opening_rad = np.arccos(np.clip(np.min(rays @ axis), -1.0, 1.0))
+    away_m = data.geom_xpos - start
+    distance_m = np.maximum(np.linalg.norm(away_m, axis=1), 1e-9)
+    size_rad = np.arcsin(np.minimum(model.geom_rbound / distance_m, 1.0))
+    angle_rad = np.arccos(np.clip(away_m @ axis / distance_m, -1.0, 1.0))
+    is_around = (model.geom_rbound >= distance_m) | (model.geom_rbound <= 0.0)
+    outside = (angle_rad - size_rad > opening_rad) & ~is_around
+    return np.flatnonzero(outside).astype(np.int32)
 
 
 def _cast(model: mujoco.MjModel, data: mujoco.MjData, start: Array, rays: Array) -> Hits:
@@ -57,7 +82,7 @@ def _cast(model: mujoco.MjModel, data: mujoco.MjData, start: Array, rays: Array)
     distances_m = np.empty(count)
     normals = np.empty(3 * count)
     mujoco.mj_multiRay(
-        model, data, start, rays.ravel(), _SEEN_GROUPS, True, -1,
+        model, data, start, rays.ravel(), SEEN_GROUPS, True, -1,
         geoms, distances_m, normals, count, FAR_M * 2.0,
     )  # fmt: skip
     hit = geoms >= 0

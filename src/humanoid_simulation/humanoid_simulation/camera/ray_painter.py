@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from humanoid_simulation.camera.flat_colors import brightness, geom_colors, sky_color
 from humanoid_simulation.camera.painter import Color, Depth, FAR_M
-from humanoid_simulation.camera.ray_cast import cast_rays, Hits
+from humanoid_simulation.camera.ray_cast import cast_rays, Hits, see_all
 from humanoid_simulation.camera.view import camera_id, CameraView, pinhole_of
 import mujoco
 import numpy as np
@@ -25,6 +25,7 @@ class RayPainter:
 
     def __init__(self, model: mujoco.MjModel, views: Sequence[CameraView]) -> None:
         """Prepare the rays of all views."""
+        see_all(model)
         self._model = model
         self._rays = {camera_id(model, view.camera): _unit_rays(model, view) for view in views}
         self._colors = geom_colors(model)

@@ -17,9 +17,11 @@ from humanoid_simulation.camera.frames import Frames
 from humanoid_simulation.camera.gl_painter import GlPainter
 from humanoid_simulation.camera.methods import RAYS
 from humanoid_simulation.camera.painter import Painter
+from humanoid_simulation.camera.picture_noise import PictureNoiseSource
+from humanoid_simulation.camera.pinhole import Deprojection
 from humanoid_simulation.camera.protocol import Assignment, DONE, FAILED, READY, wanted_in
 from humanoid_simulation.camera.ray_painter import RayPainter
-from humanoid_simulation.camera.view import camera_id
+from humanoid_simulation.camera.view import camera_id, pinhole_of
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -55,14 +57,18 @@ def _serve(assignment: Assignment) -> None:
     data = mujoco.MjData(model)
     frames = Frames(assignment.frames_file, model.nq, assignment.views)
     cameras = [camera_id(model, view.camera) for view in assignment.views]
-    painter = _painter(assignment, model)
+    points = [Deprojection(pinhole_of(model, view)) for view in assignment.views]
+    painter, noise = _painter(assignment, model), PictureNoiseSource(assignment.noise)
     _say(READY)
     for line in sys.stdin:
         _show(model, data, frames.qpos)
         for number, wanted in enumerate(wanted_in(line)):
             color = frames.colors[number] if wanted.color else None
-            depth = frames.depths[number] if wanted.depth else None
+            depth = frames.depths[number] if wanted.depth or wanted.cloud else None
             painter.draw(data, cameras[number], color, depth)
+            noise.spoil(color, depth)
+            if wanted.cloud:
+                points[number].fill(frames.clouds[number], frames.depths[number])
         _say(DONE)
     painter.close()
 

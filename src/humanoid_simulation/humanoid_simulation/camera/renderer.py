@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import os
 
 from humanoid_simulation.camera.frames import Frames, unnamed_file
-from humanoid_simulation.camera.painter import Color, Depth
+from humanoid_simulation.camera.painter import Cloud, Color, Depth
+from humanoid_simulation.camera.picture_noise import PictureNoise
 from humanoid_simulation.camera.process_keeper import Log, Patience, ProcessKeeper
 from humanoid_simulation.camera.protocol import Assignment
 from humanoid_simulation.camera.render_process import RenderProcess
@@ -26,6 +27,7 @@ class Pictures:
     wanted: tuple[Wanted, ...]
     colors: Sequence[Color]
     depths: Sequence[Depth]
+    clouds: Sequence[Cloud]
 
 
 class Renderer:
@@ -42,10 +44,11 @@ class Renderer:
         methods: Sequence[str],
         log: Log,
         patience: Patience = Patience(),
+        noise: PictureNoise = PictureNoise(),
     ) -> None:
         """Copy the model; raise SimulationError if a view cannot be drawn."""
         check_views(model, views)
-        self._views = tuple(views)
+        self._views, self._noise = tuple(views), noise
         self._model_file = _file_with(model)
         self._frames_file = unnamed_file('frames')
         self._frames = Frames(self._frames_file, model.nq, views)
@@ -103,13 +106,15 @@ class Renderer:
 
     def _start(self, method: str) -> RenderProcess:
         """Start a process that draws by a method."""
-        return RenderProcess(Assignment(method, self._model_file, self._frames_file, self._views))
+        files = self._model_file, self._frames_file
+        return RenderProcess(Assignment(method, *files, self._views, self._noise))
 
     def _finished(self, time_ns: int, wanted: tuple[Wanted, ...]) -> Pictures:
         """Return the pictures that are in the memory now."""
         self._requested = None
         self._keeper.note_picture()
-        return Pictures(time_ns, wanted, self._frames.colors, self._frames.depths)
+        frames = self._frames
+        return Pictures(time_ns, wanted, frames.colors, frames.depths, frames.clouds)
 
 
 def _file_with(model: mujoco.MjModel) -> int:

@@ -10,6 +10,7 @@ import time
 from humanoid_simulation.camera.conversions import stamp_of
 from humanoid_simulation.camera.methods import methods_of
 from humanoid_simulation.camera.parameters import CameraParameters
+from humanoid_simulation.camera.picture_noise import PictureNoise
 from humanoid_simulation.camera.publisher import CameraPublisher
 from humanoid_simulation.camera.renderer import Pictures, Renderer
 from humanoid_simulation.camera.shutter import Shutter
@@ -48,6 +49,7 @@ class CameraTopics:
         model: mujoco.MjModel,
         parameters: CameraParameters,
         prefix: str = '',
+        noise: PictureNoise = PictureNoise(),
     ) -> None:
         """
         Announce the topics; raise SimulationError if the model has not the cameras.
@@ -57,12 +59,18 @@ class CameraTopics:
         :param cameras: the name of the camera in the model, by the namespace of its robot
             relative to the node: '' for a robot alone
         :param prefix: what the names of frames begin with
+        :param noise: how far pixels are off
         """
         cameras = cameras if parameters.camera_rate_hz > 0.0 else {}
         width_px, height_px = parameters.camera_width_px, parameters.camera_height_px
         views = [CameraView(camera, width_px, height_px) for camera in cameras.values()]
-        methods = methods_of(parameters.camera_renderer)
-        self._renderer = Renderer(model, views, methods, node.get_logger())
+        methods, log = methods_of(parameters.camera_renderer), node.get_logger()
+
+        def renderer(model: mujoco.MjModel) -> Renderer:
+            return Renderer(model, views, methods, log, noise=noise)
+
+        self._make_renderer = renderer
+        self._renderer = renderer(model)
         frame = f'{prefix}{parameters.camera_frame}'
         self._publishers = [
             CameraPublisher(node, _folder(robot), pinhole_of(model, view), frame)
@@ -90,6 +98,12 @@ class CameraTopics:
         self._publish_drawn(now_s)
         if self._shutter.is_due(time_ns):
             self._take(now_s, time_ns, data)
+
+    def change_model(self, model: mujoco.MjModel) -> None:
+        """See another world from now on, which a new process draws when it has started."""
+        self._renderer.close()
+        self._renderer = self._make_renderer(model)
+        self._state = self._taken = None
 
     def close(self) -> None:
         """End the process that draws."""
@@ -139,10 +153,9 @@ class CameraTopics:
     def _publish(self, pictures: Pictures) -> None:
         """Publish what was drawn."""
         stamp = stamp_of(pictures.time_ns)
-        for publisher, wanted, color, depth in zip(
-            self._publishers, pictures.wanted, pictures.colors, pictures.depths
-        ):
-            publisher.publish(wanted, color, depth, stamp)
+        views = zip(pictures.wanted, pictures.colors, pictures.depths, pictures.clouds)
+        for publisher, view in zip(self._publishers, views):
+            publisher.publish(*view, stamp)
 
 
 def _folder(robot: str) -> str:

@@ -27,10 +27,12 @@ class Wanted:
 
     color: bool
     depth: bool
+    cloud: bool = False
+    """Points, which are made of the depth."""
 
     def __bool__(self) -> bool:
         """Tell whether anything is wanted."""
-        return self.color or self.depth
+        return self.color or self.depth or self.cloud
 
 
 def camera_id(model: mujoco.MjModel, name: str) -> int:

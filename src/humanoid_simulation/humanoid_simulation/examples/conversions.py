@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
-from builtin_interfaces.msg import Duration, Time
+from builtin_interfaces.msg import Duration
 from geometry_msgs.msg import Twist, Vector3
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.velocity_command import VelocityCommand
@@ -13,11 +14,22 @@ from humanoid_interfaces.srv import ApplyWrench
 from humanoid_simulation.examples.fall_watch import tilt_rad
 from humanoid_simulation.examples.push_series import DIRECTIONS, Push
 from nav_msgs.msg import Odometry
+from simulation_interfaces.msg import Result, SimulationState
+from simulation_interfaces.srv import SetSimulationState
 
 
-def seconds(stamp: Time) -> float:
-    """Return a time in seconds."""
-    return float(stamp.sec + stamp.nanosec * 1e-9)
+def state_request(paused: bool) -> SetSimulationState.Request:
+    """Return the request to pause a simulation, or to let it go on."""
+    state = SimulationState.STATE_PAUSED if paused else SimulationState.STATE_PLAYING
+    return SetSimulationState.Request(state=SimulationState(state=state))
+
+
+def refusal(answer: Any) -> str:
+    """Return why the simulator did not do what it was asked for; empty if it did."""
+    if not hasattr(answer, 'result'):
+        return '' if answer.success else answer.message or 'it did not say why'
+    done = (Result.RESULT_OK, SetSimulationState.Response.ALREADY_IN_TARGET_STATE)
+    return '' if answer.result.result in done else answer.result.error_message
 
 
 def planar_pose(message: Odometry) -> PlanarPose:

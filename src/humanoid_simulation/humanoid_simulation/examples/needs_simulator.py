@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 from humanoid_common.errors import NodeStartError
-from humanoid_common.steady import SteadyTimer
+from humanoid_common.running import ending
+from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
 PATIENCE_S = 5.0
@@ -22,13 +23,14 @@ class SimulatorWatch:
         self._node = node
         self._topics = topics
         self._heard = False
-        self._timer = SteadyTimer(node, 1.0 / patience_s, self._look)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(patience_s, ending(node, self._look), clock=steady)
 
     def heard(self) -> None:
         """Note that the simulator is there."""
         self._heard = True
 
-    def _look(self, now_s: float) -> None:
+    def _look(self) -> None:
         """Raise if nothing came since the last look."""
         if not self._heard:
             raise ExampleError(

@@ -8,13 +8,14 @@ from typing import Any
 
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.qos import STATE
-from humanoid_common.running import run_node
-from humanoid_interfaces.srv import ApplyWrench, ResetSimulation
+from humanoid_common.running import ending, run_node
+from humanoid_control.hosting.conversions import seconds
+from humanoid_interfaces.srv import ApplyWrench
 from humanoid_simulation.examples.conversions import (
     height_and_tilt,
     planar_pose,
     push_request,
-    seconds,
+    refusal,
 )
 from humanoid_simulation.examples.example_parameters import PushTestParameters
 from humanoid_simulation.examples.fall_watch import FallWatch
@@ -25,6 +26,7 @@ import rclpy
 from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.task import Future
+from simulation_interfaces.srv import ResetSimulation
 
 
 class PushTest(Node):
@@ -41,7 +43,8 @@ class PushTest(Node):
         self._push = self.create_client(ApplyWrench, f'{name}/apply_wrench')
         self._reset = self.create_client(ResetSimulation, f'{name}/reset_simulation')
         self._simulator = SimulatorWatch(self, "'ground_truth/odom'")
-        self.create_subscription(Odometry, 'ground_truth/odom', self._go_on, STATE)
+        go_on = ending(self, self._go_on)
+        self.create_subscription(Odometry, 'ground_truth/odom', go_on, STATE)
 
     def _go_on(self, message: Odometry) -> None:
         """Do what the series says, unless an answer is awaited."""
@@ -75,13 +78,13 @@ class PushTest(Node):
                 '--ros-args -p simulator:=/its/name'
             )
         self._waits = True
-        client.call_async(request).add_done_callback(self._take_answer)
+        client.call_async(request).add_done_callback(ending(self, self._take_answer))
 
     def _take_answer(self, future: Future) -> None:
         """Go on, unless the request was refused."""
-        answer = future.result()
-        if not answer.success:
-            raise ExampleError(f'The simulator refused: {answer.message}')
+        reason = refusal(future.result())
+        if reason:
+            raise ExampleError(f'The simulator refused: {reason}')
         self._waits = False
 
     def _report(self) -> None:

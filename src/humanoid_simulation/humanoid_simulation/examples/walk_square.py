@@ -9,11 +9,11 @@ from typing import Any
 from geometry_msgs.msg import Twist
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.qos import COMMAND, STATE
-from humanoid_common.running import run_node
+from humanoid_common.running import ending, run_node
+from humanoid_control.hosting.conversions import seconds
 from humanoid_simulation.examples.conversions import (
     height_and_tilt,
     planar_pose,
-    seconds,
     twist_message,
 )
 from humanoid_simulation.examples.example_parameters import WalkSquareParameters
@@ -39,7 +39,7 @@ class WalkSquare(Node):
         self._publisher = self.create_publisher(Twist, 'cmd_vel', COMMAND)
         self._simulator = SimulatorWatch(self, "'odom' and 'ground_truth/odom'")
         self.create_subscription(Odometry, 'ground_truth/odom', self._keep_truth, STATE)
-        self.create_subscription(Odometry, 'odom', self._go_on, STATE)
+        self.create_subscription(Odometry, 'odom', ending(self, self._go_on), STATE)
 
     def destroy_node(self) -> None:
         """Stop the robot and end."""
@@ -54,8 +54,8 @@ class WalkSquare(Node):
 
     def _go_on(self, message: Odometry) -> None:
         """Steer, once both topics are there."""
-        if self._truth is None:
-            return
+        if self._truth is None or not self.context.ok():
+            return  # nothing to steer by yet, or the round is over and messages were still waiting
         self._simulator.heard()
         try:
             progress = self._progress(message, self._truth)

@@ -24,6 +24,11 @@ class Physics:
     self_collision: str = 'arms'
     mass_factors: Mapping[str, float] = field(default_factory=dict)
     """Links that weigh more or less than the model says, with all of their inertia."""
+    sleep: bool = True
+    """
+    Whether things that lie still are left out, with their contacts, until something touches or
+    moves them; that saves most of what they cost. Robots never sleep.
+    """
 
     def __post_init__(self) -> None:
         """Refuse what no physics can be computed with."""

@@ -19,6 +19,9 @@ import mujoco
 ALONE = 'robot'
 """What a robot without a name is called among the things of the world."""
 
+_REST_M_S = 1e-3
+"""How slow all that touches each other must be before it sleeps."""
+
 
 def in_world(robot: str, name: str) -> str:
     """Return what a link, joint, sensor or camera of a robot is called in the world."""
@@ -38,6 +41,9 @@ def build_world(
         raise SimulationError(f'A world has room for {MOST_ROBOTS} robots, not {len(placements)}.')
     world = _empty_world(physics)
     add_scene(world, scene)
+    if scene.objects and physics.sleep:
+        world.option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+        world.option.sleep_tolerance = _REST_M_S
     robots = [robot_spec(description, number, physics) for number, _ in enumerate(placements)]
     for placement, robot in zip(placements, robots):
         frame = world.worldbody.add_frame(pos=(placement.x_m, placement.y_m, placement.z_m))

@@ -5,11 +5,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from humanoid_simulation.collisions import WORLD
+from humanoid_simulation.collisions import COLLISION_GROUP, WORLD
 from humanoid_simulation.rotations import from_rpy
 from humanoid_simulation.scene.lighting import add_lighting
-from humanoid_simulation.scene.scene import FLOOR, Floor, Scene, Thing, Vector
+from humanoid_simulation.scene.meshes import triangles_of
+from humanoid_simulation.scene.parts import Finish, MESH, Part, Vector
+from humanoid_simulation.scene.scene import FLOOR, Floor, Scene, Thing
+from humanoid_simulation.scene.textures import EDGE_PX, picture_of
 import mujoco
+import numpy as np
 
 # Of contacts that turn on the spot, and roll; the sliding one is the scene's.
 _TURNING_FRICTION_M, _ROLLING_FRICTION_M = 0.02, 0.001
@@ -19,7 +23,10 @@ _GEOMS = {
     'box': mujoco.mjtGeom.mjGEOM_BOX,
     'sphere': mujoco.mjtGeom.mjGEOM_SPHERE,
     'cylinder': mujoco.mjtGeom.mjGEOM_CYLINDER,
+    MESH: mujoco.mjtGeom.mjGEOM_MESH,
 }
+DECORATION_GROUP = 1
+"""The group of the geoms that are seen but do not collide."""
 
 
 def add_scene(world: Any, scene: Scene) -> None:
@@ -27,7 +34,7 @@ def add_scene(world: Any, scene: Scene) -> None:
     _add_floor(world, scene.floor)
     for thing in scene.things:
         _add_thing(world, thing)
-    add_lighting(world)
+    add_lighting(world, bool(scene.rooms))
 
 
 def _add_floor(world: Any, floor: Floor) -> None:
@@ -60,24 +67,95 @@ def _add_thing(world: Any, thing: Thing) -> None:
     )
     if not thing.is_fixed:
         body.add_freejoint(name=thing.name)
+    mass_kg = thing.mass_kg
+    for number, part in enumerate(thing.parts):
+        name = f'{thing.name}/{number}' if number else thing.name
+        geom = _add_part(world, body, name, part)
+        if part.collides:
+            # The first solid part has all of the mass.
+            geom.mass, mass_kg = mass_kg, 0.0
+            _set_contact(geom, thing.friction)
+            if part.shape == 'sphere' and part.is_shown and thing.kind:
+                geom.condim = 6  # a ball on a table would roll for ever
+        else:
+            geom.mass = 0.0
+
+
+def _add_part(world: Any, body: Any, name: str, part: Part) -> Any:
+    """Add a shape that neither collides nor weighs anything so far."""
     geom = body.add_geom(
-        name=thing.name,
-        type=_GEOMS[thing.shape],
-        size=_half_sizes(thing),
-        rgba=thing.colour_rgba,
-        mass=thing.mass_kg,
+        name=name,
+        type=_GEOMS[part.shape],
+        pos=part.position_m,
+        quat=from_rpy(*part.orientation_rpy_rad),
+        rgba=part.colour_rgba,
+        contype=0,
+        conaffinity=0,
     )
-    _set_contact(geom, thing.friction)
+    if part.shape == MESH:
+        geom.meshname = _mesh(world, part)
+    else:
+        geom.size = _half_sizes(part)
+    if not part.is_shown:
+        geom.group = COLLISION_GROUP
+    elif not part.collides:
+        geom.group = DECORATION_GROUP
+    if part.shine > 0.0:
+        geom.material = _shining(world, part.shine)
+    elif part.finish is not None and part.finish.pattern != 'plain':
+        geom.material = _painted(world, part.finish)
+        geom.rgba = (1.0, 1.0, 1.0, 1.0)
+    return geom
 
 
-def _half_sizes(thing: Thing) -> Vector:
+def _mesh(world: Any, part: Part) -> str:
+    """Return the name of a mesh of a size, which is added if there is none so far."""
+    name = f'{part.mesh} {" ".join(f"{edge:g}" for edge in part.size_m)}'
+    if world.mesh(name) is None:
+        corners = triangles_of(part.mesh).reshape(-1, 3).astype(np.float64)
+        points, faces = np.unique(corners, axis=0, return_inverse=True)
+        mesh = world.add_mesh(name=name, uservert=(points * part.size_m).ravel())
+        mesh.userface = faces.astype(np.int32).ravel()
+        mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+    return name
+
+
+def _shining(world: Any, shine: float) -> str:
+    """Return the name of a material that glows, which is added if there is none so far."""
+    name = f'shining {shine:g}'
+    if world.material(name) is None:
+        world.add_material(name=name, emission=shine)
+    return name
+
+
+def _painted(world: Any, finish: Finish) -> str:
+    """Return the name of a material with a pattern, which is added if there is none so far."""
+    name = f'{finish}'
+    if world.material(name) is None:
+        texture = world.add_texture(
+            name=name,
+            type=mujoco.mjtTexture.mjTEXTURE_2D,
+            width=EDGE_PX,
+            height=EDGE_PX,
+            nchannel=3,
+        )
+        texture.data = picture_of(finish).tobytes()
+        repeat = 1.0 / finish.tile_m
+        material = world.add_material(
+            name=name, texrepeat=(repeat, repeat), texuniform=True, specular=0.1
+        )
+        material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = name
+    return name
+
+
+def _half_sizes(part: Part) -> Vector:
     """Return the size as MuJoCo wants it: halves of edges, but radii."""
-    if thing.shape == 'box':
-        return tuple(edge / 2 for edge in thing.size_m)
-    if thing.shape == 'cylinder':
-        radius, height = thing.size_m
+    if part.shape == 'box':
+        return tuple(edge / 2 for edge in part.size_m)
+    if part.shape == 'cylinder':
+        radius, height = part.size_m
         return (radius, height / 2, 0.0)
-    return (thing.size_m[0], 0.0, 0.0)
+    return (part.size_m[0], 0.0, 0.0)
 
 
 def _set_contact(geom: Any, friction: float) -> None:

@@ -11,8 +11,8 @@ _HORIZON_RGB = (0.75, 0.82, 0.9)
 _ZENITH_RGB = (0.35, 0.5, 0.75)
 
 
-def add_lighting(world: Any) -> None:
-    """Add a sun, a sky, and the light that comes from everywhere."""
+def add_lighting(world: Any, is_indoors: bool = False) -> None:
+    """Add a sun, a sky, and the light that comes from everywhere, more of it in rooms."""
     world.worldbody.add_light(
         name='sun',
         type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
@@ -31,4 +31,5 @@ def add_lighting(world: Any) -> None:
         height=64 * 6,
     )
     head = world.visual.headlight
-    head.ambient, head.diffuse, head.specular = (0.35,) * 3, (0.3,) * 3, (0.0,) * 3
+    ambient = 0.5 if is_indoors else 0.35
+    head.ambient, head.diffuse, head.specular = (ambient,) * 3, (0.3,) * 3, (0.0,) * 3

@@ -1,28 +1,49 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A scene: a floor, and things on it."""
+"""A scene: a floor, things on it, and what people call its rooms and places."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 import math
+from typing import Protocol, TypeVar
 
+from humanoid_simulation.choosing import named
 from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.scene.outlines import area_m2, contains, Outline, Point
+from humanoid_simulation.scene.parts import Finish, Part, SIZES, Vector
 
-Vector = tuple[float, ...]
-SIZES = {
-    'box': ('length', 'width', 'height'),
-    'sphere': ('radius',),
-    'cylinder': ('radius', 'height'),
-}
-"""What the numbers of a size mean, by shape."""
+__all__ = [
+    'FLOOR',
+    'SIZES',
+    'WORLD',
+    'Floor',
+    'Place',
+    'Room',
+    'Scene',
+    'Surface',
+    'Thing',
+    'Vector',
+]
+
 FLOOR = 'floor'
 WORLD = 'world'
 """What everything in it hangs on."""
+COMPOSED = 'composed'
+"""The shape of a thing that consists of its details alone."""
+WALL = 'wall'
+"""The class of what is in the way of a look into the rooms."""
 
 
 @dataclass(frozen=True)
 class Thing:
-    """A box, sphere or cylinder; without a mass it is fixed. The position is of its centre."""
+    """
+    A body of one shape and perhaps details; without a mass it is fixed.
+
+    The position, of the centre of the shape, is the home of what is not fixed. Details are placed
+    in the axes of the thing, and weigh nothing but in what consists of them alone.
+    """
 
     name: str
     shape: str
@@ -32,10 +53,19 @@ class Thing:
     colour_rgba: Vector = (0.6, 0.6, 0.6, 1.0)
     mass_kg: float = 0.0
     friction: float = 1.0
+    kind: str = ''
+    """Its class: `mug`, `table`, `wall`; empty if nobody said."""
+    colour: str = ''
+    """The name of its colour, if it has one."""
+    details: tuple[Part, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse a thing that cannot be."""
-        if self.shape not in SIZES or len(self.size_m) != len(SIZES[self.shape]):
+        if self.shape == COMPOSED:
+            sound = len(self.size_m) == 3 and bool(self.details)
+        else:
+            sound = self.shape in SIZES and len(self.size_m) == len(SIZES[self.shape])
+        if not sound:
             raise SimulationError(f"'{self.name}' is no {self.shape} with a size {self.size_m}.")
         numbers = (*self.size_m, *self.position_m, *self.orientation_rpy_rad, *self.colour_rgba)
         if not all(map(math.isfinite, (*numbers, self.mass_kg, self.friction))):
@@ -49,6 +79,18 @@ class Thing:
     def is_fixed(self) -> bool:
         """Tell whether nothing can move it."""
         return self.mass_kg == 0.0
+
+    @cached_property
+    def parts(self) -> tuple[Part, ...]:
+        """Return all shapes that it is made of."""
+        if self.shape == COMPOSED:
+            return self.details
+        return (Part(self.shape, self.size_m, colour_rgba=self.colour_rgba), *self.details)
+
+    @property
+    def box_m(self) -> Vector:
+        """Return length, width and height of the thing, in its own axes."""
+        return self.size_m if self.shape == COMPOSED else self.parts[0].box_m
 
 
 @dataclass(frozen=True)
@@ -74,12 +116,87 @@ class Floor:
 
 
 @dataclass(frozen=True)
+class Room:
+    """A part of the ground that has a name."""
+
+    name: str
+    outline_m: Outline
+    """The corners, in order; the last one is joined to the first one."""
+    floor: Finish | None = None
+    walls: Finish | None = None
+    """Of the sides of walls that face the room."""
+    ceiling_m: float = 0.0
+    """The height of its ceiling; 0 is none."""
+
+    def __post_init__(self) -> None:
+        """Refuse a room without an inside."""
+        if not self.name or len(self.outline_m) < 3 or area_m2(self.outline_m) < 1e-3:
+            raise SimulationError(
+                f"Room '{self.name}' needs a name, and an outline of three or more corners in "
+                'order, which do not lie on one line.'
+            )
+
+    def contains(self, x_m: float, y_m: float) -> bool:
+        """Whether a point of the ground is in the room."""
+        return contains(self.outline_m, (x_m, y_m))
+
+
+def room_at(rooms: Sequence[Room], x_m: float, y_m: float) -> Room | None:
+    """Return the first of some rooms in which a point of the ground is; None outside of all."""
+    return next((room for room in rooms if room.contains(x_m, y_m)), None)
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A level top that things stand on."""
+
+    name: str
+    """Of the thing that has it; the lower boards of a shelf add their number: `shelf/1`."""
+    outline_m: Outline
+    height_m: float
+
+    def contains(self, x_m: float, y_m: float) -> bool:
+        """Whether a point is above the surface."""
+        return contains(self.outline_m, (x_m, y_m))
+
+    @property
+    def centre_m(self) -> Point:
+        """Return the middle of the outline."""
+        xs, ys = zip(*self.outline_m)
+        return (min(xs) + max(xs)) / 2.0, (min(ys) + max(ys)) / 2.0
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where one goes to: a pose to stand in, and the surface in reach from there, if any."""
+
+    name: str
+    room: str
+    """The room in which one stands; empty outside of all rooms."""
+    x_m: float
+    y_m: float
+    yaw_rad: float
+    surface: Surface | None = None
+
+
+class _Named(Protocol):
+    @property
+    def name(self) -> str: ...
+
+
+N = TypeVar('N', bound=_Named)
+
+
+@dataclass(frozen=True)
 class Scene:
-    """A floor, and things each of which has a name of its own."""
+    """A floor, and things, rooms and places each of which has a name of its own."""
 
     name: str = 'flat'
     floor: Floor = field(default_factory=Floor)
     things: tuple[Thing, ...] = ()
+    rooms: tuple[Room, ...] = ()
+    places: tuple[Place, ...] = ()
+    surfaces: tuple[Surface, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse names that several things have."""
@@ -90,3 +207,38 @@ class Scene:
                     f"Scene '{self.name}' cannot call a thing '{name}'. Every thing needs a name "
                     f"of its own, without a '/'; '{FLOOR}' is the floor, '{WORLD}' is all of it."
                 )
+        for kind, those in (('rooms', self.rooms), ('places', self.places)):
+            _refuse_twice(f"Scene '{self.name}' has two {kind} called", those)
+
+    @property
+    def objects(self) -> tuple[Thing, ...]:
+        """Return the things that can be moved; each stands where its home is at the start."""
+        return tuple(thing for thing in self.things if not thing.is_fixed)
+
+    def room(self, name: str) -> Room:
+        """Return a room by its name, or raise SimulationError with the names that there are."""
+        return named('room', name, {room.name: room for room in self.rooms})
+
+    def place(self, name: str) -> Place:
+        """Return a place by its name, or raise SimulationError with the names that there are."""
+        return named('place', name, {place.name: place for place in self.places})
+
+    def thing(self, name: str) -> Thing:
+        """Return a thing by its name, or raise SimulationError with the names that there are."""
+        return named('thing', name, {thing.name: thing for thing in self.things})
+
+    def surface(self, name: str) -> Surface:
+        """Return a surface by its name, or raise SimulationError with the names there are."""
+        return named('surface', name, {surface.name: surface for surface in self.surfaces})
+
+    def room_at(self, x_m: float, y_m: float) -> Room | None:
+        """Return the room in which a point of the ground is; None outside of all rooms."""
+        return room_at(self.rooms, x_m, y_m)
+
+
+def _refuse_twice(sentence: str, those: Sequence[N]) -> None:
+    """Raise SimulationError for a name that is there twice."""
+    names = [each.name for each in those]
+    for name in names:
+        if names.count(name) > 1:
+            raise SimulationError(f"{sentence} '{name}'. Give each a name of its own.")

@@ -10,6 +10,7 @@ import time
 
 from humanoid_common.testing.waiting import wait_until
 from humanoid_simulation.camera import CameraView, Renderer, Wanted
+from humanoid_simulation.camera.picture_noise import PictureNoise
 from humanoid_simulation.camera.process_keeper import Patience
 from humanoid_simulation.camera.renderer import Pictures
 from humanoid_simulation.testing.camera_world import world
@@ -22,12 +23,16 @@ class Studio:
     """A renderer, and the world that it draws."""
 
     def __init__(
-        self, views: Sequence[CameraView], methods: Sequence[str], patience: Patience
+        self,
+        views: Sequence[CameraView],
+        methods: Sequence[str],
+        patience: Patience,
+        noise: PictureNoise,
     ) -> None:
         """Need pictures of the views, so that the process starts."""
         self.model, self.data = world()
         self.log = logging.getLogger('camera_studio')
-        self.renderer = Renderer(self.model, views, methods, self.log, patience)
+        self.renderer = Renderer(self.model, views, methods, self.log, patience, noise)
         self.renderer.need()
         self._count = len(views)
         self._time_ns = 0
@@ -58,7 +63,7 @@ class Studio:
             self.renderer.poll(time.monotonic())
             time.sleep(0.005)
 
-        wait_until(predicate, 60.0, lambda: what, pause)
+        wait_until(predicate, 100.0, lambda: what, pause)
 
 
 @contextmanager
@@ -66,9 +71,10 @@ def studio(
     methods: Sequence[str],
     views: Sequence[CameraView] = (CameraView('eye', 160, 120),),
     patience: Patience = Patience(retry_s=0.0),
+    noise: PictureNoise = PictureNoise(),
 ) -> Iterator[Studio]:
     """Give a renderer for the length of a `with` block."""
-    place = Studio(views, methods, patience)
+    place = Studio(views, methods, patience, noise)
     try:
         yield place
     finally:

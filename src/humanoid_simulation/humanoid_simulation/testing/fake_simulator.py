@@ -10,18 +10,21 @@ from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist
 from humanoid_common.qos import COMMAND, LATCHED, STATE
 from humanoid_control.walking.planar import PlanarPose
-from humanoid_interfaces.srv import ApplyWrench, ResetSimulation, StepSimulation
+from humanoid_interfaces.srv import ApplyWrench
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
+from simulation_interfaces.msg import Result, SimulationState
+from simulation_interfaces.srv import ResetSimulation, SetSimulationState, StepSimulation
 from std_msgs.msg import String
-from std_srvs.srv import SetBool
 
 PERIOD_S = 0.02
-FASTER = 10
+FASTER = 5
 """How many times faster than real its time runs."""
 STANDS_NS = 12.0
 """The robot falls when it is pushed harder."""
 STEPS_A_PERIOD = 10
+VELOCITY_LASTS_S = 0.5
+"""As for a real robot: whoever drives it and stalls does not drive it blindly."""
 START = PlanarPose(1 + 2j, 0.5)
 
 
@@ -36,6 +39,7 @@ class FakeSimulator(Node):
         self.refuses = ''
         """Why pushes are refused, if they are."""
         self._pose, self._time_s = START, 0.0
+        self._heard_s = -math.inf
         self._lies = self._pauses = False
         self._odometries = [
             self.create_publisher(Odometry, topic, STATE)
@@ -46,13 +50,13 @@ class FakeSimulator(Node):
         self.create_subscription(Twist, 'cmd_vel', self._obey, COMMAND)
         self.create_service(ApplyWrench, '~/apply_wrench', self._be_pushed)
         self.create_service(ResetSimulation, '~/reset_simulation', self._begin_anew)
-        self.create_service(SetBool, '~/set_pause', self._pause)
+        self.create_service(SetSimulationState, '~/set_simulation_state', self._pause)
         self.create_service(StepSimulation, '~/step_simulation', self._go_on)
         self.create_timer(PERIOD_S / FASTER, self._tick)
 
     def _obey(self, message: Twist) -> None:
         """Take a velocity."""
-        self.velocity = message
+        self.velocity, self._heard_s = message, self._time_s
 
     def _be_pushed(
         self, request: ApplyWrench.Request, response: ApplyWrench.Response
@@ -69,13 +73,15 @@ class FakeSimulator(Node):
     ) -> ResetSimulation.Response:
         """Stand at the start."""
         self._lies, self._pose = False, START
-        response.success = True
+        response.result.result = Result.RESULT_OK
         return response
 
-    def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+    def _pause(
+        self, request: SetSimulationState.Request, response: SetSimulationState.Response
+    ) -> SetSimulationState.Response:
         """Let time stand still, or go on."""
-        self._pauses = request.data
-        response.success = True
+        self._pauses = request.state.state == SimulationState.STATE_PAUSED
+        response.result.result = Result.RESULT_OK
         return response
 
     def _go_on(
@@ -84,7 +90,7 @@ class FakeSimulator(Node):
         """Go on by some steps."""
         for _ in range(request.steps // STEPS_A_PERIOD):
             self._step()
-        response.success = True
+        response.result.result = Result.RESULT_OK
         return response
 
     def _tick(self) -> None:
@@ -95,7 +101,8 @@ class FakeSimulator(Node):
     def _step(self) -> None:
         """Go on by a period, and say where the robot is."""
         self._time_s += PERIOD_S
-        go = self.velocity
+        is_new = self._time_s - self._heard_s < VELOCITY_LASTS_S
+        go = self.velocity if is_new else Twist()
         yaw_rad = self._pose.yaw_rad + go.angular.z * PERIOD_S
         place = self._pose.at(go.linear.x * PERIOD_S, go.linear.y * PERIOD_S)
         self._pose = PlanarPose(place, yaw_rad)

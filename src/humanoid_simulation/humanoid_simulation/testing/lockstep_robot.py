@@ -36,7 +36,9 @@ class LockstepRobot:
         description = humanoid()
         self.backend = MujocoBackend(description, scene, settings=settings)
         robot = load_robot(description.urdf, 'the humanoid')
-        self.walking = WalkingRobotControl.of(robot, description.drives)
+        self.walking = WalkingRobotControl.of(
+            robot, description.drives, imu=settings.noise.imu(settings.period_s)
+        )
         self._velocity = VelocityCommand()
         self._misses = misses
         self._fall_watch = FallWatch()
@@ -54,18 +56,27 @@ class LockstepRobot:
         return PlanarPose(complex(x, y), yaw_of(from_quaternion(truth.orientation)))
 
     @property
+    def tilt_rad(self) -> float:
+        """Return the angle between the vertical and the z axis of the base, as it really is."""
+        w, x, y, z = self.truth.orientation.tolist()
+        return tilt_rad(x, y, z, w)
+
+    @property
     def stands(self) -> bool:
         """Tell whether it has not fallen; to be asked once while it surely stands."""
-        truth = self.truth
-        w, x, y, z = truth.orientation.tolist()
-        return self._fall_watch.stands(float(truth.position_m[2]), tilt_rad(x, y, z, w))
+        return self._fall_watch.stands(float(self.truth.position_m[2]), self.tilt_rad)
 
     def drive(self, forward: float = 0.0, left: float = 0.0, turn: float = 0.0) -> None:
         """Walk at a velocity from now on, in m/s and rad/s; without arguments, stand."""
         self._velocity = VelocityCommand(forward, left, turn)
 
     def push(self, direction: complex, impulse_ns: float) -> None:
-        """Push the base in a direction of the world, a unit vector of the ground plane."""
+        """
+        Push the base from now on, for the time in which pushes act.
+
+        :param direction: in the world, a unit vector of the ground plane
+        :param impulse_ns: the force times that time, in N s
+        """
         force_n = direction * impulse_ns / PUSH_S
         self.backend.apply_wrench(
             'base_link', (force_n.real, force_n.imag, 0.0), duration_s=PUSH_S

@@ -7,22 +7,23 @@ import math
 
 from geometry_msgs.msg import Twist
 from humanoid_common.qos import COMMAND, LATCHED, STATE
+from humanoid_control.hosting.conversions import seconds
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.velocity_command import VelocityCommand
-from humanoid_interfaces.srv import ApplyWrench, ResetSimulation, StepSimulation
+from humanoid_interfaces.srv import ApplyWrench
 from humanoid_simulation.examples.conversions import (
     height_and_tilt,
     planar_pose,
-    seconds,
     twist_message,
 )
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
+from simulation_interfaces.srv import ResetSimulation, SetSimulationState, StepSimulation
 from std_msgs.msg import Bool, String
-from std_srvs.srv import SetBool, Trigger
+from std_srvs.srv import Trigger
 
-REPEAT_S = 0.1
+REPEAT_S = 0.03
 """How often, on the computer's clock, commands are sent again, so that they do not time out."""
 
 
@@ -44,7 +45,7 @@ class RobotTopics:
         self.walking_state = ''
         self.went_back = False
         """Whether a stamp was older than the one before it."""
-        self.pause = node.create_client(SetBool, f'{simulator}/set_pause')
+        self.pause = node.create_client(SetSimulationState, f'{simulator}/set_simulation_state')
         self.steps = node.create_client(StepSimulation, f'{simulator}/step_simulation')
         self.reset = node.create_client(ResetSimulation, f'{simulator}/reset_simulation')
         self.push = node.create_client(ApplyWrench, f'{simulator}/apply_wrench')

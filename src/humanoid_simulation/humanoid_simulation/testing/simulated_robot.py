@@ -9,14 +9,14 @@ from typing import Any
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_control.walking.velocity_command import VelocityCommand
-from humanoid_interfaces.srv import ResetSimulation, StepSimulation
-from humanoid_simulation.examples.conversions import push_request
+from humanoid_simulation.examples.conversions import push_request, refusal, state_request
 from humanoid_simulation.examples.fall_watch import FallWatch
 from humanoid_simulation.examples.push_series import Push
 from humanoid_simulation.testing.robot_topics import RobotTopics
 from rclpy.client import Client
 from rclpy.node import Node
-from std_srvs.srv import SetBool, Trigger
+from simulation_interfaces.srv import ResetSimulation, StepSimulation
+from std_srvs.srv import Trigger
 
 PATIENCE_S = 60.0
 """How long, on the computer's clock, something may take that should come at once."""
@@ -84,10 +84,10 @@ class SimulatedRobot:
         push = Push(direction, impulse_ns)
         self._ask(self.topics.push, push_request(push, self._namespace, self.pose, PUSH_S))
 
-    def reset(self, keyframe: str = '') -> None:
+    def reset(self) -> None:
         """Put the robot where it began, at rest, and let it stand for a second."""
         self.drive()
-        self._ask(self.topics.reset, ResetSimulation.Request(keyframe=keyframe))
+        self._ask(self.topics.reset, ResetSimulation.Request())
         self._fall_watch, begin_s = FallWatch(), self.topics.time_s
         self._spin(lambda: self.topics.time_s > begin_s + 0.1, 0.1)
         self.wait(1.0)
@@ -105,7 +105,7 @@ class SimulatedRobot:
 
     def pause(self, on: bool = True) -> None:
         """Let time stand still, or go on."""
-        self._ask(self.topics.pause, SetBool.Request(data=on))
+        self._ask(self.topics.pause, state_request(on))
 
     def step(self, steps: int) -> None:
         """Let a paused simulation go on by some steps of physics."""
@@ -129,8 +129,8 @@ class SimulatedRobot:
         """Send a request, and expect that it is granted."""
         future = client.call_async(request)
         self._ros.wait_until(future.done, PATIENCE_S, f'an answer of {client.srv_name}')
-        answer = future.result()
-        assert answer.success, f'{client.srv_name} refused: {answer.message}'
+        reason = refusal(future.result())
+        assert not reason, f'{client.srv_name} refused: {reason}'
 
     def _spin(self, done: Callable[[], bool], duration_s: float) -> None:
         """Take what comes until a condition holds."""

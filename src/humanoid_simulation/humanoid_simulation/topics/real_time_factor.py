@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from humanoid_common.qos import STATE
-from humanoid_simulation.pacing import Pacer
+from humanoid_control.hosting.slowness import Speed
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from std_msgs.msg import Float64
@@ -15,15 +17,15 @@ _PERIOD_S = 1.0
 class RealTimeFactorTopic:
     """The topic `real_time_factor`, once a real second, while time passes."""
 
-    def __init__(self, node: Node, pacer: Pacer) -> None:
-        """Begin to publish."""
-        self._pacer = pacer
+    def __init__(self, node: Node, speed: Callable[[], Speed | None]) -> None:
+        """Begin to publish what `speed` returns, unless that is None."""
+        self._speed = speed
         self._publisher = node.create_publisher(Float64, 'real_time_factor', STATE)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = node.create_timer(_PERIOD_S, self._publish, clock=steady)
 
     def _publish(self) -> None:
         """Publish what is known."""
-        reached = self._pacer.reached
-        if reached is not None:
-            self._publisher.publish(Float64(data=reached))
+        speed = self._speed()
+        if speed is not None:
+            self._publisher.publish(Float64(data=speed.reached))

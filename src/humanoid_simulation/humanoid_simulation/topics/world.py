@@ -7,28 +7,33 @@ from collections.abc import Mapping
 
 from humanoid_control.backends import Observation
 from humanoid_control.hosting.every import Every
-from humanoid_simulation.backend import MujocoBackend
+from humanoid_simulation.simulated_robots import SimulatedRobots
 from humanoid_simulation.simulator_parameters import SimulatorParameters
 from humanoid_simulation.topics.clock import ClockTopic
 from humanoid_simulation.topics.contacts import ContactsTopic
 from humanoid_simulation.topics.ground_truth import GroundTruthTopic
+from humanoid_simulation.topics.scene import SceneTopics
+from humanoid_simulation.topics.world_frame import WorldFrame
 from humanoid_simulation.topics.wrenches import WrenchTopics
 from rclpy.node import Node
 
 
 class WorldTopics:
-    """Publishes the time, and of each robot the truth, contacts and wrenches."""
+    """Publishes the time, the scene, and of each robot the truth, contacts and wrenches."""
 
     def __init__(
-        self, node: Node, backend: MujocoBackend, parameters: SimulatorParameters
+        self, node: Node, simulated: SimulatedRobots, parameters: SimulatorParameters
     ) -> None:
         """Prepare all topics."""
-        robots, prefix = backend.robots, parameters.prefix
-        self._backend = backend
+        backend, prefix = simulated.backend, parameters.prefix
+        robots = backend.robots
+        self._backend, self._controls = backend, simulated.controls
         self._clock = ClockTopic(node)
         self._truths = {name: GroundTruthTopic(node, name, prefix) for name in robots}
         self._wrenches = {name: WrenchTopics(node, name, prefix) for name in robots}
         self._contacts = [ContactsTopic(node, name, backend.links(name)) for name in robots]
+        self._frames = {name: WorldFrame(node, name, prefix) for name in robots}
+        self._scene = SceneTopics(node, backend, parameters)
         self.change(parameters)
 
     def change(self, parameters: SimulatorParameters) -> None:
@@ -37,6 +42,12 @@ class WorldTopics:
         self._truth_due = Every(parameters.ground_truth_rate_hz)
         self._wrenches_due = Every(parameters.wrench_rate_hz)
         self._contacts_due = Every(parameters.contacts_rate_hz)
+        self._frames_due = Every(parameters.world_frame_rate_hz)
+        self._scene.change(parameters)
+
+    def change_scene(self) -> None:
+        """Show another scene, which the backend has now."""
+        self._scene.change_scene()
 
     def tell(self, observations: Mapping[str, Observation]) -> None:
         """Publish what is due after a period; it began with observations."""
@@ -51,6 +62,8 @@ class WorldTopics:
                 wrenches.publish(observations[name])
         if self._contacts_due.is_due(now_s):
             self._publish_contacts(now_s)
+        if self._frames_due.is_due(now_s):
+            self._publish_frames(observations)
 
     def _publish_contacts(self, now_s: float) -> None:
         """Say what touches the robots, to those who listen."""
@@ -59,3 +72,12 @@ class WorldTopics:
             contacts = list(self._backend.contacts())
             for topic in wanted:
                 topic.publish(now_s, contacts)
+
+    def _publish_frames(self, observations: Mapping[str, Observation]) -> None:
+        """Say where the world is, seen from where the robots believed they were."""
+        for name, frame in self._frames.items():
+            status = self._controls[name].walker.status
+            if status is not None:
+                then_s = observations[name].time_s
+                truth, age_s = self._backend.ground_truth(name), self._backend.time_s - then_s
+                frame.publish(then_s, status.odometry, truth, age_s)

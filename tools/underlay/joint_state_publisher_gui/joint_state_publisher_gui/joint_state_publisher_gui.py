@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 import os
 from pathlib import Path
 from typing import Any
@@ -45,13 +45,17 @@ class JointStatePublisherGui(JointStatePublisher):
             self.joint_page.show(self._board)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(FRAME_S, self.joint_page.refresh, clock=steady)
-        self.get_logger().info(f'The sliders are at {self.page.url}')
+        self.get_logger().info(f'The sliders are at {" and ".join(self.page.urls)}')
 
     def _make_queue(self) -> WorkQueue:
         """Return a queue whose work the node does as soon as there is some."""
-        queue = WorkQueue(lambda: wake.trigger())
-        wake = self.create_guard_condition(queue.run)
+        queue = WorkQueue(lambda: self._do_soon(queue.run))
         return queue
+
+    def _do_soon(self, work: Callable[[], None]) -> None:
+        """Have something done in the thread in which the node works; any thread may ask."""
+        if self.executor is not None:
+            self.executor.create_task(work)
 
     def _begin(self, model: RobotModel, joints: MergedJoints) -> None:
         """Show the sliders of a robot."""

@@ -37,6 +37,11 @@ def start(domain: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Itera
     """Return what starts the node, with parameters, in a thread of its own."""
     monkeypatch.setenv('ROS_HOME', str(tmp_path))
     started: list[tuple[JointStatePublisherGui, SingleThreadedExecutor, threading.Thread]] = []
+    is_over = threading.Event()
+
+    def work(executor: SingleThreadedExecutor) -> None:
+        while not is_over.is_set():
+            executor.spin_once(timeout_sec=0.1)
 
     def start(*parameters: str) -> JointStatePublisherGui:
         words = [word for each in ('rate:=50', *parameters) for word in ('-p', each)]
@@ -44,15 +49,16 @@ def start(domain: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Itera
         node = JointStatePublisherGui()
         executor = SingleThreadedExecutor()
         executor.add_node(node)
-        thread = threading.Thread(target=executor.spin)
+        thread = threading.Thread(target=work, args=(executor,))
         thread.start()
         started.append((node, executor, thread))
         return node
 
     yield start
+    is_over.set()
     for node, executor, thread in started:
-        executor.shutdown()
         thread.join()
+        executor.shutdown()
         node.destroy_node()
         rclpy.shutdown()
 

@@ -8,7 +8,7 @@ import re
 import signal
 import socket
 from urllib.error import HTTPError
-from urllib.request import Request, urlopen
+from urllib.request import build_opener, HTTPCookieProcessor, Request, urlopen
 
 from publisher_probe import Probe, Programs
 import pytest
@@ -38,9 +38,11 @@ def test_serves_its_page_until_it_ends(
     heard = probe.listen(JointState, '/joint_states')
     probe.until(lambda: heard, 'no joint states')
     probe.until(lambda: 'The sliders are at' in program.output, 'no address')
-    (url,) = re.findall(r'The sliders are at (http://127.0.0.1:\d+/)', program.output)
-    with urlopen(url, timeout=100) as response:
+    (url,) = re.findall(r'The sliders are at (http://127.0.0.1:\d+/\?token=\S+)', program.output)
+    with build_opener(HTTPCookieProcessor()).open(url, timeout=100) as response:
         assert b'<html' in response.read().lower()
+    with pytest.raises(HTTPError, match='401'):
+        urlopen(url.partition('?')[0], timeout=100)
     with pytest.raises(HTTPError, match='403'):
         urlopen(Request(url, headers={'Origin': 'http://evil.example'}), timeout=100)
     assert program.output.count("'num_rows' means nothing here") == 1

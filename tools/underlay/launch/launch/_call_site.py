@@ -19,8 +19,11 @@ _OWN_PACKAGES = frozenset(
     )
 )
 # What runs the launch of somebody else: packages, and modules of the packages above.
-_COMMANDS = frozenset(('launch_testing._single_run', 'ros2cli', 'ros2launch'))
+_COMMANDS = frozenset(
+    ('launch._event_processor', 'launch_testing._single_run', 'ros2cli', 'ros2launch')
+)
 _INSTALLED = ('site-packages', 'dist-packages')
+_STANDARD_LIBRARY = os.path.dirname(os.__file__) + os.sep
 
 
 class CallSite(NamedTuple):
@@ -35,14 +38,19 @@ class CallSite(NamedTuple):
 
 
 def calling_line() -> Optional[CallSite]:
-    """Return the innermost line that is not of launch itself, None if a command called."""
+    """
+    Return the innermost line that is neither of launch nor of Python itself.
+
+    There is none if launch has called itself, while it runs or for a command.
+    """
     frame = sys._getframe(1)
     while frame is not None:
         package = _package(frame.f_globals)
         if package in _COMMANDS or frame.f_globals.get('__name__') in _COMMANDS:
             return None
-        if package not in _OWN_PACKAGES:
-            return CallSite(frame.f_code.co_filename, frame.f_lineno)
+        file_name = frame.f_code.co_filename
+        if package not in _OWN_PACKAGES and not file_name.startswith(_STANDARD_LIBRARY):
+            return CallSite(file_name, frame.f_lineno)
         frame = frame.f_back  # type: ignore[assignment]
     return None
 
@@ -68,4 +76,4 @@ def _is_of_a_user(file_name: str) -> bool:
     """Return whether a file is neither of Python itself nor of an installed library."""
     if file_name.startswith('<') or any(part in file_name for part in _INSTALLED):
         return False
-    return not file_name.startswith(os.path.dirname(os.__file__) + os.sep)
+    return not file_name.startswith(_STANDARD_LIBRARY)

@@ -12,19 +12,31 @@ if TYPE_CHECKING:
 
 
 class ProgramNotFoundError(FileNotFoundError):
-    """A program, or the folder in which it is to be started, is not there."""
+    """A program is not there."""
 
 
 def require_program(details: Mapping[str, Any]) -> None:
-    """Raise an error that explains it if the program of a process is not there."""
+    """
+    Raise an error that explains it if the program of a process is not there.
+
+    Of its folder, which may be made until then, there is only a warning: a process that cannot
+    be started in it is an error of that process alone.
+    """
     program, folder = details['cmd'][0], details['cwd']
     if folder is not None and not os.path.isdir(folder):
-        missing = 'is a file' if os.path.exists(folder) else 'does not exist'
-        raise ProgramNotFoundError(
-            f"the folder '{folder}', in which '{program}' was to be started, {missing}"
-        )
+        _warn_of_folder(details['name'], folder)
+        return
     if not is_there(program, folder, details['env']):
         raise ProgramNotFoundError(explain_missing_program(program, folder, details['env']))
+
+
+def _warn_of_folder(label: str, folder: str) -> None:
+    from launch.logging import get_logger
+
+    missing = 'is a file' if os.path.exists(folder) else 'does not exist'
+    get_logger('launch').warning(
+        "the folder '%s', in which process[%s] is to be started, %s", folder, label, missing
+    )
 
 
 def require_later_program(parts: Any, env: Any, context: LaunchContext) -> None:
@@ -49,11 +61,24 @@ def require_later_program(parts: Any, env: Any, context: LaunchContext) -> None:
 def is_there(program: str, folder: Optional[str], env: Optional[Mapping[str, str]]) -> bool:
     """Return whether a program would be found; `env` may have a PATH of its own."""
     if os.path.dirname(program):
-        path = os.path.join(folder or '', program)
-        return os.path.isfile(path) and os.access(path, os.X_OK)
-    import shutil
+        return _is_program(os.path.join(folder or '', program))
+    return find_program(program, env) is not None
 
-    return shutil.which(program, path=_search_path(env)) is not None
+
+def find_program(program: str, env: Optional[Mapping[str, str]] = None) -> Optional[str]:
+    """
+    Return where the shell would find a program, or None; `env` may have a PATH of its own.
+
+    `shutil.which` does the same, but shutil loads five libraries of compression.
+    """
+    if os.path.dirname(program):
+        return program if _is_program(program) else None
+    paths = (os.path.join(folder, program) for folder in _search_path(env).split(os.pathsep))
+    return next(filter(_is_program, paths), None)
+
+
+def _is_program(path: str) -> bool:
+    return os.path.isfile(path) and os.access(path, os.X_OK)
 
 
 def explain_missing_program(

@@ -41,7 +41,7 @@ class LaunchContext:
         self.__loop: Optional[asyncio.AbstractEventLoop] = None
         self.__wake_up: Optional[Callable[[], None]] = None
         self.__locals = ContextLocals()
-        self.__configurations = LaunchConfigurations()
+        self.__launch_configurations = LaunchConfigurations()
         self.__configurations_stack: list[dict[str, Any]] = []
         self.__environment = EnvironmentScopes()
         self._event_handlers: deque[BaseEventHandler] = deque()
@@ -99,17 +99,17 @@ class LaunchContext:
     @property
     def launch_configurations(self) -> LaunchConfigurations:
         """Return the launch configurations, which may be changed."""
-        return self.__configurations
+        return self.__launch_configurations
 
     def _push_launch_configurations(self) -> None:
-        self.__configurations_stack.append(self.__configurations.snapshot())
+        self.__configurations_stack.append(self.__launch_configurations.snapshot())
 
     def _pop_launch_configurations(self) -> None:
         if not self.__configurations_stack:
             raise RuntimeError('cannot pop the launch configurations: none have been pushed')
         kept = self.__configurations_stack.pop()
-        self.__configurations.clear()
-        self.__configurations.update(kept)
+        self.__launch_configurations.clear()
+        self.__launch_configurations.update(kept)
 
     # The environment.
 

@@ -137,8 +137,8 @@ class LaunchService:
         context._set_is_shutdown(False)
         self.__interrupted = False
         processor = EventProcessor(context, loop)
-        context._processes = registry = ProcessRegistry()
-        context._spawn = registry.spawn if self.__prefork else None
+        context._processes = registry = ProcessRegistry(loop, forks=self.__prefork)
+        context._spawn = registry.spawn
         context._attach(loop, processor.wake_up)
         screen.when_closed(self._on_screen_closed)
         loop_error_handler = loop.get_exception_handler()
@@ -146,6 +146,7 @@ class LaunchService:
         try:
             with handled_signals(loop, self._on_signal):
                 status = await processor.run(shutdown_when_idle=shutdown_when_idle)
+                await registry.finish()
                 await self._let_screen_catch_up()
                 return status
         finally:

@@ -41,11 +41,13 @@ class Result:
         return self.text.splitlines()[2:]
 
 
-def _wait_until(predicate: Callable[[], Any], timeout: float = 100.0, message: str = '') -> None:
+def _wait_until(predicate: Callable[[], Any], timeout: float = 100.0, message: Any = '') -> None:
+    """Wait; a message may be what returns it when it is needed."""
     end = time.monotonic() + timeout
     while not predicate():
         if time.monotonic() > end:
-            pytest.fail(f'not within {timeout} s: {message or predicate}')
+            text = message() if callable(message) else message
+            pytest.fail(f'not within {timeout} s: {text or predicate}')
         time.sleep(0.01)
 
 
@@ -66,6 +68,23 @@ def _own_state(tmp_path: Path) -> Iterator[None]:
     launch.logging.reset()
     os.environ.clear()
     os.environ.update(before)
+
+
+def children() -> set[str]:
+    """Return the children of this process, those too that ended and nobody has waited for."""
+    return {
+        pid
+        for thread in Path('/proc/self/task').iterdir()
+        for pid in (thread / 'children').read_text().split()
+    }
+
+
+@pytest.fixture
+def no_child_is_left() -> Iterator[None]:
+    """Fail if a test leaves a child behind; those of other tests' fixtures may be there."""
+    before = children()
+    yield
+    assert children() <= before
 
 
 @pytest.fixture

@@ -52,6 +52,13 @@ def test_choices(context: LaunchContext, choices: Any) -> None:
         argument.visit(context)
 
 
+def test_a_choice_that_was_meant(context: LaunchContext) -> None:
+    """A value that is nearly one of the choices is refused with the one that was meant."""
+    context.launch_configurations['scene'] = 'rom'
+    with pytest.raises(RuntimeError, match="'room'\\]. Did you mean 'room'\\?$"):
+        DeclareLaunchArgument('scene', choices=['flat', 'room']).visit(context)
+
+
 def test_wrong_choices() -> None:
     """Choices must not be empty, and a plain default must be among them."""
     with pytest.raises(RuntimeError, match='empty list of choices'):

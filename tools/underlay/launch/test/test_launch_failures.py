@@ -4,16 +4,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 import logging
 from typing import Any
 
-from launch import LaunchDescription, LaunchService
-from launch.actions import EmitEvent, ExecuteProcess, RegisterEventHandler, Shutdown, TimerAction
+from launch import Action, LaunchContext, LaunchDescription, LaunchService
+from launch.actions import (
+    EmitEvent,
+    ExecuteProcess,
+    LogInfo,
+    RegisterEventHandler,
+    Shutdown,
+    TimerAction,
+)
 from launch.event_handlers import OnProcessStart
 from launch.events import matches_action
 from launch.events.process import ShutdownProcess
 from launch.logging._formats import label_formatter
 from launch.logging._screen import screen
+from launch.substitutions import LaunchConfiguration
 import pytest
 
 Run = Callable[..., Any]
@@ -92,3 +101,26 @@ def test_when_there_are_colours(
     monkeypatch.setenv(name, value)
     monkeypatch.setattr('sys.stdout.isatty', lambda: True, raising=False)
     assert screen.has_colours() is expected
+
+
+def test_place_of_an_action_that_launch_has_made(run: Run) -> None:
+    """It is the line of the action that brings it in, never one of Python's event loop."""
+
+    class Bringing(Action):
+        """Brings in an action that has no line of its own, as those of launch itself."""
+
+        def execute(self, context: LaunchContext) -> list[Any]:
+            failing = LogInfo(msg=LaunchConfiguration('unset'))
+            failing.call_site = None
+            return [failing]
+
+    entity = Bringing()
+    result = run(entity)
+    assert result.status == 1
+    assert f'It comes from {entity.call_site} (LogInfo)' in result.text
+
+
+def test_line_of_an_action_that_python_creates() -> None:
+    """A line of Python's own library is nobody's launch file."""
+    with ThreadPoolExecutor() as pool:
+        assert pool.submit(LogInfo, msg='x').result().call_site is None

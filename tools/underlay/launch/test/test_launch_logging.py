@@ -11,6 +11,8 @@ import re
 import sys
 from typing import Any
 
+from launch._supervision.line_format import LineFormat
+from launch._supervision.process_output import ProcessOutput
 from launch.actions import LogInfo
 from launch.logging import get_logger, launch_config, reset
 from launch.logging._directory import base_directory
@@ -112,6 +114,24 @@ def test_log_file_that_cannot_be_written(capfd: pytest.CaptureFixture[str]) -> N
         get_logger('x').info('hi')
     out = capfd.readouterr().out
     assert out.count('cannot be written any more') == 1 and out.count('[x]: hi') == 2
+    assert "launch.log' first: Is a directory." in out
+
+
+def test_full_disk_is_said_once(capfd: pytest.CaptureFixture[str]) -> None:
+    """Nodes say each second that their log files cannot be written; a launch says it once."""
+    error = (
+        '[*** LOG ERROR #{} ***] [2026-11-22 08:37:28] [root] {{Failed writing to file '
+        '/full/{}.log: No space left on device}}\n'
+    )
+    for name in ('walk', 'arm'):
+        output = ProcessOutput(name, 'screen', LineFormat('{line}', None), keep=True)
+        for number in range(3):
+            output.feed(2, f'{error.format(number, name)}real {number}\n'.encode())
+        assert output.kept(2).count('LOG ERROR') == 3
+    out = capfd.readouterr().out
+    assert out.count('No space left on device') == 1 and out.count('LOG ERROR') == 0
+    assert "'/full/walk.log' first: No space left on device. All else goes on" in out
+    assert out.count('real ') == 6
 
 
 def test_output_config() -> None:

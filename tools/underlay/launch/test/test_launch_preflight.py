@@ -56,6 +56,18 @@ def test_words_in_one_text(run: Run) -> None:
     _fails_at_once(run(ExecuteProcess(cmd=['ls -l'])), 'A command line in one text needs shell=')
 
 
+@pytest.mark.parametrize('is_file', [False, True])
+def test_missing_folder_is_an_error_of_its_process(run: Run, write: Write, is_file: bool) -> None:
+    """It is a warning before the start, as it may be made until then, and the rest goes on."""
+    folder = write('file', '') if is_file else '/no'
+    result = run(ExecuteProcess(cmd=['true'], cwd=folder, name='it'), ExecuteProcess(cmd=['true']))
+    assert result.status == 0 and result.text.count('process started') == 1
+    missing = 'is a file' if is_file else 'does not exist'
+    warning, *_ = [line for line in result.lines if line.startswith('[WARNING]')]
+    assert f"the folder '{folder}', in which process[it-" in warning and missing in warning
+    assert "exception occurred while executing process: the folder '" in result.text
+
+
 def test_path_of_the_process_counts(run: Run, write: Write) -> None:
     """The program is searched on the PATH that the process gets, and from its folder."""
     program = write('bin/tool', '#!/bin/sh\n')

@@ -13,6 +13,7 @@ import sys
 import time
 from typing import Any
 
+from launch._supervision.family import Family
 from launch._supervision.orphan_guard import OrphanGuard
 from launch._supervision.prefork import prefork as prefork_module
 from launch._supervision.prefork import template_handle
@@ -64,13 +65,15 @@ def script(write: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Cal
 
 
 @pytest.fixture
-def in_prefork() -> Iterator[Callable[[Callable[[Prefork], Awaitable[Any]]], Any]]:
+def in_prefork(
+    no_child_is_left: None,
+) -> Iterator[Callable[[Callable[[Prefork], Awaitable[Any]]], Any]]:
     """Return a function that runs a coroutine function; it leaves nothing behind."""
     before = len(os.listdir('/proc/self/fd'))
 
     def run(use: Callable[[Prefork], Awaitable[Any]]) -> Any:
         async def main() -> Any:
-            guard = OrphanGuard()
+            guard = OrphanGuard(Family.of_new_run())
             prefork = Prefork(guard)
             try:
                 return await use(prefork)
@@ -82,8 +85,6 @@ def in_prefork() -> Iterator[Callable[[Callable[[Prefork], Awaitable[Any]]], Any
 
     yield run
     assert len(os.listdir('/proc/self/fd')) == before
-    with pytest.raises(ChildProcessError):
-        os.waitpid(-1, os.WNOHANG)
 
 
 InPrefork = Callable[[Callable[[Prefork], Awaitable[Any]]], Any]
@@ -116,6 +117,23 @@ def test_few_are_executed(in_prefork: InPrefork, script: Callable[..., str]) -> 
     path = script()
     few, enough, one = in_prefork(use)
     assert (set(few), set(enough), one) == ({'executed'}, {'forked'}, ['forked'])
+
+
+def test_template_that_nobody_asks_any_longer(
+    in_prefork: InPrefork, script: Callable[..., str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It ends, as its memory is of no use; what is started later is executed."""
+    monkeypatch.setattr(template_handle, 'IDLE_S', 0.0)
+
+    async def use(prefork: Prefork) -> tuple[list[str], list[str]]:
+        first = await _starts(prefork, path)
+        while prefork._template is not None and prefork._template.is_open:
+            await asyncio.sleep(0.01)
+        return first, await _starts(prefork, path, 1)
+
+    path = script()
+    first, later = in_prefork(use)
+    assert 'forked' in first and later == ['executed']
 
 
 def test_order_of_what_is_executed(

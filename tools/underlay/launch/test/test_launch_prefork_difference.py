@@ -14,6 +14,7 @@ import signal
 import sys
 from typing import Any
 
+from launch._supervision.family import Family
 from launch._supervision.orphan_guard import OrphanGuard
 from launch._supervision.prefork.eligibility import kind_of
 from launch._supervision.prefork.template_handle import TemplateHandle
@@ -180,7 +181,7 @@ async def _both(
     kind = kind_of(program, program.env)
     assert kind is not None, 'the script cannot be forked'
     other = {**program.env, 'REMOVED': 'yes', 'WORD': 'changed'}
-    guard = OrphanGuard()
+    guard = OrphanGuard(Family.of_new_run())
     template = TemplateHandle(kind, other, [], guard)
     try:
         forked = await _outcome(template.fork, program, tty, disturb)
@@ -260,17 +261,23 @@ def test_ends(both: Both, source: str, status: int) -> None:
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1])
-def test_signals(both: Both, number: signal.Signals) -> None:
+def test_signals(
+    both: Both, tmp_path: Path, wait_until: Callable[..., None], number: signal.Signals
+) -> None:
     """A signal ends a program as it does when the program was executed."""
+    at_work = tmp_path / 'at_work'
 
     def send(child: Child) -> None:
+        wait_until(at_work.exists)  # before, Python itself may be interrupted
+        at_work.unlink()
         os.kill(child.pid, number)
 
-    source = """
+    source = f"""
 import signal, time
 signal.pthread_sigmask(signal.SIG_BLOCK, [])
-for _ in range(300):
-    time.sleep(0.1)
+with open({str(at_work)!r}, 'w'):
+    for _ in range(300):
+        time.sleep(0.1)
 """
     executed, forked = both(source, disturb=send)
     assert executed.status == forked.status == -number

@@ -8,15 +8,13 @@ import io
 import os
 import signal
 import subprocess
-from typing import Any
 
-from launch._supervision.escalation import Escalation
 from launch._supervision.exit_watch import watch_exit
+from launch._supervision.family import Family
 from launch._supervision.leftovers import end_leftovers
 from launch._supervision.line_splitter import LineSplitter
 from launch._supervision.orphan_guard import OrphanGuard
 from launch._supervision.process_group import is_empty, living_members, send_signal
-from launch.logging import get_logger
 import pytest
 
 
@@ -108,47 +106,35 @@ def test_signal_to_what_has_ended() -> None:
     assert is_empty(child.pid)
 
 
-def test_guard_spares_what_was_removed() -> None:
-    """When the pipe closes, the guard ends the groups that it still has, and no others."""
-    kept, ended = _group_leader('sleep 60 &'), _group_leader('sleep 60 &')
-    guard = OrphanGuard()
+def test_guards_end_at_a_word() -> None:
+    """When the launch has ended all itself, the guards leave everything alone."""
+    leader = _group_leader('sleep 60 &')
+    guard = _guard()
     try:
-        for leader in (kept, ended):
-            guard.add(leader.pid)
-        guard.remove(kept.pid)
+        guard.add(leader.pid)
+        (pid,) = guard.pids
         guard.close()
-        assert guard.pid is None
-        assert ended.wait(100) and kept.poll() is None
+        assert guard.pids == [] and not os.path.exists(f'/proc/{pid}')
+        assert leader.poll() is None
     finally:
-        for leader in (kept, ended):
-            send_signal(leader.pid, signal.SIGKILL)
-            leader.wait()
+        send_signal(leader.pid, signal.SIGKILL)
+        leader.wait()
 
 
-def test_guard_that_was_killed() -> None:
-    """Losing the guard does not disturb the launch."""
-    guard = OrphanGuard()
-    guard.add(2**22 + 1)
-    assert guard.pid is not None
-    os.kill(guard.pid, signal.SIGKILL)
-    os.waitid(os.P_PID, guard.pid, os.WEXITED | os.WNOWAIT)
-    guard.remove(2**22 + 1)
+@pytest.mark.parametrize('number', [signal.SIGKILL, signal.SIGSTOP])
+def test_guard_that_was_killed_or_stopped(number: signal.Signals) -> None:
+    """Losing a guard does not disturb the launch, nor does one that does not listen."""
+    guard = _guard()
+    (pid,) = guard.pids
+    os.kill(pid, number)
+    os.waitid(os.P_PID, pid, os.WEXITED | os.WSTOPPED | os.WNOWAIT)
+    for group in range(10_000):
+        guard.add(group)
     guard.close()
+    assert guard.pids == []
 
 
-def test_guard_that_was_stopped() -> None:
-    """A guard that someone has stopped does not stop the launch from ending."""
-    guard = OrphanGuard()
-    guard.add(2**22 + 1)
-    assert guard.pid is not None
-    os.kill(guard.pid, signal.SIGSTOP)
-    os.waitid(os.P_PID, guard.pid, os.WSTOPPED)
-    guard.close()
-    assert guard.pid is None
-
-
-def test_timeout_must_be_a_number() -> None:
-    """A timeout that is no number is an error that names it."""
-    arguments: Any = {'label': 'x', 'logger': get_logger('x'), 'send': lambda number: None}
-    with pytest.raises(ValueError, match="the sigkill_timeout .* but it is 'soon'"):
-        Escalation(sigterm_timeout='1', sigkill_timeout='soon', **arguments)
+def _guard() -> OrphanGuard:
+    guard = OrphanGuard(Family.of_new_run())
+    guard.start()
+    return guard

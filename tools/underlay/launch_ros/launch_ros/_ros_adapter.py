@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
 _CANCEL_AGAIN_S = 0.2
+_ENDING_S = 10.0
 
 
 class ROSAdapter:
@@ -117,9 +118,9 @@ class ROSAdapter:
             self._ros_executor.create_task(lambda: None)
 
     def shutdown(self) -> None:
-        """End the node, and wait until that is done."""
+        """End the node, and wait until that is done, or until a callback has taken too long."""
         self._stop()
-        self._thread.join()
+        self._thread.join(_ENDING_S)
         atexit.unregister(self.shutdown)
 
     def end_within(self, context: LaunchContext) -> None:
@@ -138,7 +139,7 @@ class ROSAdapter:
         if self.is_running:
             self._ended = asyncio.get_running_loop().create_future()
             self._stop()
-            await self._ended
+            await asyncio.wait([self._ended], timeout=_ENDING_S)
         self.shutdown()
 
 

@@ -12,6 +12,9 @@ from typing import Any, Optional
 from launch_ros._pending_answer import PendingAnswer
 from rcl_interfaces.srv import GetParameterTypes
 
+STARTED_ANEW = 'started anew'
+"""The message of a cancellation after which the same is asked for again."""
+
 _POLL_S = 0.05
 _CHECK_S = 0.5
 _PATIENCE_S = 10.0
@@ -56,6 +59,8 @@ class ServiceCaller:
         self._probe = ros_node.create_client(GetParameterTypes, f'{node_name}/get_parameter_types')
         self._logger = logger
         self._server = server
+        self.has_asked = False
+        """Whether a request has been sent, which whoever dies may have lost."""
 
     def close(self) -> None:
         """Give the clients back."""
@@ -78,8 +83,9 @@ class ServiceCaller:
     def _abandoned(self, what: str) -> Iterator[None]:
         try:
             yield
-        except asyncio.CancelledError:
-            self.report_abandoned(what)
+        except asyncio.CancelledError as error:
+            if STARTED_ANEW not in error.args:
+                self.report_abandoned(what)
             raise
 
     async def _until_ready(self) -> None:
@@ -107,6 +113,7 @@ class ServiceCaller:
 
     async def _answer(self, request: Any) -> Any:
         """Send the request; whoever was there and is not any more will not answer it."""
+        self.has_asked = True
         lost = _now() + _LOST_AFTER_S
         with PendingAnswer(self._client, request) as pending:
             while not await pending.arrives_within(_CHECK_S):

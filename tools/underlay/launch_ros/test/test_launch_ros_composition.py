@@ -6,13 +6,16 @@ from __future__ import annotations
 from collections.abc import Callable
 import json
 from pathlib import Path
+import signal
 import sys
 import threading
 from typing import Any
 
-from launch.actions import RegisterEventHandler, Shutdown, TimerAction
+from launch.actions import EmitEvent, RegisterEventHandler, Shutdown, TimerAction
 from launch.conditions import IfCondition
-from launch.event_handlers import OnExecutionComplete
+from launch.event_handlers import OnExecutionComplete, OnProcessIO
+from launch.events import matches_action
+from launch.events.process import SignalProcess
 from launch.substitutions import TextSubstitution
 from launch_ros.actions import (
     ComposableNodeContainer,
@@ -66,6 +69,20 @@ def _load_then_end(run: Run, *before: Any, nodes: Any, target: Any) -> Any:
 def _ends(out: str) -> None:
     assert 'Traceback' not in out
     assert 'launch_ros' not in [thread.name for thread in threading.enumerate()]
+
+
+@pytest.mark.parametrize('of_container', [True, False])
+def test_missing_parameter_file(run: Run, of_container: bool) -> None:
+    """It keeps the launch from starting anything; the place is a line of the launch file."""
+    node = _node('talker', parameters=['/no.yaml'])
+    load = LoadComposableNodes(composable_node_descriptions=[node], target_container='/box/c')
+    entity = _container(node) if of_container else load
+    status, out = run(entity)
+    assert status == 1 and 'process started' not in out
+    assert "the parameter file '/no.yaml' does not exist" in out
+    created = entity.call_site
+    assert created is not None and created.file_name == __file__
+    assert f'It comes from {created} (LoadComposableNodes)' in out
 
 
 def test_what_a_container_is_asked_for(run: Run, tmp_path: Path) -> None:
@@ -226,13 +243,13 @@ def test_nothing_to_load_needs_no_node(run: Run) -> None:
 
 
 def test_container_that_is_not_installed(run: Run, prefix: Callable[..., Any]) -> None:
-    """The error says that the package is not on PyPI, and what to do; nothing is started."""
+    """The error names the package; nothing is started."""
     prefix('pkg')
     other = ComposableNodeContainer(executable='true', name='other', namespace='')
     status, out = run(
         other,
         ComposableNodeContainer(
-            package='rclcpp_components',
+            package='my_containers',
             executable='component_container',
             name='c',
             namespace='',
@@ -240,8 +257,7 @@ def test_container_that_is_not_installed(run: Run, prefix: Callable[..., Any]) -
         ),
     )
     assert status == 1 and 'process started' not in out
-    assert "package 'rclcpp_components' not found, searching: [" in out
-    assert 'no wheel on PyPI' in out
+    assert "package 'my_containers' not found, searching: [" in out
 
 
 @pytest.mark.parametrize('target', [1, None])
@@ -249,3 +265,39 @@ def test_wrong_target(target: Any) -> None:
     """The target is a container or its name."""
     with pytest.raises(TypeError, match='target_container'):
         LoadComposableNodes(composable_node_descriptions=[], target_container=target)
+
+
+@pytest.mark.parametrize('killed_at', ['second', 'third'])
+@pytest.mark.parametrize('is_named', [True, False])
+def test_container_that_is_started_anew(run: Run, killed_at: str, is_named: bool) -> None:
+    """All nodes are loaded again into a container that respawns, also if it died meanwhile."""
+    container = _container(respawn=True, respawn_delay=0.1)
+    asked: list[str] = []
+
+    def note(event: Any) -> Any:
+        asked.extend(each['name'] for each in _asked(event.text.decode()))
+        if asked[-1:] == ['third'] and (killed_at != 'third' or asked.count('third') == 2):
+            return TimerAction(period=0.3, actions=[Shutdown()])
+        if asked[-1:] == [killed_at] and asked.count(killed_at) == 1:
+            return EmitEvent(
+                event=SignalProcess(
+                    signal_number=signal.SIGKILL, process_matcher=matches_action(container)
+                )
+            )
+        return None
+
+    load = LoadComposableNodes(
+        composable_node_descriptions=[_node(name) for name in ('first', 'second', 'third')],
+        target_container='/box/c' if is_named else container,
+    )
+    status, out = run(
+        RegisterEventHandler(OnProcessIO(target_action=container, on_stdout=note)),
+        TimerAction(period=30.0, actions=[Shutdown()]),
+        container,
+        load,
+    )
+    assert status == 0
+    assert asked[-3:] == ['first', 'second', 'third']
+    for name in ('first', 'second', 'third'):
+        assert f"Loaded node '/{name}' in container '/box/c'" in out
+    _ends(out)

@@ -76,10 +76,26 @@ def test_what_holds_for_all_nodes(context: LaunchContext, tmp_path: Path) -> Non
     assert request.remap_rules == ['x:=y', 'in:=out']
 
 
-def test_file_that_is_missing(context: LaunchContext, capfd: pytest.CaptureFixture[str]) -> None:
-    """A file that is missing is left out with a warning, as for other nodes."""
-    assert _request(context, parameters=['/no.yaml', {'a': 1}]).parameters == [('a', 1)]
-    assert 'Parameter file path is not a file: /no.yaml' in capfd.readouterr().out
+def test_file_that_is_missing(context: LaunchContext, tmp_path: Path) -> None:
+    """A node is not loaded without the parameters that it is to have; a typo is recognized."""
+    (tmp_path / 'param.yaml').touch()
+    with pytest.raises(FileNotFoundError, match=r"params.yaml' does not exist. .*'param.yaml'"):
+        _request(context, parameters=[str(tmp_path / 'params.yaml'), {'a': 1}])
+
+
+def test_keys_outside_of_parameters(
+    context: LaunchContext, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """What is for no node is ignored, and that is said once for all nodes that get the file."""
+    path = tmp_path / 'p.yaml'
+    path.write_text('/n:\n  ros__parameters: {a: 1}\n  b: 2\nc: [3]\n')
+    for _ in range(2):
+        assert _request(context, name='n', parameters=[str(path)]).parameters == [('a', 1)]
+    warning = (
+        f"in the parameter file '{path}' '/n/b' and '/c' are not below any 'ros__parameters'"
+        ' and so without effect'
+    )
+    assert capfd.readouterr().out.count(warning) == 1
 
 
 def test_invalid_name(context: LaunchContext, capfd: pytest.CaptureFixture[str]) -> None:
@@ -103,7 +119,7 @@ def test_wildcards_of_files(tmp_path: Path, node_name: str, expected: list[str])
     """Keys may be names, nested namespaces, and wildcards for one part or any number."""
     path = tmp_path / 'p.yaml'
     path.write_text(FILE)
-    found = dict(read_parameter_file(str(path), node_name))
+    found = dict(read_parameter_file(str(path)).parameters_of(node_name))
     assert list(found) == expected
     assert found.get('nested.deep', [1.0, 2.5]) == [1.0, 2.5]
 
@@ -121,7 +137,6 @@ def test_node_without_a_name(context: LaunchContext, pattern: str, is_meant: boo
     'text, problem',
     [
         ('a: [', 'is not valid YAML'),
-        ('a: 1', "below '/a' there is 1"),
         ('- a', "below '/' there is \\['a'\\]"),
         ('a: {ros__parameters: 3}', "below '/a/ros__parameters' there is 3"),
         ('a: {ros__parameters: {p: [1, x]}}', 'inconsistent input for "p"'),
@@ -133,7 +148,7 @@ def test_wrong_file(tmp_path: Path, text: str, problem: str) -> None:
     path = tmp_path / 'p.yaml'
     path.write_text(text)
     with pytest.raises((TypeError, ValueError), match=problem) as error:
-        read_parameter_file(str(path), '/a')
+        read_parameter_file(str(path)).parameters_of('/a')
     assert str(path) in str(error.value)
 
 
@@ -141,7 +156,7 @@ def test_numbers_in_files(tmp_path: Path) -> None:
     """Numbers are read as ROS reads them; what is in quotes stays a text."""
     path = tmp_path / 'p.yaml'
     path.write_text("/**: {ros__parameters: {a: 1e-3, b: '1e-3', c: 5, d: 1e3x, e: 0x10}}")
-    found = dict(read_parameter_file(str(path), '/n'))
+    found = dict(read_parameter_file(str(path)).parameters_of('/n'))
     assert found == {'a': 0.001, 'b': '1e-3', 'c': 5, 'd': '1e3x', 'e': 16}
 
 
@@ -149,9 +164,9 @@ def test_empty_file(tmp_path: Path) -> None:
     """A file, or a section of it, may be empty."""
     path = tmp_path / 'p.yaml'
     path.write_text('')
-    assert read_parameter_file(str(path), '/n') == []
+    assert read_parameter_file(str(path)).parameters_of('/n') == []
     path.write_text('/**: {ros__parameters: }')
-    assert read_parameter_file(str(path), '/n') == []
+    assert read_parameter_file(str(path)).parameters_of('/n') == []
 
 
 def test_parameters_for_rclpy(context: LaunchContext) -> None:

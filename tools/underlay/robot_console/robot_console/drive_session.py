@@ -13,6 +13,7 @@ from robot_console.speed_limits import SpeedLimits, STILL, Velocity
 __all__ = ['DriveSession']
 
 STOPPED = 'The emergency stop is pressed.'
+STOP_ENDED = 'The emergency stop has ended this.'
 AGAIN = 'Let go, and press again.'
 
 
@@ -40,6 +41,8 @@ class DriveSession(Session):
         self._velocity: Velocity | None = None
         self._press: Any = None
         self._ended: Any = None
+        self._why_ended = ''
+        self._is_lost = False
         self._refusal = ''
 
     @property
@@ -64,13 +67,16 @@ class DriveSession(Session):
         }
 
     def lose(self) -> None:
-        """Stop the robot, since the page is gone."""
+        """Stop the robot, since the page is gone or gives no signs of life."""
+        self._is_lost |= self._velocity is not None
         self._stand_still()
         super().lose()
 
     def _drive(self, message: Mapping[str, Any]) -> None:
         velocity = self._limits.velocity(message.get('stick'), message.get('share'))
         self._press = message.get('press')
+        if self._is_lost:
+            self._is_lost, self._why_ended = False, stalled(self.silent_s)
         self._refusal = self._why_not()
         if self._refusal:
             self._stop()
@@ -83,7 +89,7 @@ class DriveSession(Session):
         if self.link.stop.pressed:
             return STOPPED
         if self._ended is not None and self._press == self._ended:
-            return AGAIN
+            return f'{self._why_ended} {AGAIN}'.lstrip()
         if not self.link.control.take(self.person, self):
             return f'{self.link.control.person} is in control.'
         return ''
@@ -102,4 +108,13 @@ class DriveSession(Session):
         if self._velocity is not None:
             self._velocity = None
             self._ended = self._press
+            self._why_ended = STOP_ENDED if self.link.stop.pressed else ''
             self._say(STILL)
+
+
+def stalled(silent_s: float) -> str:
+    """Say why a robot was stopped that a page drove from which nothing came for a while."""
+    return (
+        f'The robot was stopped: this page stalled for {silent_s:.1f} s. '
+        'This computer, or the network, is too busy.'
+    )

@@ -5,11 +5,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 import re
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 from rviz_common.properties import Text
+from rviz_common.topic_names import full_topic_name
 
-__all__ = ['NAMESPACE', 'Namespace', 'below']
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ['NAMESPACE', 'Namespace', 'below', 'topic_of_robot']
 
 VALID = re.compile(r'(/?[A-Za-z_][A-Za-z0-9_]*)*/?')
 
@@ -34,3 +38,8 @@ def below(namespace: str, topic: str) -> str:
     if topic.startswith('/') or not namespace:
         return topic
     return f'/{namespace}/{topic}'
+
+
+def topic_of_robot(node: Node, namespace: str, topic: str) -> str:
+    """Return the full name of a topic of a robot, or raise ValueError if it is no name."""
+    return full_topic_name(node, below(namespace, topic))

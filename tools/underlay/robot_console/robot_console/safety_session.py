@@ -25,6 +25,8 @@ class Facts:
     """The nodes besides this one that may press or release it."""
     says: str | None = None
     """Why the robot holds still, empty if it moves; None if it does not say."""
+    pace: float | None = None
+    """How many seconds of a simulated world pass in a real one; None if nobody says so."""
 
 
 class SafetySession(Session):

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+import time
 from typing import Any
 
 from robot_console.robot_link import RobotLink
@@ -24,6 +25,9 @@ class Session:
         self.link = link
         self.person = person
         self._farewells = 0
+        self._heard_s = time.monotonic()
+        self.silent_s = 0.0
+        """How long nothing had come from the page before its last message."""
 
     @property
     def actions(self) -> Mapping[str, Callable[[Mapping[str, Any]], None]]:
@@ -41,6 +45,8 @@ class Session:
         action = self.actions.get(do) if isinstance(do, str) else None
         if action is None:
             raise ValueError(f'A page cannot do this here: {str(message)[:50]}')
+        now_s = time.monotonic()
+        self.silent_s, self._heard_s = now_s - self._heard_s, now_s
         action(message)
         self._beat()
         return self.state()

@@ -46,13 +46,16 @@ class SmallPage:
         settings: dict[str, Any],
         connections: Talks,
         order: float | None = None,
+        package: str = 'robot_console',
     ) -> None:
         """Add it, or raise ValueError if there is one already."""
         self._context = context
         self._connections = connections
         self._path = f'/{name}/{namespace}' if namespace else f'/{name}'
         try:
-            context.page.routes.add(self._path, Route(page_text(name, settings), connections.talk))
+            context.page.routes.add(
+                self._path, Route(page_text(name, settings, package), connections.talk)
+            )
         except ValueError:
             raise ValueError(
                 'There is such a panel for this robot already. Remove one of both from the file, '
@@ -67,10 +70,10 @@ class SmallPage:
         self._frame.remove()
 
 
-def page_text(name: str, settings: dict[str, Any]) -> str:
+def page_text(name: str, settings: dict[str, Any], package: str = 'robot_console') -> str:
     """Return the text of a page, with what all have in common and its settings put in."""
     folder = files('robot_console') / 'web'
-    text = (folder / f'{name}.html').read_text(encoding='utf-8')
+    text = (files(package) / 'web' / f'{name}.html').read_text(encoding='utf-8')
     for part in COMMON:
         text = text.replace(f'/* {part} */', (folder / part).read_text(encoding='utf-8'))
     return text.replace('/* settings */ {}', json.dumps(settings).replace('<', '\\u003c'))

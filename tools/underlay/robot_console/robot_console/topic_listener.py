@@ -31,7 +31,11 @@ class TopicListener:
     def __init__(
         self, node: Node, full_name: Callable[[str], str], found: FoundType, take: Take
     ) -> None:
-        """Take what makes a full name of a topic, and what gets its type and its messages."""
+        """
+        Take what makes a full name of a topic, and what gets its type and its messages.
+
+        `full_name` raises ValueError for what is no name; that is then the reason of the topic.
+        """
         self._node, self._full_name = node, full_name
         self._found, self._take = found, take
         self._heard: dict[str, PolledTopic] = {}
@@ -42,10 +46,9 @@ class TopicListener:
             self._heard.pop(topic).close()
         missing = [topic for topic in topics if topic not in self._heard]
         reasons = self._subscribe_all(missing) if missing else {}
-        for topic in self._heard:
-            name = self._full_name(topic)
-            if not self._node.count_publishers(name):
-                reasons[topic] = f'Nobody publishes {name}.'
+        for topic, heard in self._heard.items():
+            if not self._node.count_publishers(heard.topic):
+                reasons[topic] = f'Nobody publishes {heard.topic}.'
         return reasons
 
     def take_all(self) -> None:
@@ -66,10 +69,9 @@ class TopicListener:
         types = dict(self._node.get_topic_names_and_types())
         reasons = {}
         for topic in topics:
-            name = self._full_name(topic)
-            found = types.get(name, [])
             try:
-                self._subscribe(topic, name, found)
+                name = self._full_name(topic)
+                self._subscribe(topic, name, types.get(name, []))
             except ValueError as error:
                 reasons[topic] = str(error)
         return reasons

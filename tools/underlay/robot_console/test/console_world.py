@@ -22,7 +22,7 @@ from robot_console.panels.drive import Drive
 from robot_console.panels.safety import Safety
 from robot_console.robot_link import LATCHED
 from rviz_common.context import Context
-from rviz_common.page import Page
+from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.work_queue import WorkQueue
 from std_msgs.msg import Bool
 from websockets.sync.client import ClientConnection, connect
@@ -74,7 +74,7 @@ class World:
 
     def wait_until(self, predicate: Callable[[], bool], what: str) -> None:
         """Let time pass until something holds."""
-        end_s = time.monotonic() + 20.0
+        end_s = time.monotonic() + 100.0
         while not predicate():
             assert time.monotonic() < end_s, f'{what}; heard: {self.heard}'
             self.executor.spin_once(timeout_sec=0.02)
@@ -127,7 +127,7 @@ def world_of(namespace: str) -> Iterator[World]:
     """Give a page, panels and a robot, which find each other, in a domain of their own."""
     quiet = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
     with domain_id() as domain, mock.patch.dict(os.environ, quiet):
-        world = World(domain, Page('test'), namespace)
+        world = World(domain, Page('test', PageSettings(token=NO_TOKEN)), namespace)
         try:
             names = ('emergency_stop', 'console_heartbeat', 'cmd_vel')
             world.wait_until(lambda: all(_is_heard(world, name) for name in names), 'no discovery')

@@ -18,13 +18,15 @@ from rclpy.context import Context as RosContext
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from robot_console.live import LivePanel
+from robot_console.panels.command import Command
 from robot_console.panels.diagnostics import Diagnostics
 from robot_console.panels.log import Log
+from robot_console.panels.objects import Objects
 from robot_console.panels.parameters import Parameters
 from robot_console.panels.services import Services
 from robot_console.panels.topics import Topics
 from rviz_common.context import Context
-from rviz_common.page import Page
+from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.work_queue import WorkQueue
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
@@ -32,7 +34,7 @@ from websockets.sync.client import connect
 __all__ = ['PANELS', 'LiveWorld', 'live_world']
 
 PANELS = {'log': Log, 'diagnostics': Diagnostics, 'topics': Topics}
-PANELS |= {'parameters': Parameters, 'services': Services}
+PANELS |= {'command': Command, 'objects': Objects, 'parameters': Parameters, 'services': Services}
 
 
 class LiveWorld:
@@ -69,7 +71,7 @@ class LiveWorld:
 
     def wait_until(self, predicate: Callable[[], bool], what: str, told: Any = None) -> None:
         """Let time pass until something holds."""
-        end_s = time.monotonic() + 20.0
+        end_s = time.monotonic() + 100.0
         while not predicate():
             assert time.monotonic() < end_s, f'{what}; told: {str(told)[-2000:]}'
             self.executor.spin_once(timeout_sec=0.02)
@@ -123,7 +125,7 @@ def live_world() -> Iterator[LiveWorld]:
     """Give a page and a robot, in a domain of their own."""
     quiet = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
     with domain_id() as domain, mock.patch.dict(os.environ, quiet):
-        world = LiveWorld(domain, Page('test'))
+        world = LiveWorld(domain, Page('test', PageSettings(token=NO_TOKEN)))
         try:
             yield world
         finally:

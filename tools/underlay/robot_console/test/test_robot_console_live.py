@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 from robot_console.live import Channel, Viewer
-from rviz_common.page import Page, Route
+from rviz_common.page import NO_TOKEN, Page, PageSettings, Route
 from rviz_common.work_queue import WorkQueue
 from websockets.exceptions import ConnectionClosed, ConnectionClosedError
 from websockets.sync.client import ClientConnection, connect
@@ -39,7 +39,7 @@ class Desk:
 
     def wait_until(self, predicate: Callable[[], bool], what: str) -> None:
         """Do what is asked for until something holds."""
-        end_s = time.monotonic() + 20.0
+        end_s = time.monotonic() + 100.0
         while not predicate():
             assert time.monotonic() < end_s, f'{what}; done: {self.done}'
             self.queue.run()
@@ -62,7 +62,7 @@ def heard(client: ClientConnection) -> Any:
 @pytest.fixture
 def desk() -> Iterator[Desk]:
     """Return a channel of a page."""
-    with Page('test') as page:
+    with Page('test', PageSettings(token=NO_TOKEN)) as page:
         yield Desk(page)
 
 

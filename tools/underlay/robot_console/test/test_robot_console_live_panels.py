@@ -3,12 +3,16 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Iterator
 from http.client import HTTPConnection
+import json
+import math
 import time
 from typing import Any
 from unittest import mock
 
+from audio_common_msgs.msg import AudioData
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from live_world import live_world, LiveWorld, PANELS
 import pytest
@@ -18,8 +22,11 @@ from rclpy.context import Context as RosContext
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from std_msgs.msg import String
+from robot_console.panels.command import Command
+from robot_console.panels.objects import Objects
+from std_msgs.msg import Header, String
 from std_srvs.srv import SetBool
+from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
 
 LATCHED = QoSProfile(
     depth=1,
@@ -90,6 +97,106 @@ def test_diagnostics(world: LiveWorld) -> None:
     page.wait_for('rows', lambda rows: rows == [])
 
 
+def test_command(world: LiveWorld) -> None:
+    """What is typed reaches the robot; what it says, and its plan, reach the page."""
+    assert not Command.is_wanted(world.robot)
+    page = world.visit('command', Namespace='robot1')
+    page.ask('tell', text='go to the kitchen')
+    page.wait_for('refusal', lambda refusal: 'Nobody takes commands' in refusal)
+    told: list[str] = []
+    world.robot.create_subscription(
+        String, 'user_command', lambda message: told.append(message.data), 50
+    )
+    world.wait_until(lambda: Command.is_wanted(world.robot), 'not wanted')
+    speech = world.robot.create_publisher(String, 'speech/say', 50)
+    state = world.robot.create_publisher(String, 'executor/state', LATCHED)
+    world.wait_until(lambda: speech.get_subscription_count() > 0, 'nobody listens')
+    time.sleep(0.3)
+    page.ask('tell', text=' go to the kitchen ')
+    world.wait_until(lambda: told == ['go to the kitchen'], 'not told', told)
+    speech.publish(String(data='I am going.'))
+    page.wait_for('lines', lambda lines: ['robot', 'I am going.'] in [each[1:] for each in lines])
+    steps = [{'text': 'go to the kitchen', 'state': 'running'}]
+    state.publish(String(data='no JSON'))
+    state.publish(String(data=json.dumps({'state': 'running', 'steps': steps})))
+    page.wait_for('plan', lambda plan: plan.get('steps') == steps)
+    page.ask('stop')
+    world.wait_until(lambda: told[-1] == 'stop', 'not stopped', told)
+    for text in ('', '  ', 'x' * 501, 3, None):
+        page.told.clear()
+        page.ask('tell', text=text)
+        page.wait_for('refusal')
+    assert told == ['go to the kitchen', 'stop']
+    fresh = world.look('command', 'robot1').wait_for('fresh')
+    assert [line[1:] for line in fresh['lines']] == [
+        ['you', 'go to the kitchen'], ['robot', 'I am going.'], ['you', 'stop'],
+    ]  # fmt: skip
+
+
+def test_push_to_talk(world: LiveWorld) -> None:
+    """What the browser's microphone records reaches the recogniser; nonsense does not."""
+    page = world.visit('command', Namespace='robot1')
+    sound = base64.b64encode(bytes(range(200))).decode()
+    page.ask('hear', sound=sound)
+    page.wait_for('refusal', lambda refusal: 'Nobody listens' in refusal)
+    heard: list[bytes] = []
+    world.robot.create_subscription(
+        AudioData, 'audio', lambda message: heard.append(message.data.tobytes()), 50
+    )
+    world.wait_until(lambda: world.robot.count_publishers('audio') > 0, 'no publisher')
+    time.sleep(0.3)
+    for nonsense in ('', 'x', '%%%%', 3, None, 'AAAA', 'A' * 200_000):
+        page.told.clear()
+        page.ask('hear', sound=nonsense)
+        if nonsense:
+            page.wait_for('refusal')
+    page.ask('hear', sound=sound)
+    world.wait_until(lambda: bytes(range(200)) in heard, 'not heard', heard)
+    assert all(each in (b'', bytes(range(200))) for each in heard)
+
+
+def detection(name: str, *classes: str) -> Detection3D:
+    """Return an object 1 m before the map's origin."""
+    found = Detection3D(id=name)
+    for each in classes:
+        result = ObjectHypothesisWithPose()
+        result.hypothesis.class_id, result.hypothesis.score = each, 0.875
+        result.pose.covariance[0] = result.pose.covariance[7] = result.pose.covariance[14] = 4e-4
+        found.results.append(result)
+    found.bbox.center.position.x, found.bbox.size.z = 1.0, math.nan
+    return found
+
+
+def test_objects(world: LiveWorld) -> None:
+    """What is remembered is listed by id; the panel is wanted as soon as somebody publishes it."""
+    assert not Objects.is_wanted(world.robot)
+    publisher = world.robot.create_publisher(Detection3DArray, 'objects', LATCHED)
+    found = [detection('mug_2', 'mug', 'red mug'), detection('book_1', 'book'), detection('x')]
+    publisher.publish(Detection3DArray(header=Header(frame_id='map'), detections=found))
+    world.wait_until(lambda: Objects.is_wanted(world.robot), 'not wanted')
+    page = world.visit('objects', Namespace='robot1')
+    told = page.wait_for('objects', lambda rows: len(rows) == 3)
+    assert told['frame'] == 'map' and told['left_out'] == 0
+    assert [(row['id'], row['name']) for row in told['objects']] == [
+        ('book_1', 'book'), ('mug_2', 'red mug'), ('x', ''),
+    ]  # fmt: skip
+    mug, unknown = told['objects'][1:]
+    assert (mug['position'], mug['size']) == ([1.0, 0.0, 0.0], [0.0, 0.0, None])
+    assert (mug['score'], mug['spread']) == (0.875, 0.02)
+    assert (unknown['score'], unknown['spread']) == (None, None)
+    publisher.publish(Detection3DArray(header=Header(frame_id='map')))
+    page.wait_for('objects', lambda rows: not rows)
+    other = world.look('objects', 'robot1')
+    other.wait_for('heard')
+
+
+def test_objects_of_another_type(world: LiveWorld) -> None:
+    """A topic of that name with other messages does not bring the panel."""
+    world.robot.create_publisher(String, 'objects', LATCHED)
+    world.wait_until(lambda: world.robot.count_publishers('/robot1/objects') > 0, 'no publisher')
+    assert not Objects.is_wanted(world.robot)
+
+
 def test_topics(world: LiveWorld) -> None:
     """Topics are listed; one is subscribed only while somebody has chosen it."""
     publisher = world.robot.create_publisher(String, 'words', LATCHED)
@@ -131,6 +238,12 @@ def test_mismatch(world: LiveWorld) -> None:
     told = page.wait_for('details', lambda details: bool(details.get('reasons')))
     (reason,) = told['details']['reasons']
     assert reason.startswith('Nothing passes from /robot1/robot to /robot1/robot: ')
+    page.ask('choose', topic='/nothing')
+    page.wait_for('details', lambda details: details == {'topic': '/nothing'})
+    # One subscription of a node that fits is enough.
+    world.robot.create_subscription(String, 'words', print, best_effort)
+    page.ask('choose', topic='/robot1/words')
+    page.wait_for('details', lambda details: details.get('reasons') == [])
     page.ask('choose', topic='/nothing')
     page.wait_for('details', lambda details: details == {'topic': '/nothing'})
 

@@ -14,7 +14,7 @@ import rclpy
 from rclpy.context import Context as RosContext
 from rclpy.node import Node
 from rviz_common.context import Context
-from rviz_common.page import Page
+from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.panels.order import ALWAYS_ORDER
 from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.work_queue import WorkQueue
@@ -29,7 +29,11 @@ FILE = [
 def context() -> Iterator[Context]:
     """Return a page and a node in a domain of their own."""
     quiet = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
-    with domain_id() as domain, mock.patch.dict(os.environ, quiet), Page('test') as page:
+    with (
+        domain_id() as domain,
+        mock.patch.dict(os.environ, quiet),
+        Page('test', PageSettings(token=NO_TOKEN)) as page,
+    ):
         ros = RosContext()
         rclpy.init(context=ros, domain_id=domain)
         node = Node('console', context=ros)
@@ -71,3 +75,29 @@ def test_same_panel_twice(context: Context) -> None:
     panels.update()
     panels.close()
     assert not context.page.routes.find('/safety')
+
+
+@pytest.mark.parametrize('panel', ['Diagnostics', 'Drive', 'Log'])
+def test_topic_that_is_no_name(context: Context, panel: str) -> None:
+    """A file that gives a panel a topic which is none has a sentence in its tab."""
+    with mock.patch.object(context.gui, 'add_markdown', wraps=context.gui.add_markdown) as said:
+        panels = PanelTabs(context, [{'Class': f'robot_console/{panel}', 'Topic': '32FC1'}])
+        panels.update()
+        panels.close()
+    [sentence] = [call.args[0] for call in said.call_args_list]
+    assert sentence.startswith("✖ '32FC1' is no name of a topic")
+    assert not context.page.routes.find(f'/{panel.lower()}')
+
+
+def test_panel_that_fails_later(context: Context) -> None:
+    """A panel that is stopped while it is shown says so in its tab."""
+    with mock.patch.object(context.gui, 'add_markdown', wraps=context.gui.add_markdown) as said:
+        panels = PanelTabs(context, FILE[1:])
+        said.reset_mock()
+        with mock.patch.object(panels.panels[0], 'update', side_effect=RuntimeError('broken')):
+            panels.update()
+        panels.update()
+    assert [call.args[0] for call in said.call_args_list] == [
+        '✖ It has been stopped by an error: see the log.'
+    ]
+    panels.close()

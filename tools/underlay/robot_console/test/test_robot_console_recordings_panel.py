@@ -27,7 +27,7 @@ from robot_console.recordings.child import Child
 from robot_console.recordings.scene_tape import SceneTape, TooLarge
 from robot_console.recordings.shelf import Shelf
 from rviz_common.context import Context
-from rviz_common.page import Page
+from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.status import Statuses
 from rviz_common.work_queue import WorkQueue
 from std_msgs.msg import String
@@ -123,7 +123,7 @@ def world(tmp_path: Path) -> Iterator[World]:
             'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
         }
         with mock.patch.dict(os.environ, environment):
-            world = World(domain, Page('test'), tmp_path / 'bags')
+            world = World(domain, Page('test', PageSettings(token=NO_TOKEN)), tmp_path / 'bags')
             yield world
             world.close()
 
@@ -174,13 +174,21 @@ def test_record_refused(world: World) -> None:
 
 def test_record_fails(world: World) -> None:
     """What ends the recording early is said as the recorder says it."""
-    world.record._all.value = False
-    world.record._topics.value = 'no spaces? or/other//odd names!'
+    world.record._name.value = 'x' * 300
     world.record._press()
     world.run(lambda: world.record.path == '', 'the recording does not end')
     assert world.record._text.content.startswith('✖ ')
     assert 'status' not in world.record._text.content
     assert world.record._button.label == 'Record'
+
+
+@pytest.mark.parametrize('text', ['/ticks odd-names!', '/ticks --output /tmp/elsewhere', '-s x'])
+def test_what_is_recorded_is_a_topic(world: World, text: str) -> None:
+    """What is no name of a topic is refused: the recorder would take some for options."""
+    world.record._all.value = False
+    world.record._topics.value = text
+    world.record._press()
+    assert world.record.path == '' and 'is no name of a topic' in world.record._text.content
 
 
 def test_memory(world: World) -> None:
@@ -283,7 +291,7 @@ def test_child_ends_though_signals_are_blocked(tmp_path: Path) -> None:
 
 def test_scene_tape() -> None:
     """The page has how the scene was, and what was sent of it; it loads nothing."""
-    with Page('test') as page:
+    with Page('test', PageSettings(token=NO_TOKEN)) as page:
         frame = page.viser.scene.add_frame('/robot')
         tape = SceneTape(page.viser, 30.0, 10**6)
         for number in range(10):
@@ -302,7 +310,10 @@ def test_scene_tape() -> None:
 
 def test_scene_tape_is_bounded() -> None:
     """Old reels go, and no more memory is used than allowed."""
-    with Page('test') as page, mock.patch('robot_console.recordings.scene_tape.time') as clock:
+    with (
+        Page('test', PageSettings(token=NO_TOKEN)) as page,
+        mock.patch('robot_console.recordings.scene_tape.time') as clock,
+    ):
         clock.monotonic.return_value = 0.0
         frame = page.viser.scene.add_frame('/robot')
         tape = SceneTape(page.viser, 30.0, 10**6)
@@ -320,7 +331,7 @@ def test_scene_tape_is_bounded() -> None:
 
 def test_scene_too_large() -> None:
     """A file that would be too large is refused, with both sizes."""
-    with Page('test') as page:
+    with Page('test', PageSettings(token=NO_TOKEN)) as page:
         tape = SceneTape(page.viser, 30.0, 10**6)
         with pytest.raises(TooLarge, match=r'would have \d+\.\d MiB, and no more than 0.5'):
             tape.page('test', 512 * 1024)

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from robot_console.control import Control
-from robot_console.drive_session import AGAIN, DriveSession, STOPPED
+from robot_console.drive_session import AGAIN, DriveSession, stalled, STOP_ENDED, STOPPED
 from robot_console.emergency_stop import EmergencyStop
 from robot_console.safety_session import Facts, SafetySession
 from robot_console.speed_limits import SpeedLimits, STILL, Velocity
@@ -90,12 +90,15 @@ def test_lost_driver(link: Link) -> None:
 
 
 def test_press_that_was_lost(link: Link) -> None:
-    """A page that comes back while it is still held has to be pressed again."""
+    """A page that comes back while it is still held is told why it has to be pressed again."""
     page = link.drive('ann')
     page.take(push(1))
     page.lose()
+    page._heard_s -= 2.0
     state = page.take(push(1))
-    assert (state['velocity'], state['refusal']) == (None, AGAIN)
+    assert state['velocity'] is None
+    assert state['refusal'] == f'{stalled(2.0)} {AGAIN}' == page.take(push(1))['refusal']
+    assert 'this page stalled for 2.0 s' in state['refusal']
     assert link.said[-1] == STILL and link.control.person == ''
     assert page.take(push(2))['velocity']
 
@@ -123,7 +126,7 @@ def test_stop_ends_driving(link: Link) -> None:
     assert page.take(push(1))['refusal'] == STOPPED
     assert link.said[-1] == STILL and link.control.person == ''
     link.safety('bob').take({'do': 'release'})
-    assert page.take(push(1))['refusal'] == AGAIN
+    assert page.take(push(1))['refusal'] == f'{STOP_ENDED} {AGAIN}'
     assert page.take(push(2))['velocity']
 
 

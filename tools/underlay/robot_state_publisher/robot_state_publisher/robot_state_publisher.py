@@ -27,6 +27,12 @@ __all__ = ['RobotStatePublisher']
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 PATIENCE_S = 5.0
 REPEAT_S = 10.0
+JUMPS_S = 60.0
+"""Two simulators in a domain make the time jump with every message of /clock."""
+TIME_JUMPED = (
+    'The time has jumped back: all joints are published anew. If it goes on to do so, two '
+    'simulators publish /clock.'
+)
 
 
 class RobotStatePublisher(Node):
@@ -130,7 +136,7 @@ class RobotStatePublisher(Node):
     def _on_time_jump(self, jump: TimeJump) -> None:
         """Begin anew when the time of the simulator has jumped back."""
         self._robot.times.forget()
-        self.get_logger().warning('The time has jumped back: all joints are published anew.')
+        self.get_logger().warning(TIME_JUMPED, throttle_duration_sec=JUMPS_S)
 
     def _check(self, changes: list[Parameter]) -> SetParametersResult:
         """Accept changes only if the whole robot can be published as they say."""

@@ -7,15 +7,19 @@ import argparse
 from collections.abc import Sequence
 import io
 import os
-import signal
 import sys
-from typing import NoReturn
 
 from ros2cli.command_table import COMMAND_GROUP, COMMANDS
 from ros2cli.exit_status import run_to_status
 from ros2cli.parser import Parser
 from ros2cli.standard_streams import open_standard_streams
+from ros2cli.start_up import end
 from ros2cli.subparsers import add_lazy_subparsers
+
+TYPE_CHECKING = False
+
+if TYPE_CHECKING:
+    from typing import NoReturn  # noqa: I300
 
 COMPLETION_VARIABLE = '_ARGCOMPLETE'
 
@@ -23,8 +27,10 @@ COMPLETION_VARIABLE = '_ARGCOMPLETE'
 def run() -> NoReturn:
     """Run the command of this process and end it; Ctrl-C no longer disturbs the end."""
     status = main()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    sys.exit(status)
+    signals = sys.modules.get('signal')
+    if signals is not None:  # without it nothing is loaded that takes time at the end
+        signals.signal(signals.SIGINT, signals.SIG_IGN)
+    end(status)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

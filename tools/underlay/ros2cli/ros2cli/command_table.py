@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The commands that this package installs; a static table, so that nothing is scanned."""
+"""The commands that the underlay installs; a static table, so that nothing is scanned."""
 
 from __future__ import annotations
 
@@ -14,6 +14,10 @@ COMMANDS = {
     'component': Entry(
         'ros2component.command.component:ComponentCommand',
         'Various component related sub-commands',
+    ),
+    # In a package of its own, as in a ROS installation, but in the table so that help lists it.
+    'control': Entry(
+        'ros2controlcli.command.control:ControlCommand', 'Various control related sub-commands'
     ),
     'daemon': Entry(
         'ros2daemon.command.daemon:DaemonCommand', 'Various daemon related sub-commands'

@@ -3,18 +3,24 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any, NamedTuple
+TYPE_CHECKING = False
+
+if TYPE_CHECKING:
+    from typing import Any  # noqa: I300
 
 
-class Entry(NamedTuple):
+class Entry:
     """Where the class of a command or verb is defined, and what it does, without importing it."""
 
-    target: str
-    summary: str
-    hidden: bool = False
+    __slots__ = ('hidden', 'summary', 'target')
+
+    def __init__(self, target: str, summary: str, hidden: bool = False) -> None:
+        """Keep what a list of commands shows."""
+        self.target = target
+        self.summary = summary
+        self.hidden = hidden
 
     def create(self) -> Any:
         """Import the class which `module:Class` names and return an instance of it."""
         module, _, name = self.target.partition(':')
-        return getattr(import_module(module), name)()
+        return getattr(__import__(module, fromlist=[name]), name)()

@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Callable
 import errno
 import os
-import signal
 import sys
-import warnings
 
-BROKEN_PIPE_STATUS = 128 + signal.SIGPIPE
+BROKEN_PIPE_STATUS = 128 + 13  # what a shell gives for SIGPIPE
+INTERRUPT_STATUS = 2  # the number of SIGINT
+TERMINATION_STATUS = 15  # the number of SIGTERM
 
 
 def run_to_status(call: Callable[[], int | str | None]) -> int:
@@ -38,7 +38,7 @@ def _status_of(error: Exception) -> int | None:
         return _after_full_disk(error)
     if isinstance(error, RuntimeError):
         return _to_status(str(error) or type(error).__name__)
-    return int(signal.SIGTERM) if is_external_shutdown(error) else None
+    return TERMINATION_STATUS if is_external_shutdown(error) else None
 
 
 def _comes_from_interrupt(error: BaseException | None) -> bool:
@@ -50,10 +50,13 @@ def _comes_from_interrupt(error: BaseException | None) -> bool:
 
 def _after_interrupt() -> int:
     """Let a second Ctrl-C not disturb the end."""
+    import signal
+    import warnings
+
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     # Where rclpy is interrupted it may leave a coroutine behind that never starts.
     warnings.simplefilter('ignore', RuntimeWarning)
-    return int(signal.SIGINT)
+    return INTERRUPT_STATUS
 
 
 def _call_or_exit(call: Callable[[], int | str | None]) -> int:

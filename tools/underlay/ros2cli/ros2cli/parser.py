@@ -7,10 +7,14 @@ import argparse
 from collections.abc import Sequence
 import os
 import sys
-from typing import Any
 
 from ros2cli.option_order import options_first
 from ros2cli.suggest import did_you_mean
+
+TYPE_CHECKING = False
+
+if TYPE_CHECKING:
+    from typing import Any  # noqa: I300
 
 DEFAULT_WIDTH = 80
 MARGIN = 2

@@ -5,11 +5,15 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
 
 from ros2cli.entry import Entry
 from ros2cli.entry_points import entries_of_group, find_entry
 from ros2cli.suggest import did_you_mean
+
+TYPE_CHECKING = False
+
+if TYPE_CHECKING:
+    from typing import Any  # noqa: I300
 
 
 def add_lazy_subparsers(
@@ -22,24 +26,27 @@ def add_lazy_subparsers(
     dest: str,
     argv: Sequence[str] | None,
 ) -> None:
-    """Add one subparser an entry; the chosen entry is imported and adds its arguments."""
+    """
+    Add a subparser for the chosen entry, which is imported and adds its arguments.
+
+    If none is chosen, as for help, there is a subparser an entry, without arguments.
+    """
     name, rest = _split(argv or ())
     entries = _with_extension(entries, group, name)
     metavar = f'Call `{cli_name} <{kind}> -h` for more detailed usage.'
     subparsers = parser.add_subparsers(
         prog=parser.prog,  # argparse would format its usage to find that out
-        title=f'{kind.capitalize()}s',
+        title='Commands',
         description=_listing(entries),
         metavar=metavar,
     )
-    for entry_name, entry in entries.items():
-        subparser = subparsers.add_parser(
-            entry_name,
-            description=entry.summary,
-        )
-        if entry_name == name:
-            _add_chosen(subparser, entry, f'{cli_name} {entry_name}', dest, rest)
-    if name is not None and name not in entries:
+    if name is None:
+        for entry_name, entry in entries.items():
+            subparsers.add_parser(entry_name, description=entry.summary)
+    elif name in entries:
+        subparser = subparsers.add_parser(name, description=entries[name].summary)
+        _add_chosen(subparser, entries[name], f'{cli_name} {name}', dest, rest)
+    else:
         parser.error(_unknown_text(metavar, name, entries))
 
 
@@ -55,7 +62,7 @@ def add_subparsers_on_demand(
     """Add a subparser for each entry point of a group, for commands of other packages."""
     hidden = hide_extensions or ()
     entries = {
-        name: entry._replace(hidden=name in hidden)
+        name: Entry(entry.target, entry.summary, hidden=name in hidden)
         for name, entry in sorted(entries_of_group(group_name).items())
     }
     add_lazy_subparsers(

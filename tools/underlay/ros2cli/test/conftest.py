@@ -3,9 +3,11 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+import ctypes
 from functools import partial
 import os
 from pathlib import Path
+import signal
 import subprocess
 import sys
 from typing import Any
@@ -18,6 +20,7 @@ ROOT = Path(__file__).parents[1]
 # For what several test modules share.
 sys.path.insert(0, str(Path(__file__).parent))
 TIMEOUT_S = 100.0
+PR_SET_PDEATHSIG = 1
 
 
 @pytest.fixture(scope='session')
@@ -60,6 +63,11 @@ def container(ros_environment_variables: dict[str, str]) -> Iterator[dict[str, s
             yield variables
 
 
+def _end_with_the_tests() -> None:
+    """Ask the kernel to kill this process when the process of the tests is no more."""
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
 @contextmanager
 def helper_process(name: str, environment: dict[str, str]) -> Iterator[None]:
     """Run a program of this folder from when it is ready to the end of the block."""
@@ -68,6 +76,7 @@ def helper_process(name: str, environment: dict[str, str]) -> Iterator[None]:
         env=environment,
         stdout=subprocess.PIPE,
         text=True,
+        preexec_fn=_end_with_the_tests,
     )
     try:
         assert process.stdout is not None

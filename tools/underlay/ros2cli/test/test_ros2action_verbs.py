@@ -5,9 +5,12 @@ from collections.abc import Callable
 import re
 import signal
 from subprocess import CompletedProcess
+import time
 from typing import Any
 
 import pytest
+from rclpy.context import Context
+from rclpy.node import Node
 
 Ros2 = Callable[..., CompletedProcess[str]]
 Start = Callable[..., Any]
@@ -82,6 +85,33 @@ def test_rejected_goal(ros2_robot: Ros2) -> None:
     result = ros2_robot('action', 'send_goal', '/look', TYPE, '{target_frame: reject}')
     assert result.stdout == f'{GOAL.format(frame="reject")}Goal was rejected.\n'
     assert (result.returncode, result.stderr) == (0, '')
+
+
+def test_no_participant_outlives_the_goal(robot: dict[str, str], start_at_robot: Start) -> None:
+    """The command leaves the domain, so that nobody waits for a reader that is no more."""
+    context = Context()
+    context.init(domain_id=int(robot['ROS_DOMAIN_ID']))
+    node = Node('observer', context=context, enable_rosout=False, start_parameter_services=False)
+
+    def participants() -> int:
+        return len(node.get_publishers_info_by_topic('ros_discovery_info', no_mangle=True))
+
+    def see(count: int) -> None:
+        end_s = time.monotonic() + 10.0  # one that is killed is remembered for 20 s
+        while participants() != count and time.monotonic() < end_s:
+            time.sleep(0.02)
+        assert participants() == count
+
+    see(2)
+    process = start_at_robot('action', 'send_goal', '/look', TYPE, '{target_frame: wait}')
+    while not process.stdout.readline().startswith('Goal accepted'):
+        pass
+    see(3)
+    process.send_signal(signal.SIGINT)
+    process.wait(timeout=100)
+    see(2)
+    node.destroy_node()
+    context.try_shutdown()
 
 
 @pytest.mark.parametrize(('number', 'status'), [(signal.SIGINT, 2), (signal.SIGTERM, 15)])

@@ -21,7 +21,7 @@ from rosbags.highlevel import AnyReader
 Ros2 = Callable[..., CompletedProcess[str]]
 Start = Callable[..., Any]
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 100.0
 RATE_HZ = 200
 ATTEMPTS = 5
 
@@ -55,7 +55,7 @@ def _wait_for_messages(path: Path, count: int, start: int = 0) -> int:
     found = 0
     while found < start + count:
         assert time.monotonic() < end, f'only {found} messages in {path}'
-        time.sleep(0.05)
+        time.sleep(0.2)  # each look reads the whole file
         if path.exists() and path.stat().st_size > 8:
             found = sum(hasattr(each, 'sequence') for each in Salvage(str(path)).records())
     return found

@@ -131,7 +131,11 @@ def test_interrupt_at_any_time(
     ros_environment_variables: dict[str, str], words: tuple[str, ...], delay_s: float
 ) -> None:
     """Ctrl-C ends a command quietly, also while modules are imported, and if pressed twice."""
-    start = f"import runpy; print(flush=True); runpy.run_path('{SCRIPT}', run_name='__main__')"
+    start = (
+        f"names = {{'__name__': '__main__', '__file__': '{SCRIPT}'}}; "
+        f"code = compile(open('{SCRIPT}').read(), '{SCRIPT}', 'exec'); "
+        'print(flush=True); exec(code, names)'
+    )
     with subprocess.Popen(
         [sys.executable, '-c', start, *words],
         env=ros_environment_variables,

@@ -15,6 +15,7 @@ GROUPS = [
     'ros2bag.verb',
     'ros2cli.command',
     'ros2component.verb',
+    'ros2controlcli.verb',
     'ros2daemon.verb',
     'ros2doctor.checks',
     'ros2doctor.report',

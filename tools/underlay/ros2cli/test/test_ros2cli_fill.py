@@ -33,10 +33,19 @@ def test_values_are_cast_to_the_type_of_the_field() -> None:
     """Numbers become texts and floats where the field needs them."""
     text, flag, joints = String(), Bool(), JointState()
     fill(text, {'data': 1})
-    fill(flag, {'data': 1})
+    fill(flag, {'data': True})
     fill(joints, {'name': [1, 'b'], 'position': [1, 2]})
     assert (text.data, flag.data) == ('1', True)
     assert (joints.name, list(joints.position)) == (['1', 'b'], [1.0, 2.0])
+
+
+@pytest.mark.parametrize('value', ['maybe', 'flase', 'true', '', 1, 0.0, [True]])
+def test_booleans_are_those_of_yaml(value: Any) -> None:
+    """Anything else is truthy in Python, a typing mistake in an emergency stop as well."""
+    message = Bool()
+    with pytest.raises(ValueError, match="'data' needs true or false, but got"):
+        fill(message, {'data': value})
+    assert message.data is False
 
 
 def test_integers_are_exact() -> None:

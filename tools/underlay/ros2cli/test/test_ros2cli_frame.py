@@ -132,6 +132,12 @@ def test_heavy_modules_are_not_imported(
     assert imported_by(words, heavy, ros_environment_variables) == []
 
 
+def test_to_list_packages_takes_little(ros_environment_variables: dict[str, str]) -> None:
+    """What is installed is found out without what takes longer to load than the answer."""
+    heavy = {'inspect', 'pathlib', 'signal', 'threading', 'typing', 'urllib.parse'}
+    assert imported_by(['pkg', 'list'], heavy, ros_environment_variables) == []
+
+
 def test_rclpy_is_not_imported_to_show_arguments(
     ros_environment_variables: dict[str, str], tmp_path: Path
 ) -> None:

@@ -227,6 +227,10 @@ def test_topics_and_services_have_prefixes() -> None:
         ),
         ({'ROS_LOCALHOST_ONLY': '1'}, (0, 'LOCALHOST', ())),
         ({'ROS_LOCALHOST_ONLY': '1', 'ROS_STATIC_PEERS': 'robot'}, (0, 'LOCALHOST', ())),
+        (
+            {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'ROS_STATIC_PEERS': 'robot'},
+            (0, 'LOCALHOST', ()),
+        ),
         ({'ROS_AUTOMATIC_DISCOVERY_RANGE': 'OFF'}, (0, 'OFF', ())),
         ({'ROS_AUTOMATIC_DISCOVERY_RANGE': ''}, (0, 'SUBNET', ())),
         ({'ROS_AUTOMATIC_DISCOVERY_RANGE': 'subnet'}, (0, 'LOCALHOST', ())),

@@ -10,6 +10,7 @@ import fcntl
 from pathlib import Path
 import shlex
 import subprocess
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -17,18 +18,20 @@ from ros2cli.graph.interfaces import Interface
 from ros2doctor.api.finding import Finding, Severity
 from ros2doctor.check.client_library import client_library_findings
 from ros2doctor.check.clock import clock_findings
+from ros2doctor.check.diagnostics import diagnostics_findings
 from ros2doctor.check.environment import environment_findings
 from ros2doctor.check.frames import frame_findings
 from ros2doctor.check.graphics import graphics_findings
 from ros2doctor.check.libraries import library_findings
 from ros2doctor.check.neighbours import NeighboursCheck
-from ros2doctor.check.network import network_findings
-from ros2doctor.check.nodes import name_findings
+from ros2doctor.check.network import network_findings, who_reaches
+from ros2doctor.check.nodes import name_findings, namespace_findings
 from ros2doctor.check.qos import pair_findings
 from ros2doctor.check.scripts import mending_command, script_findings
 from ros2doctor.check.shared_memory import CLEAN_UP
 from ros2doctor.check.wheels import wheel_findings
 from ros2doctor.check.workspace import workspace_findings
+from ros2doctor.facts.diagnostics import DiagnosticsListener
 from ros2doctor.facts.environment import Environment
 from ros2doctor.facts.graph import Endpoint, Graph
 from ros2doctor.facts.graphics import Graphics
@@ -244,6 +247,19 @@ def test_network_without_fault(network: Network) -> None:
         ({'ROS_AUTOMATIC_DISCOVERY_RANGE': 'near'}, "ERROR: ROS_AUTOMATIC_DISCOVERY_RANGE is 'n"),
         ({'ROS_AUTOMATIC_DISCOVERY_RANGE': 'OFF'}, 'WARNING: ROS_AUTOMATIC_DISCOVERY_RANGE is O'),
         ({'ROS_LOCALHOST_ONLY': '1'}, 'WARNING: ROS_LOCALHOST_ONLY is set, which is deprecated'),
+        (
+            {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'ROS_STATIC_PEERS': '127.0.0.1;robot'},
+            "WARNING: ROS_STATIC_PEERS names 'robot', but ROS_AUTOMATIC_DISCOVERY_RANGE is "
+            'LOCALHOST',
+        ),
+        (
+            {
+                'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+                'ROS_DISCOVERY_SERVER': 'localhost:11811;10.0.0.2:11811',
+            },
+            "WARNING: ROS_DISCOVERY_SERVER names '10.0.0.2', but ROS_AUTOMATIC_DISCOVERY_RANGE is "
+            'LOCALHOST',
+        ),
         ({'ROS_DOMAIN_ID': 'x'}, "ERROR: ROS_DOMAIN_ID is 'x', which is no whole number from 0 t"),
         ({'ROS_DOMAIN_ID': '233'}, "ERROR: ROS_DOMAIN_ID is '233'"),
         ({'ROS_DOMAIN_ID': '102'}, 'WARNING: the ports of domain 102 begin at 32900, among those'),
@@ -255,6 +271,25 @@ def test_network_variables(network: Network, variables: dict[str, str], sentence
     changed = replace(network, variables={**network.variables, **variables})
     found = sentences(network_findings(changed))
     assert [text[: len(sentence)] for text in found] == [sentence]
+
+
+@pytest.mark.parametrize(
+    ('extent', 'profile', 'who'),
+    [
+        ('LOCALHOST', '/x/share/ros_environment/config/fastdds.xml', 'this machine only'),
+        ('SUBNET', '/x/share/ros_environment/config/fastdds.xml', 'every machine in the network'),
+        ('LOCALHOST', '', 'every machine in the network'),
+        ('LOCALHOST', '/my.xml', 'whoever /my.xml lets in'),
+        ('OFF', '', 'nobody'),
+    ],
+)
+def test_who_reaches(network: Network, extent: str, profile: str, who: str) -> None:
+    """The profile of the environment keeps LOCALHOST; another one, or none, need not."""
+    variables = {
+        'ROS_AUTOMATIC_DISCOVERY_RANGE': extent,
+        'FASTRTPS_DEFAULT_PROFILES_FILE': profile,
+    }
+    assert who_reaches(replace(network, variables=variables)) == who
 
 
 @pytest.mark.parametrize('domain', ['0', '42', '100', '215', '232'])
@@ -397,6 +432,43 @@ def test_pairs_name_both_nodes() -> None:
     ]
 
 
+def test_a_node_that_subscribes_twice() -> None:
+    """A node is reached if one of its subscriptions fits: that is what it has two for."""
+    endpoints = [
+        endpoint('/stopper', is_publisher=True, qos='volatile'),
+        endpoint('/robot', is_publisher=False, qos='transient local'),
+        endpoint('/robot', is_publisher=False, qos='volatile'),
+        endpoint('/late', is_publisher=False, qos='transient local'),
+    ]
+
+    def why_not(offered: str, requested: str) -> str:
+        return 'nothing kept' if (offered, requested) == ('volatile', 'transient local') else ''
+
+    assert sentences(pair_findings(endpoints, why_not)) == [
+        "ERROR: on '/image', what '/stopper' offers is not what '/late' asks for (nothing kept)"
+    ]
+
+
+def test_what_nodes_complain_of() -> None:
+    """What a node says that is not all right is shown, until it is all right again."""
+    listener = DiagnosticsListener(None)
+
+    def say(level: int, message: str) -> None:
+        status = SimpleNamespace(name='simulator: loop', level=bytes([level]), message=message)
+        listener.take(SimpleNamespace(status=[status]))
+
+    say(1, 'slow')
+    assert sentences(diagnostics_findings(listener.complaints)) == [
+        "WARNING: 'simulator: loop' says: slow"
+    ]
+    say(2, 'broken')
+    assert sentences(diagnostics_findings(listener.complaints)) == [
+        "ERROR: 'simulator: loop' says: broken"
+    ]
+    say(0, 'runs')
+    assert sentences(diagnostics_findings(listener.complaints)) == []
+
+
 def test_nodes_of_other_machines() -> None:
     """They are a warning in the domain that everybody has; another one was chosen on purpose."""
     graph = Graph(elsewhere=('/nao', '/wolfgang'))
@@ -411,6 +483,36 @@ def test_names_of_nodes() -> None:
     """A name that several nodes have is a warning with their number."""
     found = sentences(name_findings(['/a', '/b', '/a', '/a']))
     assert found == ["WARNING: 3 nodes have the name '/a'"]
+
+
+@pytest.mark.parametrize(
+    ('nodes', 'topic', 'is_publisher', 'is_found'),
+    [
+        (('/robot1/arm', '/robot2/arm'), '/joint_commands', True, True),
+        (('/robot1/arm',), '/joint_commands', True, False),
+        (('/robot1/arm', '/robot2/leg'), '/joint_commands', True, False),
+        (('/arm', '/robot2/arm'), '/joint_commands', True, False),
+        (('/robot1/arm', '/robot2/arm'), '/map', False, False),
+        (('/robot1/arm', '/robot2/arm'), '/tf', True, False),
+        (('/fleet/robot1/arm', '/fleet/robot2/arm'), '/fleet/robot1/joint_commands', True, False),
+    ],
+)
+def test_namespaces_without_effect(
+    nodes: tuple[str, ...], topic: str, is_publisher: bool, is_found: bool
+) -> None:
+    """Robots that publish on one absolute topic are named; what robots share is no finding."""
+    found = list(
+        namespace_findings(Endpoint(topic, node, 'T', is_publisher, None) for node in nodes)
+    )
+    assert bool(found) is is_found
+    if found:
+        assert sentences(found) == [
+            "WARNING: the namespaces robot1 and robot2 have no effect on '/joint_commands' of "
+            "'arm'"
+        ]
+        assert "'joint_commands' in the node, which becomes '/robot1/joint_commands'" in (
+            found[0].mend
+        )
 
 
 @pytest.mark.parametrize(

@@ -88,6 +88,14 @@ def test_show_args(ros2: Ros2, arm: dict[str, str]) -> None:
     assert (result.returncode, result.stderr) == (0, '')
 
 
+def test_show_args_of_a_noisy_file(ros2: Ros2, arm: dict[str, str]) -> None:
+    """What a launch file prints while it is loaded comes below the heading."""
+    Path('noisy.launch.py').write_text("print('printed')\n" + LAUNCH_FILE)
+    result = ros2('launch', 'noisy.launch.py', '--show-args', extra=arm)
+    assert result.stdout.startswith("Arguments (pass arguments as '<name>:=<value>'):\nprinted\n")
+    assert result.stdout.endswith("        (default: 'hello')\n")
+
+
 def test_prefix(ros2: Ros2, arm: dict[str, str]) -> None:
     """A prefix stands before the command of each process."""
     result = ros2('launch', '--launch-prefix', 'echo before', 'arm', 'say.launch.py', extra=arm)

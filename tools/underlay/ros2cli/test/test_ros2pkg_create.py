@@ -169,6 +169,11 @@ def test_existing_folder_is_left_alone(
     [
         (['test'], "cannot be named 'test'"),
         (['my-pkg'], "package 'my-pkg' is no name of a Python module"),
+        (['bad name'], "'bad name' is no name of a package: use letters, digits and underscores"),
+        (['1x'], "'1x' is no name of a package"),
+        (['_x'], "with a letter first, for example 'n_x'"),
+        (['class'], "package 'class' cannot be: 'class' is a word of the language Python"),
+        (['json'], "package 'json' cannot be: Python has a module 'json' of its own"),
         (['p', '--node-name', '2go'], "for example 'n2go'"),
         (['p', '--library-name', 'a b'], "for example 'a_b'"),
     ],

@@ -4,12 +4,19 @@
 from collections.abc import Callable
 import signal
 from subprocess import CompletedProcess
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from rclpy.duration import Infinite
-from rclpy.qos import LivelinessPolicy, qos_check_compatible, QoSCompatibility, QoSProfile
-from ros2topic.api.incompatibility import as_discovered
+from rclpy.qos import (
+    DurabilityPolicy,
+    LivelinessPolicy,
+    qos_check_compatible,
+    QoSCompatibility,
+    QoSProfile,
+)
+from ros2topic.api.incompatibility import as_discovered, Incompatibility
 
 Ros2 = Callable[..., CompletedProcess[str]]
 Start = Callable[..., Any]
@@ -61,6 +68,37 @@ def test_only_real_differences_are_named() -> None:
     assert status == QoSCompatibility.ERROR
     assert reason == (
         "ERROR: Publisher's liveliness is automatic and subscription's is manual by topic;"
+    )
+
+
+def test_a_node_with_one_subscription_that_fits_is_reached(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """A node that subscribes twice, as to the emergency stop, is named only if neither fits."""
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    infos = [
+        subscription('robot', latched, b'1'),
+        subscription('robot', QoSProfile(depth=1), b'2'),
+        subscription('late', latched, b'3'),
+    ]
+    graph = SimpleNamespace(get_subscriptions_info_by_topic=lambda topic: infos)
+    node = SimpleNamespace(
+        watch=SimpleNamespace(updated=lambda: graph), get_name=lambda: '_ros2cli_1'
+    )
+    ours = Incompatibility(node, '/emergency_stop', QoSProfile(depth=10), publishes=True)
+    ours.on_event(None)
+    ours.check()
+    (warning,) = capsys.readouterr().err.splitlines()
+    assert warning.startswith("WARNING: no message passes from '/_ros2cli_1' to '/late' on ")
+
+
+def subscription(node: str, profile: QoSProfile, gid: bytes) -> SimpleNamespace:
+    """Return a subscription as the graph describes it."""
+    return SimpleNamespace(
+        node_name=node,
+        node_namespace='/',
+        qos_profile=as_discovered(profile),
+        endpoint_gid=gid,
     )
 
 

@@ -175,6 +175,16 @@ ERRORS = [
         "Invalid field 'nope': 'JointState' object has no attribute 'nope'\n",
     ),
     (
+        [*ECHO_JOINTS, '--field', '__class__'],
+        '',
+        "Invalid field '__class__': 'JointState' object has no attribute '__class__'\n",
+    ),
+    (
+        [*ECHO_JOINTS, '--field', 'header.stamp.sec.real'],
+        '',
+        "Invalid field 'header.stamp.sec.real': 'int' object has no attribute 'real'\n",
+    ),
+    (
         [*ECHO_JOINTS, '--field', 'positions'],
         '',
         "Invalid field 'positions': 'JointState' object has no attribute 'positions'\n"

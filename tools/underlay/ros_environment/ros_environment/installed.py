@@ -26,6 +26,17 @@ def known_packages() -> set[str]:
     return names
 
 
+def built_on_demand(package: str) -> str:
+    """Return the sentence on a package that the environment builds on demand, or ''."""
+    for prefix in prefixes():
+        index = prefix / 'share' / 'ament_index' / 'resource_index' / 'on_demand'
+        for path in sorted(index.glob('*')):
+            words, _, sentence = path.read_text(encoding='utf-8').partition('\n')
+            if any(word in package for word in words.split()):
+                return sentence.strip()
+    return ''
+
+
 def is_installed_in(install: Path, package: str) -> bool:
     """Tell if a package was installed below a workspace's install folder, in either layout."""
     marker = Path('share', 'ament_index', 'resource_index', 'packages', package)

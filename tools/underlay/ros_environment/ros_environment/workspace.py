@@ -10,7 +10,6 @@ from ros_environment import advice, installed
 from ros_environment.missing_executable import explain_source_executable, misplaced_script
 from ros_environment.missing_file import explain_source_file
 from ros_environment.source_tree import find_workspace, source_packages, SourcePackage
-from ros_environment.unavailable import explain_unavailable
 
 
 def workspaces() -> list[Path]:
@@ -84,9 +83,9 @@ def _explain_unknown_package(package: str) -> str:
             'AMENT_PREFIX_PATH names no folder: neither a ROS 2 installation nor a workspace '
             'has been sourced. Run: source install/setup.bash'
         )
-    unavailable = explain_unavailable(package)
-    if unavailable:
-        return unavailable
+    waiting = installed.built_on_demand(package)
+    if waiting:
+        return f"'{package}' belongs to what is not built yet: {waiting}"
     known = installed.known_packages()
     for workspace in workspaces():
         known.update(source_packages(workspace))

@@ -116,11 +116,16 @@ def test_workspace_is_nearest_folder_with_packages(
     assert find_workspace(tmp_path / 'elsewhere') is None
 
 
-def test_package_that_cannot_be_there(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A package without a wheel is explained by what to do without it."""
-    monkeypatch.setenv('AMENT_PREFIX_PATH', str(install(workspace, 'arm')))
-    text = explain_missing_package('rclcpp_components')
-    assert text.startswith("'rclcpp_components' has no wheel on PyPI") and 'from source' in text
+def test_package_that_is_built_on_demand(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A package that waits in the environment is explained by what builds it."""
+    prefix = install(workspace, 'arm')
+    waiting = prefix / 'share' / 'ament_index' / 'resource_index' / 'on_demand'
+    waiting.mkdir(parents=True)
+    (waiting / 'navigation2').write_text('nav2 slam\nnavigation2 is not built yet: run this\n')
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(prefix))
+    text = explain_missing_package('nav2_bringup')
+    assert text.startswith("'nav2_bringup' belongs to") and text.endswith('run this')
+    assert 'run this' not in explain_missing_package('gripper')
 
 
 def test_deleted_current_folder(

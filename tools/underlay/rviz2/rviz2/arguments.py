@@ -15,9 +15,10 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
         prog='rviz2',
         allow_abbrev=False,
         description='Show in a browser what a robot says and knows. The address is printed.',
-        epilog='Parameters of the node, after --ros-args -p: host:=ADDRESS (default 127.0.0.1; '
-        'another one needs a token), port:=NUMBER (default: the first free one from 8080 on), '
-        'token:=TEXT (made up where one is needed), use_sim_time:=true.',
+        epilog='Parameters of the node, after --ros-args -p: host:=ADDRESS (default '
+        '127.0.0.1), port:=NUMBER (default: the first free one from 8080 on), '
+        'token:=TEXT (made up, and part of the address; none: whoever is on this machine), '
+        'use_sim_time:=true.',
     )
     parser.add_argument('-d', '--display-config', metavar='FILE', help='a .rviz file to show')
     parser.add_argument(

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ['main']
 
-Job = tuple[argparse.Namespace, Configuration]
+Job = tuple[argparse.Namespace, Configuration, str]
 
 
 def main(args: Sequence[str] | None = None) -> None:
@@ -27,17 +27,23 @@ def main(args: Sequence[str] | None = None) -> None:
 
 
 def _job(words: list[str]) -> Job:
-    """Return what is to be shown; what cannot be read ends the program before anything starts."""
+    """
+    Return what is to be shown, and a warning if it is not what was asked for.
+
+    What cannot be read ends the program before anything starts. A file that is not there does
+    not, as in the genuine RViz: launch files of books name some that they never print.
+    """
     arguments = parse(words)
+    if not arguments.display_config:  # launch files pass '' for none
+        return arguments, Configuration.default(), ''
     try:
-        if not arguments.display_config:  # launch files pass '' for none
-            configuration = Configuration.default()
-        else:
-            configuration = Configuration.read(arguments.display_config)
+        return arguments, Configuration.read(arguments.display_config), ''
     except ConfigError as error:
+        if isinstance(error.__cause__, FileNotFoundError):
+            warning = f'{error} RViz opens with its defaults; saving them makes the file.'
+            return arguments, Configuration.default(), warning
         sys.stderr.write(f'{error}\n')
         sys.exit(1)
-    return arguments, configuration
 
 
 def _show(job: Job) -> int:
@@ -59,18 +65,24 @@ def _show(job: Job) -> int:
 
 
 def _visualize(
-    node: Node, page: Page, arguments: argparse.Namespace, configuration: Configuration
+    node: Node,
+    page: Page,
+    arguments: argparse.Namespace,
+    configuration: Configuration,
+    warning: str,
 ) -> None:
     from rviz2.page_parameters import unknown_parameters
     from rviz_common.visualizer import Visualizer
     from rviz_common.visualizer.options import FIXED_FRAME
 
-    visualizer = Visualizer(node, page, configuration, arguments.display_config or '')
+    visualizer = Visualizer(
+        node, page, configuration, arguments.display_config or '', may_rest=True
+    )
     if arguments.fixed_frame is not None:
         visualizer.set_option(FIXED_FRAME, arguments.fixed_frame)
-    for sentence in unknown_parameters(node):
+    for sentence in filter(None, [warning, *unknown_parameters(node)]):
         node.get_logger().warning(sentence)
-    node.get_logger().info(f'RViz is at {page.url}')
+    node.get_logger().info(f'RViz is at {" and ".join(page.urls)}')
     spin(node)
     page.close()  # first, so that browsers keep what they show and say that it is lost
     visualizer.close()

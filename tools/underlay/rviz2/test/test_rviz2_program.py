@@ -101,8 +101,9 @@ def test_it_serves_a_page_and_ends_well(start, tmp_path: Path, number: int) -> N
     path = tmp_path / 'a.rviz'
     path.write_text(FILE)
     program = start('-d', str(path), '-f', 'odom', '--ros-args', '-p', 'hots:=x')
-    with urllib.request.urlopen(program.url()) as answer:
-        assert answer.status == 200
+    browser = urllib.request.build_opener(urllib.request.HTTPCookieProcessor())
+    with browser.open(program.url()) as answer:
+        assert answer.status == 200 and answer.url == program.url().partition('?')[0]
     end_s = time.monotonic() + PATIENCE_S
     while f"'Unknown' ({path}:3)" not in program.said:
         assert time.monotonic() < end_s, program.said
@@ -114,13 +115,34 @@ def test_it_serves_a_page_and_ends_well(start, tmp_path: Path, number: int) -> N
     assert 'Traceback' not in program.said
 
 
-def test_other_hosts_need_a_token(start) -> None:
+def test_a_file_that_is_missing(start, tmp_path: Path) -> None:
+    """It is said, with the whole path, and the page is there with the defaults."""
+    path = tmp_path / 'config' / 'robot_view.rviz'
+    program = start('-d', str(path))
+    browser = urllib.request.build_opener(urllib.request.HTTPCookieProcessor())
+    with browser.open(program.url()) as answer:
+        assert answer.status == 200
+    assert '[WARN]' in program.said
+    assert f'{path}: There is no such file. Looked for {path}. RViz opens' in program.said
+    assert program.end(signal.SIGINT) == 0
+
+
+@pytest.mark.parametrize('host', ['127.0.0.1', '0.0.0.0'])
+def test_needs_a_token(start, host: str) -> None:
     """The address has a token that was made up; without it nothing is shown."""
-    url = start('--ros-args', '-p', 'host:=0.0.0.0').url()
+    url = start('--ros-args', '-p', f'host:={host}').url()
     address, token = url.split('?token=')
     assert len(token) > 10
     with pytest.raises(urllib.error.HTTPError, match='401'):
         urllib.request.urlopen(address)
+
+
+def test_no_token_when_asked_for(start) -> None:
+    """`token:=none` shows the page to whoever is on this machine."""
+    url = start('--ros-args', '-p', 'token:=none').url()
+    assert '?' not in url
+    with urllib.request.urlopen(url) as answer:
+        assert answer.status == 200
 
 
 def test_a_port_in_use_is_named(environment: dict[str, str]) -> None:
@@ -138,7 +160,7 @@ def test_a_port_in_use_is_named(environment: dict[str, str]) -> None:
 @pytest.mark.parametrize(
     ('words', 'status', 'sentence'),
     [
-        (('-d', 'no.rviz'), 1, 'no.rviz: There is no such file'),
+        (('-d', '.'), 1, 'The file cannot be read: Is a directory'),
         (('--display-conf', 'x'), 2, 'unrecognized arguments: --display-conf'),
         (('some.rviz',), 2, 'unrecognized arguments: some.rviz'),
         (('--ros-args', '-p', 'host:=nowhere'), 1, "The host is 'nowhere', but must be"),

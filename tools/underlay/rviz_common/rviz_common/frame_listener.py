@@ -22,21 +22,33 @@ class FrameListener(TransformListener):
     Fills a buffer with all that has come whenever `take_all` is called.
 
     For an executor to wake for each message takes longer than to take the transforms out of it.
+    While it rests, it hears static transforms only: those that move come some 100 times a second,
+    and who listens again knows them all a moment later.
     """
 
     def __init__(self, buffer: Buffer, node: Node) -> None:
-        """Subscribe."""
         super().__init__(buffer, node, qos=MOVING, static_qos=STATIC)
 
     def take_all(self) -> None:
         """Take what has come since the last time, static transforms first."""
         for subscription in (self.tf_static_sub, self.tf_sub):
-            for _ in range(DEPTH):
+            for _ in range(DEPTH if subscription is not None else 0):
                 with subscription.handle:
                     found = subscription.handle.take_message(subscription.msg_type, True)
                 if found is None:
                     break
                 subscription.callback(found[0])
+
+    def rest(self) -> None:
+        """Subscribe `/tf` no longer."""
+        if self.tf_sub is not None:
+            self.node.destroy_subscription(self.tf_sub)
+            self.tf_sub = None
+
+    def resume(self) -> None:
+        """Subscribe `/tf` again."""
+        if self.tf_sub is None:
+            self.tf_sub = self._subscribe('/tf', False, MOVING)
 
     def _group(self) -> ReentrantCallbackGroup:
         return WaitingGroup()

@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 import functools
+import inspect
+import time
 from typing import Any
 
 from rclpy.node import Node
 from rviz_common.described_error import described_error
 from rviz_common.pace import Pace
+from rviz_common.polled_topic import WaitingGroup
 
 __all__ = ['GuardedNode']
 
@@ -23,11 +26,18 @@ class GuardedNode(Node):
     The log says which one failed, and why.
     """
 
+    @property
+    def subscriptions(self) -> Iterator[Any]:
+        """Yield the subscriptions that an executor is to serve: not those that are polled."""
+        for each in super().subscriptions:
+            if not isinstance(each.callback_group, WaitingGroup):
+                yield each
+
     def create_subscription(
         self, msg_type: Any, topic: str, callback: Callable[..., Any], *args: Any, **more: Any
     ) -> Any:
         """Subscribe a topic."""
-        guarded = self._guarded(callback, f"A message of '{topic}'")
+        guarded = self._guarded(_with_info(callback), f"A message of '{topic}'")
         return super().create_subscription(msg_type, topic, guarded, *args, **more)
 
     def create_timer(
@@ -50,3 +60,22 @@ class GuardedNode(Node):
                     self.get_logger().error(said)
 
         return guarded
+
+
+def _with_info(callback: Callable[..., Any]) -> Callable[..., Any]:
+    """
+    Give a callback that wants it the time at which it got the message.
+
+    The EventsExecutor of rclpy 7.1 has nothing to say about messages, and fails.
+    """
+    try:
+        inspect.signature(callback).bind(None)
+    except TypeError:
+        pass
+    else:
+        return callback
+
+    def call(message: Any) -> None:
+        callback(message, {'received_timestamp': time.time_ns(), 'source_timestamp': 0})
+
+    return call

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections import deque
+import time
 from typing import Any, ClassVar, NamedTuple
 
 from rviz_common.canvas import Canvas
@@ -40,11 +41,16 @@ class HistoryDisplay(TopicDisplay):
     A display of the last messages of a topic.
 
     Each stays in the fixed frame where its own frame was at the time of its stamp; it waits until
-    that is known. `draw` is called once for each.
+    that is known. A message that is overtaken by a newer one of its frame is given up: what tf
+    did not know of its time when it came, such as the first seconds, it never will. `draw` is
+    called once for each.
     """
 
     PATIENCE: ClassVar[int] = 10
     """How many messages wait for their transform."""
+    GRACE_S: ClassVar[float] = 2.0
+    """How long nothing may be drawn for want of a transform before that is said; transforms come
+    a moment later than what was measured at the same time, more so on a busy computer."""
     MOST: ClassVar[int] = 50
     """How many messages are shown at once while they decay."""
 
@@ -53,6 +59,7 @@ class HistoryDisplay(TopicDisplay):
         self._waiting: deque[Waiting] = deque()
         self._kept: deque[Kept] = deque()
         self._free: list[Place] = []
+        self._missing_since_s: float | None = None
         self._fixed_frame = self.context.frames.fixed_frame
         super().start()
 
@@ -65,6 +72,7 @@ class HistoryDisplay(TopicDisplay):
 
     def update(self) -> None:
         """Draw the messages whose place has become known, and remove old ones."""
+        super().update()
         if self.context.frames.fixed_frame != self._fixed_frame:
             self._fixed_frame = self.context.frames.fixed_frame
             self.redraw()
@@ -98,23 +106,37 @@ class HistoryDisplay(TopicDisplay):
 
     def _draw_ready(self) -> None:
         """Draw those of the waiting messages whose place is known."""
-        ready, still = [], []
+        ready: list[tuple[Waiting, Pose]] = []
+        still: list[Waiting] = []
         reason = ''
         for waiting in self._waiting:
             try:
-                ready.append((waiting, self._pose_of(waiting.message.header)))
+                pose = self._pose_of(waiting.message.header)
             except FrameError as error:
                 still.append(waiting)
                 reason = str(error)
+                continue
+            ready.append((waiting, pose))
+            frame = waiting.message.header.frame_id
+            still = [each for each in still if each.message.header.frame_id != frame]
         last = -self.PATIENCE
         self._waiting = deque(still[last:])
-        if reason:
-            self.status.say('Transform', Level.ERROR, reason)
-        else:
-            self.status.forget('Transform')
+        self._say_missing(reason if still and not ready else '')
         newest = -len(ready) if self.decay_s() else -self.keep()
         for waiting, pose in ready[newest:]:
             self._draw(waiting, pose)
+
+    def _say_missing(self, reason: str) -> None:
+        """Say why nothing can be drawn, once that has been so for a while."""
+        if not reason:
+            self._missing_since_s = None
+            self.status.forget('Transform')
+            return
+        now_s = self.steady_s()
+        if self._missing_since_s is None:
+            self._missing_since_s = now_s
+        if now_s - self._missing_since_s >= self.GRACE_S:
+            self.status.say('Transform', Level.ERROR, reason)
 
     def _draw(self, waiting: Waiting, pose: Pose) -> None:
         place = self._free.pop() if self._free else self._new_place()
@@ -161,6 +183,10 @@ class HistoryDisplay(TopicDisplay):
     def _pose_of(self, header: Any) -> Pose:
         stamp_ns = header.stamp.sec * 1_000_000_000 + header.stamp.nanosec
         return self.context.frames.pose(header.frame_id, max(stamp_ns, 0))
+
+    def steady_s(self) -> float:
+        """Return the time by which people wait, in seconds."""
+        return time.monotonic()
 
     def _now_ns(self) -> int:
         return int(self.context.node.get_clock().now().nanoseconds)

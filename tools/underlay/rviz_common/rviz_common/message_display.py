@@ -34,6 +34,7 @@ class MessageDisplay(TopicDisplay):
 
     def update(self) -> None:
         """Show the newest message, and follow its frame."""
+        super().update()
         message = self._newest
         if message is None:
             return

@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TYPE_CHECKING
 
 from rviz_common.context import Context
 from rviz_common.display import name_of
 from rviz_common.properties import Property, Values
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
 
 __all__ = ['Panel']
 
@@ -36,6 +39,11 @@ class Panel:
         self.context = context
         self.name = name_of(given, self.CLASS)
         self.values = Values(self.PROPERTIES, given)
+
+    @classmethod
+    def is_wanted(cls, node: Node) -> bool:
+        """Whether a panel on demand is to appear, as there is something that it is for."""
+        return False
 
     @property
     def unknown(self) -> list[str]:

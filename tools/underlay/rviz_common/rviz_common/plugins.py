@@ -7,11 +7,13 @@ from functools import cache
 from importlib.metadata import entry_points
 from typing import Any
 
-__all__ = ['DISPLAYS', 'PANELS', 'TOOLS', 'load_plugin', 'plugin_names']
+__all__ = ['DISPLAYS', 'PANELS', 'PANELS_ON_DEMAND', 'TOOLS', 'load_plugin', 'plugin_names']
 
 DISPLAYS = 'rviz_common.displays'
 PANELS = 'rviz_common.panels'
 TOOLS = 'rviz_common.tools'
+PANELS_ON_DEMAND = 'rviz_common.panels_on_demand'
+"""Panels that appear by themselves when there is something that they are for."""
 
 
 def plugin_names(group: str) -> list[str]:

@@ -7,10 +7,15 @@ from collections.abc import Callable
 from typing import Any, ClassVar
 
 from rviz_common.display import Display
+from rviz_common.pace import Pace
 from rviz_common.properties import qos_of
+from rviz_common.silence import reason_of_silence
 from rviz_common.status import Level
 
 __all__ = ['TopicDisplay']
+
+
+LOOK_S = 1.0
 
 
 class TopicDisplay(Display):
@@ -18,6 +23,8 @@ class TopicDisplay(Display):
     A display of what comes on a topic.
 
     Messages are given to `take` as they come; what is to be drawn of them waits for `update`.
+    While none comes, the status says what stands in the way: nobody publishes, another type, or
+    a quality of service that does not fit.
     """
 
     MESSAGE: ClassVar[type]
@@ -26,12 +33,24 @@ class TopicDisplay(Display):
         """Subscribe the topic."""
         self._frame = self.context.scene.add_frame(self.root, show_axes=False)
         self._subscriptions: list[Any] = []
+        self._silence_pace = Pace(LOOK_S)
         self.received = 0
+        self._is_silent = False
         topic = self.values['Topic/Value']
         if not topic:
             self.status.say('Topic', Level.WARN, 'No topic is chosen.')
         elif self.subscribe(self.message_type(topic), topic, self._count):
+            self._is_silent = True
             self.status.say('Topic', Level.WARN, f'No message has come on {topic} yet.')
+
+    def update(self) -> None:
+        """Say what stands in the way of messages, as long as none has come."""
+        topic = self.values['Topic/Value']
+        if not self._is_silent or not self._silence_pace.is_due():
+            return
+        kind, qos = self.message_type(topic), qos_of(self.values)
+        reason = reason_of_silence(self.context.node, kind, topic, qos)
+        self.status.say('Topic', Level.WARN, f'No message has come on {topic} yet{reason}')
 
     def stop(self) -> None:
         """Subscribe no longer, and remove what was drawn."""
@@ -61,12 +80,21 @@ class TopicDisplay(Display):
         raise NotImplementedError
 
     def subscribe(
-        self, kind: type, topic: str, take: Callable[[Any], None], path: str = 'Topic'
+        self,
+        kind: type,
+        topic: str,
+        take: Callable[[Any], None],
+        path: str = 'Topic',
+        **options: Any,
     ) -> bool:
-        """Have messages taken until the display stops; say it if that cannot be."""
+        """
+        Have messages taken until the display stops; say it if that cannot be.
+
+        Options are those of `Node.create_subscription`, such as `raw`.
+        """
         try:
             subscription = self.context.node.create_subscription(
-                kind, topic, take, qos_of(self.values, path)
+                kind, topic, take, qos_of(self.values, path), **options
             )
         except Exception as error:  # rclpy has no one exception for bad names
             self.status.say(path, Level.ERROR, f"'{topic}' cannot be subscribed: {error}")
@@ -87,4 +115,5 @@ class TopicDisplay(Display):
 
     def _count(self, message: Any) -> None:
         self.received += 1
+        self._is_silent = False
         self.take(message)

@@ -12,7 +12,7 @@ import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rviz_common.config import Configuration
-from rviz_common.page import Page
+from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.visualizer import Visualizer
 
 FILES = Path(__file__).parent / 'files'
@@ -22,7 +22,7 @@ PATIENCE_S = 100.0
 @pytest.fixture(scope='session')
 def page() -> Iterator[Page]:
     """Serve a page."""
-    with Page('test') as page:
+    with Page('test', PageSettings(token=NO_TOKEN)) as page:
         yield page
 
 

@@ -4,13 +4,13 @@
 import numpy as np
 import pytest
 from rviz_common.canvas import Canvas
-from rviz_common.page import Page
+from rviz_common.page import NO_TOKEN, Page, PageSettings
 
 
 @pytest.fixture(scope='module')
 def scene():
     """Return a scene."""
-    with Page('test') as page:
+    with Page('test', PageSettings(token=NO_TOKEN)) as page:
         yield page.viser.scene
 
 

@@ -4,7 +4,7 @@
 from types import SimpleNamespace
 
 import pytest
-from rviz_common.page import Page
+from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.panels.flags_folder import FlagsFolder
 from rviz_common.properties import Flags, Values
 
@@ -24,7 +24,7 @@ def test_boxes_come_with_their_names():
     """A new name gets a box; what a program or a person sets is in the other, too."""
     values = Values([NAMES], {'Namespaces': {'a': True}})
     taken = {}
-    with Page('test') as page:
+    with Page('test', PageSettings(token=NO_TOKEN)) as page:
         context = SimpleNamespace(
             gui=page.viser.gui, on_input=lambda box, take: taken.update({box.label: take})
         )

@@ -69,3 +69,36 @@ def test_transforms_wait_for_the_frame(context: Any) -> None:
     executor.shutdown()
     user.destroy_node()
     robot.destroy_node()
+
+
+def test_moving_transforms_only_while_it_does_not_rest(context: Any) -> None:
+    """A listener that rests hears static transforms only, and all of them when it resumes."""
+    robot = rclpy.create_node('robot', context=context)
+    user = rclpy.create_node('user', context=context)
+    buffer = Buffer()
+    listener = FrameListener(buffer, user)
+    listener.rest()
+    moving, static = TransformBroadcaster(robot), StaticTransformBroadcaster(robot)
+    static.sendTransform(transform('camera', 0))
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(user)
+
+    def known_after(wanted: str) -> set[str]:
+        end_s = time.monotonic() + TIMEOUT_S
+        while wanted not in (known := set(buffer._latest_samples())):
+            assert time.monotonic() < end_s, f'only these came: {known}'
+            moving.sendTransform(transform('base', 5))
+            executor.spin_once(timeout_sec=0.05)
+            listener.take_all()
+        return known
+
+    assert known_after('camera') == {'camera'}
+    assert robot.count_subscribers('/tf') == 0
+    listener.resume()
+    assert known_after('base') == {'camera', 'base'}
+    listener.rest()
+    listener.unregister()
+    assert list(user.subscriptions) == []
+    executor.shutdown()
+    user.destroy_node()
+    robot.destroy_node()

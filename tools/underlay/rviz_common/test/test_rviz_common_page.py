@@ -3,14 +3,21 @@
 
 from __future__ import annotations
 
+import asyncio
+from collections import deque
 from collections.abc import Iterator
 import gzip
 from http.client import HTTPConnection, HTTPResponse
 import socket
+import threading
+from typing import Any
 
 import pytest
-from rviz_common.page import Page, PageSettings, PortError, Route
+from ros2cli.graph.interfaces import Interface
+from rviz_common.page import listening, NO_TOKEN, Page, PageSettings, PortError, Route
 import viser
+from viser._messages import SetOrientationMessage
+from viser.infra._async_message_buffer import AsyncMessageBuffer
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed, ConnectionClosedError, InvalidStatus
 from websockets.sync.client import connect
@@ -22,7 +29,7 @@ PROTOCOL = Subprotocol(f'viser-v{viser.__version__}')
 @pytest.fixture
 def page() -> Iterator[Page]:
     """Serve a page on a port of its own."""
-    with Page('test') as page:
+    with Page('test', PageSettings(token=NO_TOKEN)) as page:
         yield page
 
 
@@ -44,7 +51,7 @@ def test_page(page: Page) -> None:
 
 def test_title() -> None:
     """The tab of the browser has the title of the page, packed or not."""
-    with Page('Left & right') as page:
+    with Page('Left & right', PageSettings(token=NO_TOKEN)) as page:
         assert b'<title>Left &amp; right</title>' in ask(page).read()
         answer = ask(page, **{'Accept-Encoding': 'gzip'})
         body = answer.read()
@@ -59,6 +66,13 @@ def test_listens_here_only(page: Page) -> None:
     other.close()
 
 
+def test_port_is_taken_at_once() -> None:
+    """Of two programs that start at the same time, one gets the port and the other a sentence."""
+    with listening.listen(PageSettings()) as first:
+        with pytest.raises(PortError, match='cannot be taken: Address already in use'):
+            listening.listen(PageSettings(port=first.getsockname()[1]))
+
+
 def test_evil_origin(page: Page) -> None:
     """A site that a browser shows cannot use the page through that browser."""
     url = f'ws://127.0.0.1:{page.port}'
@@ -71,21 +85,80 @@ def test_evil_origin(page: Page) -> None:
         assert client.recv(timeout=100)
 
 
-def test_token() -> None:
-    """A page that others can reach needs a token, which moves from the address to a cookie."""
-    with Page('test', PageSettings(host='0.0.0.0')) as page:
+@pytest.mark.parametrize('host', ['127.0.0.1', '0.0.0.0'])
+def test_token(host: str) -> None:
+    """A page needs a token, which moves from the address to a cookie, also on this machine."""
+    with Page('test', PageSettings(host=host)) as page:
         token = page.settings.token
         assert len(token) > 20 and page.url.endswith(f':{page.port}/?token={token}')
         assert ask(page).status == 401
         assert ask(page, '/?token=x').status == 403
-        answer = ask(page, f'/?token={token}')
-        assert (answer.status, answer.getheader('Location')) == (303, '/')
+        answer = ask(page, f'/?a=1&token={token}&b=2')
+        assert (answer.status, answer.getheader('Location')) == (303, '/?a=1&b=2')
         cookie = answer.getheader('Set-Cookie', '')
         assert 'HttpOnly' in cookie and 'SameSite=Strict' in cookie
         assert ask(page, Cookie=cookie.partition(';')[0]).status == 200
-        with pytest.raises(InvalidStatus) as refused:
-            connect(f'ws://127.0.0.1:{page.port}', subprotocols=[PROTOCOL])
-        assert refused.value.response.status_code == 401
+        address = f'ws://127.0.0.1:{page.port}/'
+        for query, status in (('', 401), ('?token=x', 403)):
+            with pytest.raises(InvalidStatus) as refused:
+                connect(f'{address}{query}', subprotocols=[PROTOCOL])
+            assert refused.value.response.status_code == status
+        with connect(f'{address}?token={token}', subprotocols=[PROTOCOL]) as client:
+            assert client.recv(timeout=30)
+
+
+def test_each_start_has_a_token_of_its_own() -> None:
+    """What somebody knew of a page does not open the next one."""
+    with Page('test', PageSettings()) as first, Page('test', PageSettings()) as second:
+        assert first.settings.token != second.settings.token
+
+
+@pytest.mark.parametrize(('path', 'status'), [('/', 401), ('/?token=x', 403), ('/drive', 401)])
+def test_sign_in(path: str, status: int) -> None:
+    """People who come without the token are told where it is, and can put it in."""
+    with Page('Left & right', PageSettings()) as page:
+        answer = ask(page, path, Accept='text/html,*/*;q=0.8')
+        text = answer.read().decode()
+        assert answer.status == status
+        assert '<input name="token"' in text
+        assert f'Left &amp; right is at http://127.0.0.1:{page.port}/?token=' in text
+        assert page.settings.token not in text
+        assert ask(page, path).getheader('Content-Type') == 'text/plain; charset=utf-8'
+        evil = ask(page, path, Accept='text/html', Host='<script>alert(1)</script>')
+        assert b'<script>alert' not in evil.read()
+
+
+def test_no_token_when_asked_for() -> None:
+    """`none` admits whoever is on this machine, and nobody else."""
+    with Page('test', PageSettings(token=NO_TOKEN)) as page:
+        assert page.url == f'http://127.0.0.1:{page.port}/'
+        assert ask(page).status == 200
+        assert ask(page, Host='evil.example').status == 403
+    with pytest.raises(ValueError, match='everybody there could drive the robot'):
+        PageSettings(host='0.0.0.0', token=NO_TOKEN)
+
+
+def test_reachable_addresses(monkeypatch: pytest.MonkeyPatch) -> None:
+    """All addresses are named that lead here, also where nothing leads to other networks."""
+    interfaces = [
+        Interface('lo', '127.0.0.1', True, True, False),
+        Interface('eth0', '10.1.0.2', True, False, True),
+        Interface('wlan0', '192.168.3.4', True, False, True),
+        Interface('eth1', '10.9.0.2', False, False, True),
+        Interface('can0', '', True, False, False),
+    ]
+    monkeypatch.setattr(listening, 'read_interfaces', lambda: iter(interfaces))
+    monkeypatch.setattr(listening, '_address_to_other_networks', lambda version: '')
+    assert listening.reachable('0.0.0.0') == ['10.1.0.2', '192.168.3.4']
+    assert listening.reachable('127.0.0.1') == ['127.0.0.1']
+    monkeypatch.setattr(listening, '_address_to_other_networks', lambda version: '192.168.3.4')
+    assert listening.reachable('0.0.0.0') == ['192.168.3.4', '10.1.0.2']
+    monkeypatch.setattr(listening, 'read_interfaces', lambda: iter(interfaces[:1]))
+    monkeypatch.setattr(listening, '_address_to_other_networks', lambda version: '')
+    assert listening.reachable('0.0.0.0') == ['127.0.0.1']
+    assert listening.reachable('::') == ['::1']
+    with Page('test', PageSettings(host='0.0.0.0', token='mine')) as page:
+        assert page.urls == [f'http://127.0.0.1:{page.port}/?token=mine']
 
 
 def test_own_token() -> None:
@@ -97,17 +170,17 @@ def test_own_token() -> None:
 
 def test_next_port(page: Page) -> None:
     """A second page takes another port, unless it must have the one that is taken."""
-    with Page('test') as other:
+    with Page('test', PageSettings(token=NO_TOKEN)) as other:
         assert other.port != page.port
     with pytest.raises(PortError, match=f'Port {page.port} of 127.0.0.1 cannot be taken: '):
-        Page('test', PageSettings(port=page.port))
+        Page('test', PageSettings(port=page.port, token=NO_TOKEN))
 
 
 def test_port_is_free_again() -> None:
     """A page that is closed leaves its port to the next one."""
-    with Page('test') as page:
+    with Page('test', PageSettings(token=NO_TOKEN)) as page:
         port = page.port
-    with Page('test', PageSettings(port=port)) as page:
+    with Page('test', PageSettings(port=port, token=NO_TOKEN)) as page:
         assert ask(page).status == 200
 
 
@@ -127,7 +200,7 @@ def test_settings(arguments: dict[str, object], sentence: str) -> None:
 
 def test_nothing_is_printed(capfd: pytest.CaptureFixture[str]) -> None:
     """The address, which may have a token, is the caller's to print."""
-    with Page('test'):
+    with Page('test', PageSettings(token=NO_TOKEN)):
         pass
     assert capfd.readouterr() == ('', '')
 
@@ -210,3 +283,36 @@ def test_foreign_address() -> None:
         PortError, match=r'^192\.0\.2\.9 cannot be used: .* address of this machine'
     ):
         Page('test', PageSettings(host='192.0.2.9'))
+
+
+class Hurrying(deque[Any]):
+    """Those who wait for an event; another thread does something just before one of them does."""
+
+    def __init__(self, before: threading.Thread) -> None:
+        super().__init__()
+        self._before = before
+
+    def append(self, waiting: Any) -> None:
+        """Note who waits, after the thread has come to its end."""
+        if self._before.ident is None:
+            self._before.start()
+            self._before.join()
+        super().append(waiting)
+
+
+def test_update_that_comes_just_before_a_browser_waits() -> None:
+    """It is sent: viser's buffer of updates wakes those who wait in its event loop only."""
+
+    async def next_update() -> Any:
+        buffer = AsyncMessageBuffer(asyncio.get_running_loop(), persistent_messages=True)
+        update = SetOrientationMessage('/link', (1.0, 0.0, 0.0, 0.0))
+        hurrying = Hurrying(threading.Thread(target=buffer.push, args=(update,)))
+        buffer.message_event._waiters = hurrying
+        windows = buffer.window_generator(0)
+        try:
+            return (await asyncio.wait_for(windows.__anext__(), 10.0))[0] is update
+        finally:
+            buffer.set_done()
+            await windows.aclose()
+
+    assert asyncio.run(next_update())

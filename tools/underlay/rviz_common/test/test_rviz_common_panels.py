@@ -175,6 +175,15 @@ def test_a_panel_that_fails_harms_no_other(context: Context, show: Show, capfd: 
     assert shown.panels.to_file() == [{'Class': 'rviz_common/Time'}, {'Class': 'a/B', 'X': 1}]
 
 
+def test_a_panel_with_a_value_that_cannot_be_used(show: Show, capfd: Any) -> None:
+    """It has its default instead, which the log says."""
+    show("Panels:\n  - Class: rviz_common/Time\n    Sync Source: ''\n")
+    show("Panels:\n  - {Class: robot_console/Log, Name: What nodes say, Namespace: '1x'}\n")
+    said = capfd.readouterr().err
+    assert said.count('Of the panel') == 1
+    assert "'What nodes say' (robot_console/Log), 'Namespace' must be like 'robot1'" in said
+
+
 def test_another_topic_of_a_tool_is_used_at_once(show: Show, node: Any) -> None:
     """Who changes the topic of a tool need not start anew."""
     tools = 'Visualization Manager:\n  Tools:\n    - Class: rviz_default_plugins/SetGoal\n'

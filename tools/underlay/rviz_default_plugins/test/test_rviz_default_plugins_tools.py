@@ -13,7 +13,7 @@ from rclpy.logging import get_logger
 from rclpy.qos import DurabilityPolicy
 from rviz_common.context import Context
 from rviz_common.frames import Frames
-from rviz_common.page import Page
+from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.plugins import load_plugin, plugin_names, TOOLS
 from rviz_common.work_queue import WorkQueue
 from rviz_default_plugins.tools.measure import Measure
@@ -68,7 +68,7 @@ class FakeNode:
 @pytest.fixture(scope='module')
 def page() -> Iterator[Page]:
     """Serve a page."""
-    with Page('test') as page:
+    with Page('test', PageSettings(token=NO_TOKEN)) as page:
         yield page
 
 

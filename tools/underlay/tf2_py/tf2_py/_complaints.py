@@ -10,12 +10,16 @@ _SILENCE_S = 10.0
 
 
 class Complaints:
-    """Says each kind of complaint at most every ten seconds."""
+    """Says each kind of complaint at most every ten seconds, or how often it is told to."""
 
     def __init__(
-        self, say: Callable[[str], object], now_s: Callable[[], float] = time.monotonic
+        self,
+        say: Callable[[str], object],
+        now_s: Callable[[], float] = time.monotonic,
+        silence_s: float = _SILENCE_S,
     ) -> None:
         """Create the object; it has said nothing yet."""
+        self._silence_s = silence_s
         self._say = say
         self._now_s = now_s
         self._said_s: dict[tuple[str, ...], float] = {}
@@ -23,6 +27,6 @@ class Complaints:
     def add(self, text: str, *kind: str) -> None:
         """Say a text unless one of this kind was said just now."""
         now_s = self._now_s()
-        if now_s - self._said_s.get(kind, -_SILENCE_S) >= _SILENCE_S:
+        if now_s - self._said_s.get(kind, -self._silence_s) >= self._silence_s:
             self._said_s[kind] = now_s
             self._say(text)

@@ -13,11 +13,13 @@ from typing import IO
 from domain_coordinator import domain_id
 import pytest
 import rclpy
+from rclpy.action import ActionClient, ActionServer
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 sys.path.insert(0, str(Path(__file__).parents[2] / 'tf2_py' / 'test'))
+ACTIONS = (ActionClient, ActionServer)
 TIMEOUT_S = 100.0
 
 
@@ -40,7 +42,11 @@ def context(domain: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
 
 @pytest.fixture
 def make_node(context: Context) -> Iterator[Callable[..., Node]]:
-    """Return a function that creates a node; all end with the test, for others hear them."""
+    """
+    Return a function that creates a node; all end with the test, for others hear them.
+
+    So do clients and servers of actions, which a node does not destroy itself.
+    """
     made: list[Node] = []
 
     def make(name: str, **options: object) -> Node:
@@ -49,6 +55,8 @@ def make_node(context: Context) -> Iterator[Callable[..., Node]]:
 
     yield make
     for node in made:
+        for action in [each for each in node.waitables if isinstance(each, ACTIONS)]:
+            action.destroy()
         node.destroy_node()
 
 

@@ -7,13 +7,14 @@ from collections.abc import Callable, Iterator
 import signal
 import subprocess
 import threading
+import time
 from typing import Any
 
 from geometry_msgs.msg import PointStamped
 import pytest
 from rclpy.action import ActionClient
 from rclpy.duration import Duration
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 import tf2_geometry_msgs  # noqa: F401 - registers the messages
 from tf2_messages import at, numbers, stamped
@@ -41,12 +42,11 @@ NAME = 'transforms'
 def spinning(context: Any) -> Iterator[Callable[[Node], Node]]:
     """Return a function that lets a node work in a thread until the test ends."""
     threads: list[tuple[SingleThreadedExecutor, threading.Thread]] = []
+    is_over = threading.Event()
 
     def work(executor: SingleThreadedExecutor) -> None:
-        try:
-            executor.spin()
-        except ExternalShutdownException:
-            pass
+        while not is_over.is_set():
+            executor.spin_once(timeout_sec=0.1)
 
     def start(node: Node) -> Node:
         executor = SingleThreadedExecutor(context=context)
@@ -57,9 +57,10 @@ def spinning(context: Any) -> Iterator[Callable[[Node], Node]]:
         return node
 
     yield start
+    is_over.set()
     for executor, thread in threads:
-        executor.shutdown()
         thread.join()
+        executor.shutdown()
 
 
 @pytest.fixture
@@ -83,13 +84,32 @@ def test_look_up(buffer: Buffer, client: BufferClient) -> None:
     buffer.set_transform(stamped('map', 'odom', 1.0, (0, 0, 0)), 'test')
     buffer.set_transform(stamped('map', 'odom', 2.0, (2, 0, 0)), 'test')
     buffer.set_transform_static(stamped('odom', 'base', 0.0, (0, 3, 0)), 'test')
-    for time in (at(1.5), at(1.5).to_msg(), at(0)):
-        assert client.lookup_transform('map', 'base', time) == buffer.lookup_transform(
-            'map', 'base', time
+    for when in (at(1.5), at(1.5).to_msg(), at(0)):
+        assert client.lookup_transform('map', 'base', when) == buffer.lookup_transform(
+            'map', 'base', when
         )
     question = ('odom', at(2.0), 'odom', at(1.0), 'map')
     assert numbers(client.lookup_transform_full(*question))[0] == -2.0
     assert client.lookup_transform_full(*question) == buffer.lookup_transform_full(*question)
+
+
+class SlowlyRead(dict[Any, Any]):
+    """A dictionary in which it takes a while to find whether it has a key."""
+
+    def __contains__(self, key: object) -> bool:
+        """Return the answer late."""
+        time.sleep(0.2)
+        return super().__contains__(key)
+
+
+def test_an_answer_comes_before_its_request_is_noted_down(
+    buffer: Buffer, client: BufferClient
+) -> None:
+    """The thread that spins hands over no answer that nobody waits for yet."""
+    buffer.set_transform_static(stamped('map', 'base', 0.0, (0, 3, 0)), 'test')
+    for requests in ('_pending_goal_requests', '_pending_result_requests'):
+        setattr(client.action_client, requests, SlowlyRead())
+    assert client.can_transform('map', 'base', at(0)) is True
 
 
 def test_can_transform(buffer: Buffer, client: BufferClient) -> None:

@@ -13,7 +13,7 @@ import threading
 import pytest
 
 Start = Callable[..., subprocess.Popen[str]]
-TIMEOUT_S = 60.0
+TIMEOUT_S = 100.0
 PUBLISHER = 'tf2_ros.static_transform_publisher'
 OLDER_THREAD = """
 import sys

@@ -12,6 +12,7 @@ from rclpy.duration import Duration
 from rclpy.logging import get_logger
 from rclpy.task import Future
 from tf2_py import BufferCore, TransformException
+from tf2_py._complaints import Complaints
 from tf2_py._messages import nanoseconds, Reading
 from tf2_py._reasons import after_waiting
 from tf2_ros._waiting import Waiting
@@ -28,6 +29,9 @@ _BLOCKED = (
     'receives them: create the TransformListener with spin_thread=True, or await '
     'lookup_transform_async'
 )
+
+QUIET_S = 60.0
+"""Two simulators in a domain make the time jump with every message of /clock: it is said once."""
 
 
 class Question(NamedTuple):
@@ -60,6 +64,7 @@ class Buffer(BufferCore, BufferInterface):
         BufferInterface.__init__(self)
         self._node: Optional[Node] = None
         self._jumps: Any = None
+        self._jump_complaints = Complaints(self._warn, silence_s=QUIET_S)
         self._waiting = Waiting(self._is_alive)
         if node is not None:
             from tf2_msgs.srv import FrameGraph
@@ -84,7 +89,7 @@ class Buffer(BufferCore, BufferInterface):
         kept_clock = (ClockChange.ROS_TIME_NO_CHANGE, ClockChange.SYSTEM_TIME_NO_CHANGE)
         is_back = time_jump.clock_change in kept_clock
         what = 'jump back in time' if is_back else 'change between system and simulated time'
-        self._warn(f'Detected {what}. Clearing TF buffer.')
+        self._jump_complaints.add(f'Detected {what}. Clearing TF buffer.', what)
         self.clear()
 
     def lookup_transform(

@@ -13,14 +13,15 @@ import time
 from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
-    from rclpy.executors import Executor
     from rclpy.node import Node
+    from rclpy.task import Future
 
 __all__ = ['run', 'run_node', 'spin', 'wait_for_signal']
 
 ArgumentsT = TypeVar('ArgumentsT')
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 _LOOK_S = 1.0
+_END_S = 3.0
 BROKEN_PIPE_STATUS = 128 + signal.SIGPIPE
 
 
@@ -134,25 +135,40 @@ def _status_of_lost_output(error: OSError) -> int:
 
 
 def spin(node: Node, timeout_s: float | None = None) -> bool:
-    """Let a node work until a signal to stop, or so long; return whether a signal came."""
-    from rclpy.executors import SingleThreadedExecutor
+    """
+    Let a node work until a signal to stop, or so long; return whether a signal came.
+
+    With it work its `companions`, if it has any: further nodes that it has made for itself. It
+    works in a thread of its own, so that the signals are heard whatever it does. A callback
+    that does not return within some seconds is not waited for: the process ends.
+    """
+    from rclpy.task import Future
     from tf2_ros._clock_watch import watch_clock
 
     watch_clock(node)
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-    stop = threading.Event()
+    stop: Future[None] = Future()
     failures: list[Exception] = []
-    thread = threading.Thread(target=_work, args=(executor, stop, failures), name='node')
+    thread = threading.Thread(target=_work, args=(node, stop, failures), name='node', daemon=True)
     thread.start()
     is_stopped = wait_for_signal(timeout_s)
-    stop.set()
-    executor.create_task(lambda: None)  # it looks up from its waiting
-    thread.join()
-    executor.shutdown()  # not before: rclpy's executors break if that is done while they spin
+    stop.set_result(None)
+    thread.join(_END_S)
+    if thread.is_alive():
+        _leave(node)
     if failures:
         raise failures[0]
     return is_stopped
+
+
+def _leave(node: Node) -> None:
+    """End the process although a callback runs; nothing else could end that."""
+    sys.stderr.write(
+        f"The node '{node.get_name()}' was busy in a callback for {_END_S:g} s after the signal "
+        'to stop, and was ended.\n'
+    )
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(1)
 
 
 def wait_for_signal(timeout_s: float | None) -> bool:
@@ -167,11 +183,17 @@ def wait_for_signal(timeout_s: float | None) -> bool:
     return False
 
 
-def _work(executor: Executor, stop: threading.Event, failures: list[Exception]) -> None:
-    """Let nodes work until they are to stop; a failure is for the main thread to raise."""
+def _work(node: Node, stop: Future[None], failures: list[Exception]) -> None:
+    """Let a node work; a failure is for the main thread to raise."""
+    from tf2_ros._executing import make_executor, spin_until
+
+    executor = make_executor()
+    for each in (node, *getattr(node, 'companions', ())):
+        executor.add_node(each)
     try:
-        while not stop.is_set():
-            executor.spin_once()
+        spin_until(executor, stop)
     except Exception as error:
         failures.append(error)
         os.kill(os.getpid(), signal.SIGTERM)
+    finally:
+        executor.shutdown()

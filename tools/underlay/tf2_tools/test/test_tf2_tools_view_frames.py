@@ -9,12 +9,15 @@ from pathlib import Path
 import signal
 import subprocess
 import sys
+from xml.etree import ElementTree
 
 from domain_coordinator import domain_id
 import pytest
 from tf2_tools.drawing import draw, write_graph
+from tf2_tools.tree_svg import tree_svg
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 100.0
+SVG = '{http://www.w3.org/2000/svg}'
 DOT = """#!/bin/sh
 [ "$1" = -Tpdf ] && [ "$3" = -o ] || exit 2
 grep -q digraph "$2" || { echo "no graph in $2" >&2; exit 1; }
@@ -95,14 +98,29 @@ def test_interrupt_of_graphviz(tmp_path: Path, dot: None, environment: dict[str,
     assert f'dot has not drawn {path}.gv so far, and was stopped' in errors
 
 
-def test_no_graphviz(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without graphviz the way out is named."""
-    monkeypatch.setenv('PATH', str(tmp_path))
-    assert "'sudo apt install graphviz'" in draw(str(tmp_path / 'frames'), never)
+def test_tree_as_svg() -> None:
+    """Each frame is below its parent and further to the right; circles and odd names are drawn."""
+    facts = {'broadcaster': 'a', 'rate': 9.96, 'most_recent_transform': 2.0, 'buffer_length': 1.0}
+    parents = {'base': 'odom', 'arm': 'base', '<&>': 'base', 'odom': 'map', 'x': 'y', 'y': 'x'}
+    text = tree_svg({frame: {**facts, 'parent': parent} for frame, parent in parents.items()})
+    names = [each.text for each in ElementTree.fromstring(text).iter(f'{SVG}text')][::2]
+    assert names == ['map', 'odom', 'base', '<&>', 'arm', 'x', 'y']
+    boxes = [int(each.get('x', '0')) for each in ElementTree.fromstring(text).iter(f'{SVG}rect')]
+    assert boxes[1:] == [20, 56, 92, 128, 128, 20, 56]
+    assert 'a, 10.0 Hz, the last 1.0 s until 2.000' in text
+    assert 'no tf data' in tree_svg({})
+
+
+def test_chain_of_many_frames() -> None:
+    """A tree that is very deep is drawn as well."""
+    facts = {'broadcaster': 'a', 'rate': 1.0, 'most_recent_transform': 0.0, 'buffer_length': 0.0}
+    chain = {f'd{number + 1}': {**facts, 'parent': f'd{number}'} for number in range(5000)}
+    assert tree_svg(chain).count('<path') == 5000
 
 
 def test_program(tmp_path: Path, environment: dict[str, str]) -> None:
-    """The program writes the graph of what it has heard, and prints it as YAML."""
+    """The program writes the graph of what it has heard, draws it, and prints it as YAML."""
+    environment['PATH'] = str(tmp_path)  # without graphviz
     names = ['--frame-id', 'map', '--child-frame-id', 'odom']
     publisher = start(environment, 'tf2_ros.static_transform_publisher', *names)
     path = str(tmp_path / 'frames')
@@ -116,6 +134,8 @@ def test_program(tmp_path: Path, environment: dict[str, str]) -> None:
         f'{path}.gv'
     ).read_text(encoding='utf-8')
     assert "odom: \n  parent: 'map'\n" in output
+    assert f'Generating graph in {path}.svg file...' in errors
+    assert '>odom</text>' in Path(f'{path}.svg').read_text(encoding='utf-8')
 
 
 def test_nothing_comes(tmp_path: Path, environment: dict[str, str]) -> None:
@@ -135,7 +155,7 @@ def test_file_that_cannot_be_written(tmp_path: Path, environment: dict[str, str]
     viewer = start(environment, 'tf2_tools.view_frames', '-t', '0.1', '-o', path)
     _, errors = viewer.communicate(timeout=TIMEOUT_S)
     assert viewer.returncode == 1 and 'Traceback' not in errors
-    assert f'{path}.gv cannot be written' in errors
+    assert f'{path} cannot be written' in errors
 
 
 def test_interrupt(tmp_path: Path, environment: dict[str, str]) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Write a graph, and let graphviz draw it."""
+"""Write a graph, and draw it: by graphviz as a PDF, without it as an SVG."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ import os
 import shutil
 import subprocess
 import time
+
+from tf2_tools.tree_svg import Frames, tree_svg
 
 _TIMEOUT_S = 60.0
 _LOOK_S = 0.1
@@ -21,18 +23,24 @@ def write_graph(path: str, graph: str) -> str:
     return f'{path}.gv'
 
 
+def has_graphviz() -> bool:
+    """Whether graphviz's program `dot` is installed."""
+    return shutil.which('dot') is not None
+
+
+def write_tree(path: str, frames: Frames) -> str:
+    """Write the tree as PATH.svg; return the path of the file, or raise OSError."""
+    with open(f'{path}.svg', 'w', encoding='utf-8') as file:
+        file.write(tree_svg(frames))
+    return f'{path}.svg'
+
+
 def draw(path: str, is_stopped: Callable[[], bool]) -> str:
     """
-    Draw PATH.gv as PATH.pdf; return what kept it from being drawn, or ''.
+    Let graphviz draw PATH.gv as PATH.pdf; return what kept it from being drawn, or ''.
 
     :param is_stopped: is asked again and again while graphviz works
     """
-    if shutil.which('dot') is None:
-        return (
-            f"There is no {path}.pdf, because graphviz's program 'dot' is not installed. Install "
-            f"it ('sudo apt install graphviz') and run 'dot -Tpdf {path}.gv -o {path}.pdf', or "
-            f'paste {path}.gv into a viewer of graphviz files'
-        )
     command = ['dot', '-Tpdf', f'{path}.gv', '-o', f'{path}.pdf']
     try:
         process = subprocess.Popen(

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 from tf2_ros.argument_types import number_in
 from tf2_ros.program import run, spin, wait_for_signal
-from tf2_tools.drawing import draw, write_graph
+from tf2_tools.drawing import draw, has_graphviz, write_graph, write_tree
+import yaml
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -57,15 +58,19 @@ def _view(args: argparse.Namespace) -> int:
     if spin(node, args.wait_time):
         return 0
     path = args.output or datetime.now().strftime('frames_%Y-%m-%d_%H.%M.%S')
-    logger.info(f'Generating graph in {path}.pdf file...')
+    drawn = f'{path}.pdf' if has_graphviz() else f'{path}.svg'
+    logger.info(f'Generating graph in {drawn} file...')
     try:
         write_graph(path, buffer._allFramesAsDot())
+        if drawn.endswith('.svg'):
+            write_tree(path, yaml.safe_load(buffer.all_frames_as_yaml()))
     except OSError as error:
-        logger.error(f'{path}.gv cannot be written: {error.strerror}. Give another --output')
+        logger.error(f'{path} cannot be written: {error.strerror}. Give another --output')
         return 1
-    problem = draw(path, partial(wait_for_signal, 0.0))
-    if problem:
-        logger.warning(problem)
+    if drawn.endswith('.pdf'):
+        problem = draw(path, partial(wait_for_signal, 0.0))
+        if problem:
+            logger.warning(problem)
     _say_what_is_missing(node, buffer)
     print(buffer.all_frames_as_yaml().rstrip(), flush=True)
     return 0

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from humanoid_common.qos import SENSOR
-from humanoid_control.backends import Observation
+from humanoid_control.backends import ImuNoise, Observation
 from humanoid_control.hosting.topics.filling import (
     fill_quaternion,
     fill_stamp,
@@ -14,13 +14,29 @@ from humanoid_control.hosting.topics.filling import (
 from rclpy.node import Node
 from sensor_msgs.msg import Imu
 
+_DIAGONAL = slice(0, 9, 4)
+_HEADING = 8
+
 
 class ImuTopic:
-    """The topic `imu/data`; zero covariances mean that they are not known (REP-145)."""
+    """
+    The topic `imu/data`.
 
-    def __init__(self, node: Node, robot: str, prefix: str) -> None:
+    Covariances are those of the sensor; zero ones mean that they are not known (REP-145). That of
+    the heading grows with the time since the start, as no compass corrects it.
+    """
+
+    def __init__(self, node: Node, robot: str, prefix: str, noise: ImuNoise) -> None:
         """Prepare the message."""
+        self._noise = noise
+        self._start_s: float | None = None
         self._message = Imu()
+        for covariance, deviation in (
+            (self._message.orientation_covariance, noise.tilt_rad),
+            (self._message.angular_velocity_covariance, noise.angular_velocity_rad_s),
+            (self._message.linear_acceleration_covariance, noise.acceleration_m_s2),
+        ):
+            covariance[_DIAGONAL] = deviation**2
         self._message.header.frame_id = f'{prefix}imu_link'
         self._publisher = node.create_publisher(Imu, topic(robot, 'imu/data'), SENSOR)
 
@@ -30,5 +46,12 @@ class ImuTopic:
         fill_stamp(message.header.stamp, observation.time_s)
         fill_quaternion(message.orientation, observation.orientation)
         fill_vector(message.angular_velocity, observation.angular_velocity_rad_s)
+        message.orientation_covariance[_HEADING] = self._heading_rad2(observation.time_s)
         fill_vector(message.linear_acceleration, observation.linear_acceleration_m_s2)
         self._publisher.publish(message)
+
+    def _heading_rad2(self, time_s: float) -> float:
+        """Return the variance of the heading at a time."""
+        if self._start_s is None:
+            self._start_s = time_s
+        return self._noise.heading_variance_rad2(max(time_s - self._start_s, 0.0))

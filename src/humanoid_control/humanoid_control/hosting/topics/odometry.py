@@ -22,8 +22,6 @@ from tf2_msgs.msg import TFMessage
 
 ODOM, BASE, FOOTPRINT = 'odom', 'base_link', 'base_footprint'
 _DIAGONAL = slice(0, 36, 7)
-_STEADY = (1e-4, 1e-4, 1e-4)
-"""Variances of height, roll and pitch: they do not drift, as gravity is measured."""
 _TWIST = (1e-2, 1e-2, 1e-2, 1e-3, 1e-3, 1e-3)
 """Variances of the velocities, m2/s2 and rad2/s2."""
 
@@ -70,8 +68,7 @@ class OdometryTopics:
         fill_quaternion(message.pose.pose.orientation, orientation)
         fill_vector(message.twist.twist.linear, odometry.linear_velocity_m_s)
         fill_vector(message.twist.twist.angular, odometry.angular_velocity_rad_s)
-        plane_m2, heading_rad2 = odometry.position_variance_m2, odometry.heading_variance_rad2
-        message.pose.covariance[_DIAGONAL] = [plane_m2] * 2 + [*_STEADY, heading_rad2]
+        message.pose.covariance[:] = odometry.covariance.ravel()
         message.twist.covariance[_DIAGONAL] = _TWIST
 
     def _fill_footprint(self, time_s: float, odometry: WalkOdometry, orientation: Array) -> None:

@@ -26,8 +26,8 @@ class Escalation:
         self._logger = logger
         self._send = send
         self._sigterm_timeout = sigterm_timeout
-        self._sigterm_s = _seconds('sigterm_timeout', sigterm_timeout)
-        self._sigkill_s = self._sigterm_s + _seconds('sigkill_timeout', sigkill_timeout)
+        self._sigterm_s = float(sigterm_timeout)
+        self._sigkill_s = self._sigterm_s + float(sigkill_timeout)
         self._timers: list[asyncio.TimerHandle] = []
 
     def begin(self, loop: asyncio.AbstractEventLoop) -> None:
@@ -62,12 +62,3 @@ class Escalation:
             following.name,
         )
         self.send_logged(following)
-
-
-def _seconds(name: str, text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise ValueError(
-            f"the {name} of a process must be a number of seconds, but it is '{text}'"
-        ) from None

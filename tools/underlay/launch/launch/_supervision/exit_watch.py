@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import asyncio
+from functools import partial
 import os
 import threading
 
@@ -14,7 +15,7 @@ def watch_exit(
     child: Child,
     loop: asyncio.AbstractEventLoop,
 ) -> asyncio.Future[int]:
-    """Return a future of the return code of a child process."""
+    """Return a future of the return code of a child process; to cancel it ends the watch."""
     future: asyncio.Future[int] = loop.create_future()
     try:
         descriptor = os.pidfd_open(child.pid)
@@ -22,7 +23,16 @@ def watch_exit(
         _watch_in_thread(child, loop, future)
     else:
         loop.add_reader(descriptor, _reap, child, loop, future, descriptor)
+        future.add_done_callback(partial(_unwatch_if_cancelled, loop, descriptor))
     return future
+
+
+def _unwatch_if_cancelled(
+    loop: asyncio.AbstractEventLoop, descriptor: int, future: asyncio.Future[int]
+) -> None:
+    if future.cancelled():
+        loop.remove_reader(descriptor)
+        os.close(descriptor)
 
 
 def _reap(

@@ -1,98 +1,232 @@
 # SPDX-License-Identifier: Apache-2.0
-"""End the processes of a launch that was killed."""
+"""
+Clean up behind a launch that was killed.
+
+Two small processes, the guards, wait at the other ends of pipes for what the launch tells them,
+and for its end. None of them is needed: a guard that ends is replaced, one that was stopped is
+woken up by the system at the instant at which the launch dies, and each can do the work alone.
+"""
 
 from __future__ import annotations
 
+import asyncio
+import fcntl
 import os
 import signal
 import subprocess
+import sys
+import time
 from typing import Optional
 
-# The shell waits in `read`, and gets on only when the launch closes the pipe or dies.
+from launch._supervision.family import Family, unmarked
+from launch.logging import get_logger
+
+# The shell waits in `read`, and gets on when the launch says 'bye' or dies. It then becomes
+# `cleanup.py`; where that cannot be run, it does what it can itself.
 _SCRIPT = """
 trap '' INT TERM HUP QUIT
-groups=' '
-while read -r what group; do
-  case $what in
-    add) groups="$groups$group " ;;
-    end) groups="${groups%% $group *} ${groups#* $group }" ;;
+python=$1 cleanup=$2 delay=$3
+shift 3
+groups=' ' files=
+while IFS= read -r line; do
+  case $line in
+    'add '*) groups="$groups${line#add } " ;;
+    'end '*) line=${line#end }; groups="${groups%% $line *} ${groups#* $line }" ;;
+    'file '*) files="$files${line#file }
+" ;;
+    bye) exit 0 ;;
   esac
 done
-left() {
-  for group in $groups; do
-    kill -s 0 -- "-$group" 2>/dev/null && return 0
-  done
-  return 1
-}
-for signal in INT TERM KILL; do
-  left || exit 0
-  for group in $groups; do
-    kill -s $signal -- "-$group" 2>/dev/null
-  done
-  tries=0
-  while [ $tries -lt 5 ] && left; do
-    sleep 0.2
-    tries=$((tries + 1))
-  done
+sleep "$delay"
+printf '%s\\n%s' "$groups" "$files" | "$python" -E -s -S "$cleanup" "$@" && exit 0
+for signal in TERM KILL; do
+  for group in $groups; do kill -s $signal -- "-$group" 2>/dev/null && sleep 1; done
 done
+printf %s "$files" | while IFS= read -r file; do rm -f -- "$file"; done
 """
+_CLEANUP = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'cleanup.py')
+_DELAYS_S = (0, 2.5)
+"""How long the guards wait before they clean up: the second one looks behind the first."""
+_SECOND_AFTER_S = 1.0
+_LONGEST_PAUSE_S = 1.0
+
+_open_pipes: set[int] = set()
 
 
 class OrphanGuard:
     """
-    Watches over groups of processes from a small process in a session of its own.
+    Watches over the processes and the files of a launch from outside.
 
-    Even if the launch is killed, with no chance to do anything, the groups come to an end.
+    Even if the launch is killed, with no chance to do anything, they come to an end.
     """
 
-    def __init__(self) -> None:
-        """Create the guard; it starts with the first group."""
-        self._shell: Optional[subprocess.Popen[bytes]] = None
-        self._pipe = -1
+    def __init__(self, family: Family, loop: Optional[asyncio.AbstractEventLoop] = None) -> None:
+        """Create the guard of a family; without a loop, nobody replaces a process of it."""
+        self._family = family
+        self._loop = loop
+        self._groups: set[int] = set()
+        self._files: list[str] = []
+        self._shells: dict[int, _Shell] = {}
+        self._planned: list[asyncio.TimerHandle] = []
+        self._is_started = False
 
     @property
-    def pid(self) -> Optional[int]:
-        """Return the id of the watching process, None if there is none."""
-        return None if self._shell is None else self._shell.pid
+    def pids(self) -> list[int]:
+        """Return the ids of the watching processes."""
+        return [shell.pid for shell in self._shells.values()]
+
+    def start(self) -> None:
+        """Watch from now on, with one process at first, and soon with two."""
+        if self._is_started:
+            return
+        self._is_started = True
+        self._start_shell(0)
+        self._plan(1, _SECOND_AFTER_S)
 
     def add(self, group: int) -> None:
-        """Watch over a group."""
-        if self._shell is None:
-            self._start()
+        """Watch over a group, whatever may hide its processes."""
+        self._groups.add(group)
         self._tell(f'add {group}\n')
 
     def remove(self, group: int) -> None:
         """Watch over a group no longer, as it has ended."""
+        self._groups.discard(group)
         self._tell(f'end {group}\n')
 
-    def _start(self) -> None:
-        reading_end, self._pipe = os.pipe()
-        try:
-            self._shell = subprocess.Popen(
-                ['/bin/sh', '-c', _SCRIPT],
-                stdin=reading_end,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-                cwd='/',
-                env={'PATH': '/usr/bin:/bin'},
-                start_new_session=True,
-            )
-        finally:
-            os.close(reading_end)
+    def add_file(self, path: str) -> None:
+        """See to it that a file goes too."""
+        if '\n' not in path:
+            self.start()
+            self._files.append(path)
+            self._tell(f'file {path}\n')
+
+    def close(self) -> None:
+        """End the watching processes, as there is nothing left to watch over."""
+        for timer in self._planned:
+            timer.cancel()
+        for shell in self._shells.values():
+            shell.say_bye()
+        for shell in self._shells.values():
+            self._stop_watching(shell)
+            shell.close()
+        self._shells.clear()
 
     def _tell(self, text: str) -> None:
-        """Write to the watching process; one that someone has ended cannot be told."""
+        for shell in self._shells.values():
+            shell.tell(text)
+
+    # The processes.
+
+    def _start_shell(self, number: int) -> None:
+        family = self._family
+        arguments = [str(_DELAYS_S[number]), family.id, str(family.mark), str(family.start_ticks)]
         try:
-            os.write(self._pipe, text.encode())
+            shell = _Shell(arguments)
+        except OSError as error:
+            get_logger('launch').warning(
+                'nothing cleans up if this launch is killed, as /bin/sh cannot be run: %s', error
+            )
+            return
+        shell.tell(''.join(f'add {group}\n' for group in sorted(self._groups)))
+        shell.tell(''.join(f'file {path}\n' for path in self._files))
+        self._shells[number] = shell
+        if self._loop is not None and shell.pidfd >= 0:
+            self._loop.add_reader(shell.pidfd, self._replace, number)
+
+    def _replace(self, number: int) -> None:
+        """Start another process instead of one that someone has ended."""
+        shell = self._shells.pop(number)
+        self._stop_watching(shell)
+        shell.close()
+        lived_s = time.monotonic() - shell.started_s
+        self._plan(number, 0.0 if lived_s > _LONGEST_PAUSE_S else _LONGEST_PAUSE_S)
+
+    def _plan(self, number: int, delay_s: float) -> None:
+        if self._loop is not None:
+            self._planned = [timer for timer in self._planned if timer.when() > self._loop.time()]
+            self._planned.append(self._loop.call_later(delay_s, self._start_shell, number))
+
+    def _stop_watching(self, shell: _Shell) -> None:
+        if self._loop is not None and shell.pidfd >= 0:
+            self._loop.remove_reader(shell.pidfd)
+
+
+class _Shell:
+    """One of the watching processes, in a session of its own."""
+
+    def __init__(self, arguments: list[str]) -> None:
+        """Start it; an OSError says that this is not possible."""
+        reading_end, self._pipe = os.pipe()
+        os.set_blocking(self._pipe, False)
+        command = ['/bin/sh', '-c', _SCRIPT, 'guard', sys.executable or 'python3', _CLEANUP]
+        try:
+            with unmarked():
+                self._process = subprocess.Popen(
+                    [*command, *arguments],
+                    stdin=reading_end,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL,
+                    cwd='/',
+                    env={'PATH': '/usr/bin:/bin'},
+                    start_new_session=True,
+                )
+            _let_end_wake(reading_end, self._process.pid)
+        except OSError:
+            os.close(self._pipe)
+            raise
+        finally:
+            os.close(reading_end)
+        _open_pipes.add(self._pipe)
+        self.started_s = time.monotonic()
+        self.pidfd = _pidfd(self.pid)
+
+    @property
+    def pid(self) -> int:
+        """Return the id of the process."""
+        return self._process.pid
+
+    def tell(self, text: str) -> None:
+        """Write to the process; one that someone has ended cannot be told."""
+        try:
+            os.write(self._pipe, text.encode('utf-8', 'surrogateescape'))
         except OSError:
             pass
 
+    def say_bye(self) -> None:
+        """Let the process end without doing anything, even if someone has stopped it."""
+        self._process.send_signal(signal.SIGCONT)
+        os.set_blocking(self._pipe, True)
+        self.tell('bye\n')
+
     def close(self) -> None:
-        """End the watching process; it ends what is still in its groups."""
-        if self._shell is None:
-            return
+        """Wait for the end of the process, which has been told or is dead."""
+        _open_pipes.discard(self._pipe)
         os.close(self._pipe)
-        self._pipe = -1
-        self._shell.send_signal(signal.SIGCONT)  # someone may have stopped it
-        self._shell.wait()
-        self._shell = None
+        self._process.wait()
+        if self.pidfd >= 0:
+            os.close(self.pidfd)
+
+
+def _let_end_wake(reading_end: int, pid: int) -> None:
+    """Have the system send SIGCONT to a process when there is something in a pipe, or its end."""
+    fcntl.fcntl(reading_end, fcntl.F_SETOWN, pid)
+    fcntl.fcntl(reading_end, fcntl.F_SETSIG, signal.SIGCONT)
+    flags = fcntl.fcntl(reading_end, fcntl.F_GETFL)
+    fcntl.fcntl(reading_end, fcntl.F_SETFL, flags | os.O_ASYNC)
+
+
+def _pidfd(pid: int) -> int:
+    try:
+        return os.pidfd_open(pid)
+    except (AttributeError, OSError):
+        return -1
+
+
+def _close_pipes() -> None:
+    """Let a copy of the launch, such as a worker of multiprocessing, not hide its end."""
+    for pipe in _open_pipes:
+        os.close(pipe)
+    _open_pipes.clear()
+
+
+os.register_at_fork(after_in_child=_close_pipes)

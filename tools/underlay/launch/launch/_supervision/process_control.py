@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from launch.actions.execute_local import ExecuteLocal
     from launch.launch_context import LaunchContext
 
+_EVENTS = (ProcessTargetedEvent, ProcessStdin, Shutdown)
+
 
 class ProcessControl(BaseEventHandler):
     """Hands the events that are meant for a process to its supervisor."""
@@ -29,11 +31,13 @@ class ProcessControl(BaseEventHandler):
 
     def matches(self, event: Event) -> bool:
         """Return whether an event is meant for the process, or for all."""
+        if not isinstance(event, _EVENTS):  # most are not; each process is asked about each event
+            return False
         if isinstance(event, ProcessTargetedEvent):
             return event.process_matcher(self._action)
         if isinstance(event, ProcessStdin):
             return event.action is self._action
-        return isinstance(event, Shutdown)
+        return True
 
     def handle(self, event: Event, context: LaunchContext) -> None:
         """End the process, send it a signal, or write to it."""
@@ -42,5 +46,7 @@ class ProcessControl(BaseEventHandler):
             self._supervisor.send_signal(event.signal)
         elif isinstance(event, ProcessStdin):
             self._supervisor.write(event.text)
+        elif isinstance(event, Shutdown):
+            self._supervisor.end_with_launch()
         else:
             self._supervisor.stop()

@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ProcessOptions:
-    """The options of a process; those that are not plain are performed when needed."""
+    """The options of a process as its action was given them, with substitutions in some."""
 
     shell: bool
-    emulate_tty: bool
+    emulate_tty: Any
     cached_output: bool
     log_cmd: bool
     output: Any
@@ -31,20 +31,40 @@ class ProcessOptions:
     sigterm_timeout: list[Substitution]
     sigkill_timeout: list[Substitution]
     respawn: Any
+    detached: Any
     respawn_delay: Optional[float]
     respawn_max_retries: int
 
-    def may_respawn(self, context: LaunchContext, respawned: int) -> bool:
-        """Return whether the process is to be started again after so many times."""
-        if not perform_typed_substitution(context, self.respawn, bool):
-            return False
-        return self.respawn_max_retries < 0 or respawned < self.respawn_max_retries
+    def perform(self, context: LaunchContext, label: str) -> PerformedOptions:
+        """
+        Perform all substitutions, in the scope that is open now.
 
-    def wants_tty(self, context: LaunchContext) -> bool:
-        """Return whether the output is a terminal for the process."""
+        To be called once, when the action is executed: the process may start, end and start
+        again when this scope has long been closed.
+
+        :param label: the name of the process in errors
+        :raises ValueError: if an option becomes nothing that can be used
+        """
+        return PerformedOptions(
+            shell=self.shell,
+            emulate_tty=self._wants_tty(context),
+            cached_output=self.cached_output,
+            log_cmd=self.log_cmd,
+            output=self._performed_output(context),
+            output_format=self.output_format,
+            sigterm_timeout=_timeout(context, label, 'sigterm_timeout', self.sigterm_timeout),
+            sigkill_timeout=_timeout(context, label, 'sigkill_timeout', self.sigkill_timeout),
+            respawn=perform_typed_substitution(context, self.respawn, bool),
+            detached=perform_typed_substitution(context, self.detached, bool),
+            respawn_delay=self.respawn_delay,
+            respawn_max_retries=self.respawn_max_retries,
+        )
+
+    def _wants_tty(self, context: LaunchContext) -> bool:
+        """Whether the output is a terminal for the process; a configuration overrides it."""
         override = context.launch_configurations.get('emulate_tty')
         if override is None:
-            return self.emulate_tty
+            return bool(perform_typed_substitution(context, self.emulate_tty, bool))
         from launch.conditions.evaluate_condition_expression_impl import (
             evaluate_condition_expression,
         )
@@ -53,11 +73,51 @@ class ProcessOptions:
             context, normalize_to_list_of_substitutions(str(override))
         )
 
-    def where_output_goes(self, context: LaunchContext) -> Any:
-        """Return the performed `output`."""
+    def _performed_output(self, context: LaunchContext) -> Any:
         if not isinstance(self.output, list):
             return self.output
         return perform_substitutions(context, self.output)
+
+
+@dataclass(frozen=True)
+class PerformedOptions:
+    """The options of a process as texts, numbers and booleans; timeouts as they are written."""
+
+    shell: bool
+    emulate_tty: bool
+    cached_output: bool
+    log_cmd: bool
+    output: Any
+    output_format: str
+    sigterm_timeout: str
+    sigkill_timeout: str
+    respawn: bool
+    detached: bool
+    respawn_delay: Optional[float]
+    respawn_max_retries: int
+
+    def may_respawn(self, respawned: int) -> bool:
+        """Whether the process is to be started again after so many times."""
+        return self.respawn and (
+            self.respawn_max_retries < 0 or respawned < self.respawn_max_retries
+        )
+
+
+def _timeout(
+    context: LaunchContext,
+    label: str,
+    keyword: str,
+    substitutions: list[Substitution],
+) -> str:
+    """Perform a timeout, which is a number of seconds."""
+    text = perform_substitutions(context, substitutions)
+    try:
+        float(text)
+    except ValueError:
+        raise ValueError(
+            f"the {keyword} of process[{label}] must be a number of seconds, but it is '{text}'"
+        ) from None
+    return text
 
 
 def timeout_substitutions(keyword: str, value: Any) -> list[Substitution]:

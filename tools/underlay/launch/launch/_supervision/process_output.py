@@ -8,7 +8,7 @@ from typing import Any
 
 from launch._supervision.line_format import LineFormat
 from launch._supervision.line_splitter import LineSplitter
-from launch.logging import get_output_loggers
+from launch.logging import get_output_loggers, launch_config
 from launch.logging._output import is_on_screen
 from launch.logging._screen import screen
 
@@ -58,6 +58,7 @@ class ProcessOutput:
         return b''.join(self._kept[stream]).decode('utf-8', 'replace')
 
     def _log(self, stream: int, lines: list[str]) -> None:
+        lines = launch_config.lost_files.without_errors(lines)
         if not lines:
             return
         text = self._line_format.apply(lines)

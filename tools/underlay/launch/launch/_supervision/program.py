@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 import subprocess
 from typing import IO, Optional, Protocol
@@ -18,6 +19,8 @@ class Program:
     env: Optional[Mapping[str, str]]
     shell: bool
     preloader: Optional[str] = None  # the module that knows what such a process imports
+    detached: bool = False  # whether it goes on when the launch ends
+    marking: Callable[[], AbstractContextManager[None]] = nullcontext  # in force at its start
 
 
 class Child(Protocol):
@@ -40,14 +43,15 @@ Spawn = Callable[[Program, int, int], Awaitable[Child]]
 
 async def execute(program: Program, stdout: int, stderr: int) -> subprocess.Popen[bytes]:
     """Start a program whose output goes to two descriptors."""
-    return subprocess.Popen(
-        ' '.join(program.command) if program.shell else list(program.command),
-        shell=program.shell,
-        cwd=program.cwd,
-        env=program.env,
-        stdin=subprocess.PIPE,
-        stdout=stdout,
-        stderr=stderr,
-        bufsize=0,
-        start_new_session=True,
-    )
+    with program.marking():
+        return subprocess.Popen(
+            ' '.join(program.command) if program.shell else list(program.command),
+            shell=program.shell,
+            cwd=program.cwd,
+            env=program.env,
+            stdin=subprocess.DEVNULL if program.detached else subprocess.PIPE,
+            stdout=stdout,
+            stderr=stderr,
+            bufsize=0,
+            start_new_session=True,
+        )

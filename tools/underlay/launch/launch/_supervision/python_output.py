@@ -5,19 +5,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 import os
-import shutil
+
+from launch._programs import find_program
+
+ROS_ARGUMENTS = '--ros-args'  # what follows is for a node; none of it is a program
 
 
 def runs_python(command: Sequence[str], *, shell: bool) -> bool:
     """Return whether one of the words is a Python interpreter, or a script for one."""
     words = ' '.join(command).split() if shell else command
+    if ROS_ARGUMENTS in words:
+        words = words[: words.index(ROS_ARGUMENTS)]
     return any(_is_python(word) for word in words if word and not word.startswith('-'))
 
 
 def _is_python(word: str) -> bool:
     if os.path.basename(word).startswith('python'):
         return True
-    path = word if '/' in word else shutil.which(word)
+    path = word if '/' in word else find_program(word)
     return path is not None and b'python' in _interpreter(path)
 
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 import os
 import signal
+from typing import Optional
 
 from launch._supervision.exit_watch import watch_exit
 from launch._supervision.output_stream import OutputStream
@@ -65,6 +66,11 @@ class RunningProcess:
         if self._child.stdin is not None:
             self._child.stdin.close()
 
+    def let_go(self) -> None:
+        """Watch the process no longer, which goes on."""
+        self.exited.cancel()
+        self.close()
+
     def kill_at_once(self) -> None:
         """Kill the group and wait for the end of the process."""
         send_signal(self.pid, signal.SIGKILL)
@@ -79,9 +85,14 @@ async def start_process(
     emulate_tty: bool,
     loop: asyncio.AbstractEventLoop,
     on_output: OnOutput,
+    output_path: Optional[str] = None,
 ) -> RunningProcess:
-    """Start a program in a session and a group of its own."""
-    readers, writers = zip(*[_channel(emulate_tty) for _ in range(2)])
+    """
+    Start a program in a session and a group of its own.
+
+    :param output_path: the file that the process writes to; without, `on_output` gets all
+    """
+    readers, writers = _channels(emulate_tty) if output_path is None else _file(output_path)
     try:
         child = await spawn(program, *writers)
     except BaseException:
@@ -92,9 +103,16 @@ async def start_process(
     return RunningProcess(child, readers, loop=loop, on_output=on_output)
 
 
-def _channel(emulate_tty: bool) -> tuple[int, int]:
-    """Return the end to read from and the end to write to."""
-    return os.openpty() if emulate_tty else os.pipe()
+def _channels(emulate_tty: bool) -> tuple[Sequence[int], Sequence[int]]:
+    """Return the ends to read from and the ends to write to, of two streams."""
+    readers, writers = zip(*[os.openpty() if emulate_tty else os.pipe() for _ in range(2)])
+    return readers, writers
+
+
+def _file(path: str) -> tuple[Sequence[int], Sequence[int]]:
+    """Return nothing to read from, and twice a file to write to."""
+    flags = os.O_WRONLY | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC
+    return (), [os.open(path, flags, 0o666) for _ in range(2)]
 
 
 def _close(descriptors: Sequence[int]) -> None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import asyncio
+from functools import partial
 import logging
 import signal
 from typing import Any, Optional, TYPE_CHECKING
@@ -11,7 +12,7 @@ from typing import Any, Optional, TYPE_CHECKING
 from launch._supervision.escalation import Escalation
 from launch._supervision.leftovers import end_leftovers
 from launch._supervision.line_format import LineFormat
-from launch._supervision.process_options import ProcessOptions
+from launch._supervision.process_options import PerformedOptions
 from launch._supervision.process_output import ProcessOutput
 from launch._supervision.program import execute, Program
 from launch._supervision.running_process import RunningProcess, start_process
@@ -20,14 +21,13 @@ from launch.events.process.process_exited import ProcessExited
 from launch.events.process.process_started import ProcessStarted
 from launch.events.process.process_stderr import ProcessStderr
 from launch.events.process.process_stdout import ProcessStdout
-from launch.logging import get_logger
-from launch.utilities.perform_substitutions_impl import perform_substitutions
+from launch.logging import get_logger, launch_config
 
 if TYPE_CHECKING:
+    from launch._supervision.family import Family
+    from launch._supervision.member import Member
     from launch.actions.execute_local import ExecuteLocal
     from launch.launch_context import LaunchContext
-
-_USUAL_TIMEOUT = '5'
 
 
 class Supervisor:
@@ -36,7 +36,7 @@ class Supervisor:
     def __init__(
         self,
         action: ExecuteLocal,
-        options: ProcessOptions,
+        options: PerformedOptions,
         context: LaunchContext,
         loop: asyncio.AbstractEventLoop,
     ) -> None:
@@ -50,14 +50,17 @@ class Supervisor:
         self._logger: logging.Logger = get_logger(self._label)
         self.output = ProcessOutput(
             self._label,
-            options.where_output_goes(context),
+            options.output,
             LineFormat(options.output_format, action),
             keep=options.cached_output,
         )
         self.return_code: Optional[int] = None
         self._process: Optional[RunningProcess] = None
         self._escalation: Optional[Escalation] = None
+        self._escaped: list[Member] = []
+        self._is_detached = options.detached or self._is_detached_by_environment()
         self._stopped = loop.create_future()
+        self._let_go = loop.create_future()
         self.task = loop.create_task(self._supervise())
 
     @property
@@ -75,6 +78,13 @@ class Supervisor:
             self._stop_waiting()
         elif self._escalation is None:
             self._begin_escalation()
+
+    def end_with_launch(self) -> None:
+        """End the process as the launch ends, or let it go if it is to outlive that."""
+        if self._is_detached and not self._let_go.done():
+            self._let_go.set_result(None)
+        if not self._is_detached or self._process is None:
+            self.stop()
 
     def send_signal(self, number: signal.Signals) -> None:
         """Send a signal to the process; one that has ended needs none."""
@@ -106,7 +116,7 @@ class Supervisor:
         while not self._context.is_shutdown and not self._stopped.done():
             if not await self._run_once():
                 return
-            if not self._options.may_respawn(self._context, respawned):
+            if not self._options.may_respawn(respawned):
                 return
             respawned += 1
             await self._wait_before_respawn()
@@ -124,14 +134,30 @@ class Supervisor:
         self._process = process
         try:
             self._report_start(process)
+            if self._is_detached and not await self._ends_before_launch(process):
+                return False
             self.return_code = await process.exited
             self._report_end(process)
             await end_leftovers(process.pid, was_interrupted=self._escalation is not None)
+            await self._end_escaped()
             process.drain()
             self.output.flush()
         finally:
             self._forget(process)
         return True
+
+    def _is_detached_by_environment(self) -> bool:
+        processes = self._context._processes
+        return processes is not None and processes.family.detaches(self._details['env'])
+
+    async def _ends_before_launch(self, process: RunningProcess) -> bool:
+        """Wait for the end of a process or of the launch; return which it is, and let it go."""
+        await asyncio.wait([process.exited, self._let_go], return_when=asyncio.FIRST_COMPLETED)
+        if process.exited.done() or self._stopped.done():
+            return True
+        self._logger.info('process goes on without the launch [pid %s]', process.pid)
+        process.let_go()
+        return False
 
     async def _start(self) -> Optional[RunningProcess]:
         details = self._details
@@ -139,18 +165,25 @@ class Supervisor:
             process = await start_process(
                 self._program(),
                 spawn=self._context._spawn or execute,
-                emulate_tty=self._options.wants_tty(self._context),
+                emulate_tty=self._options.emulate_tty,
                 loop=self._loop,
                 on_output=self._on_output,
+                output_path=self._output_path(),
             )
         except (OSError, ValueError) as error:
             self._logger.error('%s', explain_spawn_failure(details, error))
             self._logger.debug('the traceback of it', exc_info=True)
             self._note_failure(127)
             return None
-        if self._context._processes is not None:
-            self._context._processes.add(process)
+        if self._context._processes is not None and not self._is_detached:
+            self._context._processes.add(
+                process, float(self._options.sigterm_timeout), float(self._options.sigkill_timeout)
+            )
         return process
+
+    def _output_path(self) -> Optional[str]:
+        """Return the file that a detached process writes to, as the launch may end before it."""
+        return launch_config.get_log_file_path(f'{self._label}.log') if self._is_detached else None
 
     def _program(self) -> Program:
         details = self._details
@@ -160,6 +193,7 @@ class Supervisor:
             env=details['env'],
             shell=self._options.shell,
             preloader=self._action.preloader,
+            detached=self._is_detached,
         )
 
     def _report_start(self, process: RunningProcess) -> None:
@@ -211,7 +245,7 @@ class Supervisor:
         self._process = None
         if process.exited.done():
             process.close()
-            if self._context._processes is not None:
+            if self._context._processes is not None and not self._is_detached:
                 self._context._processes.remove(process)
 
     def _on_output(self, stream: int, data: bytes) -> None:
@@ -228,27 +262,56 @@ class Supervisor:
         self._escalation = Escalation(
             label=self._label,
             logger=self._logger,
-            send=process.send_signal,
-            sigterm_timeout=self._timeout('sigterm_timeout'),
-            sigkill_timeout=self._timeout('sigkill_timeout'),
+            send=partial(self._send, process),
+            sigterm_timeout=self._options.sigterm_timeout,
+            sigkill_timeout=self._options.sigkill_timeout,
         )
         self._escalation.begin(self._loop)
+        if self._context.is_shutdown and self._context._processes is not None:
+            self._context._processes.end_remainder()
 
-    def _timeout(self, name: str) -> str:
-        """Return a timeout; one that cannot be used keeps no process from being ended."""
-        try:
-            text = perform_substitutions(self._context, getattr(self._options, name))
-            float(text)
-        except (RuntimeError, ValueError) as error:
-            self._logger.error(
-                'the %s of process[%s] must be a number of seconds: %s; it is %s seconds instead',
-                name,
-                self._label,
-                error,
-                _USUAL_TIMEOUT,
-            )
-            return _USUAL_TIMEOUT
-        return text
+    def _send(self, process: RunningProcess, number: signal.Signals) -> None:
+        """Send a signal to the group of a process, and to what it has started outside of it."""
+        processes = None if self._context.is_shutdown else self._context._processes
+        if processes is None:  # the launch ends all that is outside of the groups itself
+            process.send_signal(number)
+            return
+        self._note_escaped(process, processes.family, number)
+        process.send_signal(number)
+        if self._escaped:
+            from launch._supervision.member import send
+
+            for member in self._escaped:
+                send(member, number)
+
+    def _note_escaped(
+        self, process: RunningProcess, family: Family, number: signal.Signals
+    ) -> None:
+        """Find what is outside of the group, while it is known where it comes from."""
+        from launch._supervision.member import is_alive
+
+        with_nested = number == signal.SIGKILL
+        news = (
+            member
+            for member in family.descendants(process.pid)
+            if member.group != process.pid and (with_nested or not member.is_nested)
+        )
+        self._escaped = list(dict.fromkeys([*filter(is_alive, self._escaped), *news]))
+
+    async def _end_escaped(self) -> None:
+        """End what has got the signals that were meant for the process, but lives on."""
+        if not self._escaped:
+            return
+        from launch._supervision.member import is_alive
+        from launch._supervision.remainder import end_members
+
+        await end_members(
+            lambda number: [member for member in self._escaped if is_alive(member)],
+            float(self._options.sigterm_timeout),
+            float(self._options.sigkill_timeout),
+            interrupted=self._escaped,
+        )
+        self._escaped = []
 
     def _command_line(self) -> str:
         return ' '.join(self._details['cmd'])

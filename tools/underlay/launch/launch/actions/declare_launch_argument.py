@@ -119,9 +119,12 @@ class DeclareLaunchArgument(Action):
         if context._observer is not None:
             context._observer.note(name=self.__name, value=value, is_default=not is_given)
         if self.__choices is not None and value not in self.__choices:
+            from launch._did_you_mean import did_you_mean
+
+            hint = did_you_mean(value, [str(choice) for choice in self.__choices])
             _fail(
                 f'Argument "{self.__name}" provided value "{value}" is not valid. '
-                f'Valid options are: {self.__choices}'
+                f'Valid options are: {self.__choices}{hint and f". {hint}"}'
             )
 
 

@@ -12,12 +12,12 @@ from launch.action import Action
 from launch.descriptions.executable import Executable
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
-from launch.substitution import Substitution
 from launch.substitutions.launch_configuration import LaunchConfiguration
 
 if TYPE_CHECKING:
     import asyncio
 
+    from launch._supervision.process_options import PerformedOptions, ProcessOptions
     from launch._supervision.supervisor import Supervisor
     from launch._visit_observer import VisitObserver
     from launch.launch_context import LaunchContext
@@ -45,7 +45,7 @@ class ExecuteLocal(Action):
         sigkill_timeout: Union[float, SomeSubstitutionsType] = LaunchConfiguration(
             'sigkill_timeout', default=5
         ),
-        emulate_tty: bool = False,
+        emulate_tty: Union[bool, SomeSubstitutionsType] = False,
         output: Output = 'log',
         output_format: str = '[{this.process_description.final_name}] {line}',
         cached_output: bool = False,
@@ -54,6 +54,7 @@ class ExecuteLocal(Action):
         respawn: Union[bool, SomeSubstitutionsType] = False,
         respawn_delay: Optional[float] = None,
         respawn_max_retries: int = -1,
+        detached: Union[bool, SomeSubstitutionsType] = False,
         **kwargs: Any,
     ) -> None:
         """
@@ -72,29 +73,29 @@ class ExecuteLocal(Action):
         :param respawn: whether the process is started again when it has ended
         :param respawn_delay: the seconds before that
         :param respawn_max_retries: how many times at most; negative stands for always
+        :param detached: whether the process goes on when the launch ends; it has no standard input
+            then, and writes to a file in the folder of the log (not in ROS 2 Jazzy)
         """
         super().__init__(**kwargs)
         from launch._supervision.process_options import (
             output_substitutions,
-            ProcessOptions,
             timeout_substitutions,
         )
 
-        _check_plain_options(shell, emulate_tty, respawn_delay, respawn_max_retries)
+        _check_plain_options(shell, respawn_delay, respawn_max_retries)
         self.__process_description = process_description
-        self.__options = ProcessOptions(
-            shell=shell,
-            emulate_tty=emulate_tty,
-            cached_output=cached_output,
-            log_cmd=log_cmd,
-            output=output_substitutions(os.environ.get(_OVERRIDE_OUTPUT) or output),
-            output_format=output_format,
-            sigterm_timeout=timeout_substitutions('sigterm_timeout', sigterm_timeout),
-            sigkill_timeout=timeout_substitutions('sigkill_timeout', sigkill_timeout),
-            respawn=typed('respawn', respawn, bool, 'a bool or a substitution'),
-            respawn_delay=respawn_delay,
-            respawn_max_retries=respawn_max_retries,
-        )
+        self.__shell = shell
+        self.__emulate_tty = typed('emulate_tty', emulate_tty, bool, 'a bool or a substitution')
+        self.__cached_output = cached_output
+        self.__log_cmd = log_cmd
+        self.__output = output_substitutions(os.environ.get(_OVERRIDE_OUTPUT) or output)
+        self.__output_format = output_format
+        self.__sigterm_timeout = timeout_substitutions('sigterm_timeout', sigterm_timeout)
+        self.__sigkill_timeout = timeout_substitutions('sigkill_timeout', sigkill_timeout)
+        self.__respawn = typed('respawn', respawn, bool, 'a bool or a substitution')
+        self.__detached = typed('detached', detached, bool, 'a bool or a substitution')
+        self.__respawn_delay = respawn_delay
+        self.__respawn_max_retries = respawn_max_retries
         self.__on_exit = on_exit if on_exit is None or callable(on_exit) else _reaction(on_exit)
         self.__executed = False
         self.__supervisor: Optional[Supervisor] = None
@@ -109,17 +110,17 @@ class ExecuteLocal(Action):
     @property
     def shell(self) -> bool:
         """Return whether a shell reads the command line."""
-        return self.__options.shell
+        return self.__shell
 
     @property
-    def emulate_tty(self) -> bool:
-        """Return whether the output is a terminal for the process."""
-        return self.__options.emulate_tty
+    def emulate_tty(self) -> Any:
+        """Return whether the output is a terminal, or the substitutions that stand for it."""
+        return self.__emulate_tty
 
     @property
     def output(self) -> Any:
         """Return where the output goes."""
-        return self.__options.output
+        return self.__output
 
     @property
     def name(self) -> Any:
@@ -162,7 +163,7 @@ class ExecuteLocal(Action):
         return self._kept_output(2)
 
     def _kept_output(self, stream: int) -> str:
-        if not self.__options.cached_output:
+        if not self.__cached_output:
             raise RuntimeError(
                 f'the output of {self!r} was not kept: create the action with cached_output=True'
             )
@@ -182,7 +183,7 @@ class ExecuteLocal(Action):
 
     def prepare(self, context: LaunchContext) -> None:
         """Find out the final form of the description."""
-        self.__process_description.prepare(context, self, shell=self.__options.shell)
+        self.__process_description.prepare(context, self, shell=self.__shell)
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the entities that are visited when the process has ended."""
@@ -202,9 +203,29 @@ class ExecuteLocal(Action):
         self._check_program(context)
         if context._observer is not None:
             self._tell(context._observer)
+        options = self._options().perform(context, self.name)
         if not context.is_shutdown:
-            self._begin_supervision(context)
+            self._begin_supervision(context, options)
         return None
+
+    def _options(self) -> ProcessOptions:
+        """Return the options as they are now: public code changes some after the construction."""
+        from launch._supervision.process_options import ProcessOptions
+
+        return ProcessOptions(
+            shell=self.__shell,
+            emulate_tty=self.__emulate_tty,
+            cached_output=self.__cached_output,
+            log_cmd=self.__log_cmd,
+            output=self.__output,
+            output_format=self.__output_format,
+            sigterm_timeout=self.__sigterm_timeout,
+            sigkill_timeout=self.__sigkill_timeout,
+            respawn=self.__respawn,
+            detached=self.__detached,
+            respawn_delay=self.__respawn_delay,
+            respawn_max_retries=self.__respawn_max_retries,
+        )
 
     def _check_program(self, context: LaunchContext) -> None:
         """Raise an error if nothing has been started yet and the program is not there."""
@@ -242,7 +263,7 @@ class ExecuteLocal(Action):
         if not self.shell and description.cmd:
             require_later_program(description.cmd[0], description.env, context)
 
-    def _begin_supervision(self, context: LaunchContext) -> None:
+    def _begin_supervision(self, context: LaunchContext, options: PerformedOptions) -> None:
         from launch._supervision.process_control import ProcessControl
         from launch._supervision.supervisor import Supervisor
 
@@ -251,7 +272,7 @@ class ExecuteLocal(Action):
             raise RuntimeError(
                 f"the process '{self.name}' can only be started by a running launch"
             )
-        self.__supervisor = Supervisor(self, self.__options, context, loop)
+        self.__supervisor = Supervisor(self, options, context, loop)
         context.register_event_handler(ProcessControl(self, self.__supervisor))
         if self.__on_exit is not None:
             from launch.event_handlers.on_process_exit import OnProcessExit
@@ -275,12 +296,9 @@ def _reaction(on_exit: Any) -> list[LaunchDescriptionEntity]:
     return entities
 
 
-def _check_plain_options(
-    shell: Any, emulate_tty: Any, respawn_delay: Any, respawn_max_retries: Any
-) -> None:
+def _check_plain_options(shell: Any, respawn_delay: Any, respawn_max_retries: Any) -> None:
     """Raise an error that names the keyword if an option cannot be used."""
     of_type('shell', shell, (bool,), 'True or False')
-    of_type('emulate_tty', emulate_tty, (bool, str, Substitution), 'True or False')
     if respawn_delay is not None:
         of_type('respawn_delay', respawn_delay, (int, float), 'a number of seconds')
     of_type('respawn_max_retries', respawn_max_retries, (int,), 'a whole number')

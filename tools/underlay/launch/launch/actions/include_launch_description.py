@@ -49,7 +49,7 @@ class IncludeLaunchDescription(Action):
 
             path = text_like('launch_description_source', launch_description_source)
             launch_description_source = AnyLaunchDescriptionSource(path)
-        self.__source = launch_description_source
+        self.__launch_description_source = launch_description_source
         self.__launch_arguments = () if launch_arguments is None else _pairs(launch_arguments)
 
     @classmethod
@@ -66,7 +66,7 @@ class IncludeLaunchDescription(Action):
     @property
     def launch_description_source(self) -> LaunchDescriptionSource:
         """Return the source."""
-        return self.__source
+        return self.__launch_description_source
 
     @property
     def launch_arguments(
@@ -77,27 +77,27 @@ class IncludeLaunchDescription(Action):
 
     def describe(self) -> str:
         """Return a short description for people."""
-        return f'IncludeLaunchDescription({self.__source.location})'
+        return f'IncludeLaunchDescription({self.__launch_description_source.location})'
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the launch description if it can be loaded without a context."""
-        description = self.__source.try_get_launch_description_without_context()
+        description = self.__launch_description_source.try_get_launch_description_without_context()
         return [] if description is None else [description]
 
     def _check_in_advance(self, context: LaunchContext) -> None:
         from launch._missing_file import explain_missing_include
         from launch._preflight import constant_text
 
-        path = constant_text(self.__source._location_parts, context)
+        path = constant_text(self.__launch_description_source._location_parts, context)
         if path is not None and os.path.dirname(path) and not os.path.isfile(path):
             reading = {each.path for each in context._open_files}
             raise FileNotFoundError(explain_missing_include(path, reading))
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Load the file and return its description, with the arguments before it."""
-        path = os.path.abspath(self.__source._expand_location(context))
+        path = os.path.abspath(self.__launch_description_source._expand_location(context))
         file = open_file(context, path, self.call_site)
-        description = self.__source.get_launch_description(context)
+        description = self.__launch_description_source.get_launch_description(context)
         leave = enter_launch_file(context, file)
         self._check_required(description, context)
         if context._observer is not None:
@@ -105,12 +105,17 @@ class IncludeLaunchDescription(Action):
         arguments = [_setting(name, value) for name, value in self.__launch_arguments]
         return [*arguments, description, leave]
 
+    def _get_launch_file(self) -> str:
+        """Return the path of the file as far as it is known; public code asks for it."""
+        source = self.__launch_description_source
+        return os.path.abspath(source._location_in_advance() or source.location)
+
     def given_names(self, context: Optional[LaunchContext] = None) -> list[str]:
         """Return the names of the launch arguments that are given here."""
         return [_text(name, context) for name, _ in self.__launch_arguments]
 
     def _outline(self) -> dict[str, Any]:
-        return {'path': self.__source.location}
+        return {'path': self.__launch_description_source.location}
 
     def _check_required(self, description: LaunchDescription, context: LaunchContext) -> None:
         """Raise an error if an argument is neither given nor has a default."""

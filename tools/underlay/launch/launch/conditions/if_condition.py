@@ -28,13 +28,13 @@ class IfCondition(Condition):
             'predicate_expression',
             type(self).__name__,
         )
-        self.__expression = normalize_to_list_of_substitutions(predicate_expression)
-        super().__init__(predicate=self._evaluate)
+        self.__predicate_expression = normalize_to_list_of_substitutions(predicate_expression)
+        super().__init__(predicate=self._predicate_func)
 
     def describe(self) -> str:
         """Return a short description for people."""
-        parts = ' + '.join(sub.describe() for sub in self.__expression)
+        parts = ' + '.join(sub.describe() for sub in self.__predicate_expression)
         return f'{type(self).__name__}({parts})'
 
-    def _evaluate(self, context: LaunchContext) -> bool:
-        return evaluate_condition_expression(context, self.__expression)
+    def _predicate_func(self, context: LaunchContext) -> bool:
+        return evaluate_condition_expression(context, self.__predicate_expression)

@@ -30,7 +30,7 @@ class LaunchConfigurationEquals(Condition):
         self._expected = (
             None if expected_value is None else normalize_to_list_of_substitutions(expected_value)
         )
-        super().__init__(predicate=self._evaluate)
+        super().__init__(predicate=self._predicate_func)
         warnings.warn(
             f'{type(self).__name__} is deprecated; write '
             "IfCondition(EqualsSubstitution(LaunchConfiguration('name'), 'value')) instead, or "
@@ -52,5 +52,5 @@ class LaunchConfigurationEquals(Condition):
             return value is None and self._expected is None
         return str(value) == perform_substitutions(context, self._expected)
 
-    def _evaluate(self, context: LaunchContext) -> bool:
+    def _predicate_func(self, context: LaunchContext) -> bool:
         return self._equals(context)

@@ -14,5 +14,5 @@ if TYPE_CHECKING:
 class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
     """Fulfilled if a launch configuration does not have a value."""
 
-    def _evaluate(self, context: LaunchContext) -> bool:
+    def _predicate_func(self, context: LaunchContext) -> bool:
         return not self._equals(context)

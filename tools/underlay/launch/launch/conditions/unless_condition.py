@@ -14,5 +14,5 @@ if TYPE_CHECKING:
 class UnlessCondition(IfCondition):
     """Fulfilled if an expression is false or 0, not if it is true or 1; else an error."""
 
-    def _evaluate(self, context: LaunchContext) -> bool:
-        return not super()._evaluate(context)
+    def _predicate_func(self, context: LaunchContext) -> bool:
+        return not super()._predicate_func(context)

@@ -140,10 +140,29 @@ class Executable:
         if self.__env is not None:
             environment = _perform_variables(context, self.__env)
         else:
-            environment = dict(context.environment)
+            environment = _copy_of(context.environment)
             if runs_python(self.__final_cmd or [], shell=shell):
                 environment.setdefault('PYTHONUNBUFFERED', '1')
         return {**environment, **_perform_variables(context, self.__additional_env)}
+
+
+_last_copy: tuple[Any, dict[str, str]] = ({}, {})
+
+
+def _copy_of(variables: Mapping[str, str]) -> dict[str, str]:
+    """
+    Return a dictionary of variables.
+
+    Those of the operating system are texts of bytes in Python, and each is decoded whenever it is
+    read. As long as none has changed since the last copy, that copy is as good.
+    """
+    global _last_copy
+    if variables is not os.environ:
+        return dict(variables)
+    raw = os.environ._data  # type: ignore[attr-defined]
+    if raw != _last_copy[0]:
+        _last_copy = dict(raw), dict(variables)
+    return dict(_last_copy[1])
 
 
 def _normalize_variables(keyword: str, variables: Mapping[Any, Any]) -> Variables:

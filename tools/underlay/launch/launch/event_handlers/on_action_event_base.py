@@ -41,41 +41,43 @@ class OnActionEventBase(BaseEventHandler):
                 f"'{target_action_cls.__name__}', a callable or None, "
                 f"but got '{action_matcher!r}'"
             )
-        self.__target = action_matcher
+        self.__action_matcher = action_matcher
         self.__target_event_cls = target_event_cls
-        self.__reaction, self.__entities = checked_reaction(on_event, type(self).__name__)
+        reaction, self.__actions_on_event = checked_reaction(on_event, type(self).__name__)
+        self.__on_event = reaction or self.__actions_on_event
         super().__init__(matcher=self._is_meant, **kwargs)
 
     @property
     def matcher_description(self) -> str:
         """Return which events the handler accepts, for people."""
-        return f'event == {self.__target_event_cls.__name__} and event.action == {self.__target}'
+        event = self.__target_event_cls.__name__
+        return f'event == {event} and event.action == {self.__action_matcher}'
 
     def describe(self) -> tuple[str, list[Any]]:
         """Return a short description for people, and the entities behind it."""
-        return super().describe()[0], list(self.__entities)
+        return super().describe()[0], list(self.__actions_on_event)
 
     def _awaited(self) -> str:
-        return f'{self.__target_event_cls.__name__} of {target_in_words(self.__target)}'
+        return f'{self.__target_event_cls.__name__} of {target_in_words(self.__action_matcher)}'
 
     def _is_meant(self, event: Event) -> bool:
         """Return whether the event belongs to the target."""
         if not isinstance(event, self.__target_event_cls):
             return False
-        if self.__target is None or event.action is self.__target:
+        if self.__action_matcher is None or event.action is self.__action_matcher:
             return True
         from launch.action import Action
 
-        if isinstance(self.__target, Action):
+        if isinstance(self.__action_matcher, Action):
             return False
-        return bool(self.__target(event.action))
+        return bool(self.__action_matcher(event.action))
 
     def handle(self, event: Event, context: LaunchContext) -> Optional[SomeEntitiesType]:
         """Return the entities of the reaction, which are visited next."""
         super().handle(event, context)
-        if self.__reaction is not None:
-            return self.__reaction(event, context)
-        return self.__entities
+        if callable(self.__on_event):
+            return self.__on_event(event, context)
+        return self.__actions_on_event
 
 
 def target_in_words(target: Any) -> str:

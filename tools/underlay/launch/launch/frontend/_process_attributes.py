@@ -20,7 +20,12 @@ _TEXTS = {
     'output': 'output',
 }
 # Attributes that have a type, or substitutions that stand for it.
-_LATER_TYPED = {'respawn': bool, 'sigkill_timeout': float, 'sigterm_timeout': float}
+_LATER_TYPED = {
+    'detached': bool,
+    'respawn': bool,
+    'sigkill_timeout': float,
+    'sigterm_timeout': float,
+}
 # Attributes that must have a type at once.
 _TYPED = {'emulate_tty': bool, 'respawn_delay': float, 'respawn_max_retries': int, 'shell': bool}
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_file_location
 import os
-from traceback import walk_tb
 from types import FunctionType, ModuleType
 
 from launch._call_site import CallSite
@@ -88,6 +87,8 @@ def _point_at_line(path: str, error: Exception) -> None:
     if isinstance(error, SyntaxError) and error.filename == path:
         note_line(error, CallSite(path, error.lineno or 0))
         return
+    from traceback import walk_tb
+
     lines = [
         line for frame, line in walk_tb(error.__traceback__) if frame.f_code.co_filename == path
     ]

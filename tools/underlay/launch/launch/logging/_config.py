@@ -10,6 +10,7 @@ from typing import Optional
 from launch.logging._directory import make_run_directory, run_directory
 from launch.logging._formats import log_formatter, screen_formatter
 from launch.logging._handlers import LogFileHandler, ScreenHandler
+from launch.logging._lost_files import LostFiles
 
 _MAIN_LOG = 'launch.log'
 
@@ -30,6 +31,7 @@ class LaunchConfig:
         self._log_formatter = log_formatter(os.environ.get('OVERRIDE_LAUNCH_LOG_FORMAT'))
         self._screen_handler: Optional[ScreenHandler] = None
         self._file_handlers: dict[str, LogFileHandler] = {}
+        self.lost_files = LostFiles()
 
     @property
     def level(self) -> int:
@@ -86,7 +88,7 @@ class LaunchConfig:
         """Return the handler that writes to a log file."""
         if file_name not in self._file_handlers:
             path = self.get_log_file_path if self._keeps_files else _nowhere
-            handler = LogFileHandler(lambda: path(file_name))
+            handler = LogFileHandler(lambda: path(file_name), self.lost_files)
             handler.setFormatter(self._log_formatter)
             self._file_handlers[file_name] = handler
         return self._file_handlers[file_name]
@@ -111,13 +113,25 @@ _known_loggers: list[Optional[str]] = []
 launch_config = LaunchConfig()
 
 
+def logger_at(name: Optional[str], level: int) -> logging.Logger:
+    """Return a logger of a level; for a new one this takes no look at all the others."""
+    is_new = name is not None and name not in logging.root.manager.loggerDict
+    logger = logging.getLogger(name)
+    if is_new:
+        logger.level = level
+    elif logger.level != level:
+        logger.setLevel(level)
+    return logger
+
+
 def get_logger(name: Optional[str] = None) -> logging.Logger:
     """Return a logger that writes to the screen and to the main log file."""
-    logger = logging.getLogger(name)
-    if name not in _known_loggers:
+    if name in _known_loggers:
+        logger = logging.getLogger(name)
+    else:
         _known_loggers.append(name)
+        logger = logger_at(name, launch_config.level)
         logger.propagate = False
-        logger.setLevel(launch_config.level)
     handlers = [launch_config.get_screen_handler(), launch_config.get_log_file_handler()]
     if name is None:
         handlers = [each for each in handlers if each not in logger.handlers]

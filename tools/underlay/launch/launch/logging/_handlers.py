@@ -7,6 +7,7 @@ from collections.abc import Callable
 import logging
 from typing import Optional, TextIO
 
+from launch.logging._lost_files import LostFiles
 from launch.logging._screen import screen
 
 
@@ -21,12 +22,14 @@ class ScreenHandler(logging.Handler):
 class LogFileHandler(logging.Handler):
     """Writes records to a file, which is opened when the first one comes."""
 
-    def __init__(self, path: Callable[[], str]) -> None:
+    def __init__(self, path: Callable[[], str], lost_files: LostFiles) -> None:
         """Create the handler of the file at the path that a function returns."""
         super().__init__()
+        self._lost_files = lost_files
         self._path = path
         self._file: Optional[TextIO] = None
         self._failed = False
+        self._name = ''
 
     def emit(self, record: logging.LogRecord) -> None:
         """Write a record."""
@@ -38,15 +41,14 @@ class LogFileHandler(logging.Handler):
             return
         try:
             if self._file is None:
+                self._name = self._path()
                 self._file = open(  # noqa: SIM115
-                    self._path(), 'a', buffering=1, encoding='utf-8', errors='backslashreplace'
+                    self._name, 'a', buffering=1, encoding='utf-8', errors='backslashreplace'
                 )
             self._file.write(text + '\n')
         except OSError as error:
             self._failed = True
-            screen.write_line(
-                f'[WARNING] [launch]: the log file cannot be written any more: {error}'
-            )
+            self._lost_files.add(self._name, error.strerror or str(error))
 
     def close(self) -> None:
         """Close the file."""

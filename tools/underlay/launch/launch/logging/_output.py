@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Mapping
 import logging
 from typing import Union
 
-from launch.logging._config import launch_config
+from launch.logging._config import launch_config, logger_at
 from launch.logging._formats import bare_formatter, label_formatter, stamped_formatter
 from launch.logging._handlers import LogFileHandler, ScreenHandler
 
@@ -67,9 +67,8 @@ def _logger(
     stream: str,
     config: dict[str, frozenset[str]],
 ) -> logging.Logger:
-    logger = logging.getLogger(f'{process_name}-{stream}')
+    logger = logger_at(f'{process_name}-{stream}', logging.INFO)
     logger.propagate = False
-    logger.setLevel(logging.INFO)
     logger.handlers = []
     wanted = config[stream] | config['both']
     if 'screen' in wanted:

@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-import shutil
 from typing import TYPE_CHECKING
 
+from launch._programs import find_program
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
 from launch.substitutions.substitution_failure import SubstitutionFailure
@@ -40,7 +40,7 @@ class FindExecutable(Substitution):
     def perform(self, context: LaunchContext) -> str:
         """Return the path; a failure names the program."""
         name = perform_substitutions(context, self.__name)
-        found = shutil.which(name)
+        found = find_program(name)
         if found is None:
             raise SubstitutionFailure(
                 f"executable '{name}' not found on the PATH; install it, or source the "

@@ -51,9 +51,15 @@ def visit_into(
         observer.leave(entity)
 
 
-def _checked(child: LaunchDescriptionEntity, parent: LaunchDescriptionEntity) -> Any:
-    """Return the child if it can be visited; say which list is wrong otherwise."""
+def _checked(child: Any, parent: LaunchDescriptionEntity) -> Any:
+    """
+    Return the child if it can be visited; say which list is wrong otherwise.
+
+    An action that launch itself has made comes from the line of the one that brings it in.
+    """
     if hasattr(child, 'visit'):
+        if getattr(child, 'call_site', parent) is None:
+            child.call_site = getattr(parent, 'call_site', None)
         return child
     raise AttributeError(
         f"'{type(child).__name__}' object has no attribute 'visit': the entities of "

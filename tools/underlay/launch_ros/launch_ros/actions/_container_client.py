@@ -29,10 +29,16 @@ class ContainerClient:
         self._container = container
         self._process = process
         self._logger = get_logger('launch_ros.actions.load_composable_nodes')
+        self._caller: Optional[ServiceCaller] = None
+
+    @property
+    def has_asked(self) -> bool:
+        """Whether the container has been asked for a node."""
+        return self._caller is not None and self._caller.has_asked
 
     async def load(self, requests: Iterable[LoadRequest]) -> None:
         """Load nodes; one that fails does not keep the others from being loaded."""
-        caller = ServiceCaller(
+        caller = self._caller = ServiceCaller(
             self._ros_node,
             LoadNode,
             self._container,

@@ -14,7 +14,7 @@ from launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix
 from launch_ros.utilities.validate_names import validate_namespace, validate_node_name
 
 _UNKNOWN_NAME = '<node_name_unspecified>'
-_UNKNOWN_NAMESPACE = '<node_namespace_unspecified>'
+UNKNOWN_NAMESPACE = '<node_namespace_unspecified>'
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class NodeNames:
     @property
     def described_namespace(self) -> str:
         """Return the namespace, or a placeholder."""
-        return _UNKNOWN_NAMESPACE if self.namespace is None else self.namespace
+        return UNKNOWN_NAMESPACE if self.namespace is None else self.namespace
 
     @property
     def full_name(self) -> str:

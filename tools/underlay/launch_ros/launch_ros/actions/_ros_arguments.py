@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 import os
-from typing import Any, Union
+from typing import Any, Optional, Union
 
 from launch._before_start import note_file
 from launch.launch_context import LaunchContext
@@ -16,6 +16,9 @@ from launch_ros.utilities.normalize_parameters_impl import NormalizedParameters
 from launch_ros.utilities.normalize_remap_rules_impl import evaluate_remap_rule, RemapRule
 from launch_ros.utilities.parameter_files import is_parameter_file, write_parameter_file
 from launch_ros.utilities.yaml_text import flow_text
+
+ParameterArgument = tuple[str, bool]
+"""A path and True, or a rule such as `name:=value` and False."""
 
 
 def global_arguments(context: LaunchContext, names: NodeNames) -> list[str]:
@@ -44,31 +47,38 @@ def _global_text(value: Any) -> str:
     return flow_text(value) if isinstance(value, (list, tuple)) else str(value)
 
 
-def own_parameter_arguments(
+def own_parameters(
     context: LaunchContext,
     parameters: Iterable[NormalizedParameters],
     names: NodeNames,
-) -> list[str]:
+) -> list[ParameterArgument]:
     """Return the parameters of one node, in order; dictionaries are written to files."""
-    arguments = []
-    for element in evaluate_parameters(context, parameters):
-        arguments += _parameter_argument(context, element, names)
-    return arguments
+    found = (_own(context, each, names) for each in evaluate_parameters(context, parameters))
+    return [each for each in found if each is not None]
 
 
-def _parameter_argument(
+def _own(
     context: LaunchContext,
     element: EvaluatedParameters,
     names: NodeNames,
-) -> list[str]:
+) -> Optional[ParameterArgument]:
     if isinstance(element, Parameter):
-        return ['-p', element.get_parameter_rule()]
+        return element.get_parameter_rule(), False
     if isinstance(element, dict):
-        return ['--params-file', write_parameter_file(names.parameter_key, element)]
+        return write_parameter_file(names.parameter_key, element), True
     if not is_parameter_file(element):
-        return []
+        return None
     _note(context, element, names)
-    return ['--params-file', element]
+    return element, True
+
+
+def parameter_arguments(parameters: Iterable[ParameterArgument]) -> list[str]:
+    """Return parameters as arguments."""
+    return [
+        word
+        for text, is_file in parameters
+        for word in ('--params-file' if is_file else '-p', text)
+    ]
 
 
 def _note(context: LaunchContext, path: str, names: NodeNames) -> None:

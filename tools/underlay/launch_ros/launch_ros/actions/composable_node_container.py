@@ -30,7 +30,7 @@ class ComposableNodeContainer(Node):
     ) -> None:
         """Create the action; the other arguments are those of Node."""
         super().__init__(name=name, namespace=namespace, **kwargs)
-        self.__descriptions = list(composable_node_descriptions or ())
+        self.__composable_node_descriptions = list(composable_node_descriptions or ())
 
     @classmethod
     def parse(
@@ -51,17 +51,18 @@ class ComposableNodeContainer(Node):
     @property
     def composable_node_descriptions(self) -> list[ComposableNode]:
         """Return the descriptions of the nodes."""
-        return self.__descriptions
+        return self.__composable_node_descriptions
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Start the container; loading the nodes comes next."""
         from launch_ros.actions.load_composable_nodes import LoadComposableNodes
 
         entities: list[LaunchDescriptionEntity] = list(super().execute(context) or ())
-        if self.__descriptions:
+        if self.__composable_node_descriptions:
             entities.append(
                 LoadComposableNodes(
-                    composable_node_descriptions=self.__descriptions, target_container=self
+                    composable_node_descriptions=self.__composable_node_descriptions,
+                    target_container=self,
                 )
             )
         return entities

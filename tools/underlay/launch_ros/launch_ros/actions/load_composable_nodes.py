@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
+    from launch_ros.actions._container_client import ContainerClient
     from launch_ros.actions._load_request import LoadRequest
     from launch_ros.descriptions.composable_node import ComposableNode
 
@@ -43,8 +44,8 @@ class LoadComposableNodes(Action):
         :param target_container: the action that runs the container, or its full name
         """
         super().__init__(**kwargs)
-        self.__descriptions = list(composable_node_descriptions)
-        self.__container: Any = target_container
+        self.__composable_node_descriptions = list(composable_node_descriptions)
+        self.__target_container: Any = target_container
         if not isinstance(target_container, ComposableNodeContainer):
             ensure_argument_type(
                 target_container,
@@ -52,8 +53,9 @@ class LoadComposableNodes(Action):
                 'target_container',
                 'LoadComposableNodes',
             )
-            self.__container = normalize_to_list_of_substitutions(target_container)
+            self.__target_container = normalize_to_list_of_substitutions(target_container)
         self.__task: Optional[asyncio.Task[None]] = None
+        self.__client: Optional[ContainerClient] = None
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
@@ -79,6 +81,33 @@ class LoadComposableNodes(Action):
             context._observer.note(target_container=name, composable_nodes=nodes)
         else:
             self._load(context, requests, name, process)
+            self._load_after_respawn(context, requests, name)
+
+    def _load_after_respawn(
+        self, context: LaunchContext, requests: list[LoadRequest], name: str
+    ) -> None:
+        """Load the same nodes anew whenever the container, of this launch, starts again."""
+        from launch.event_handlers.on_process_start import OnProcessStart
+        from launch_ros._service_calls import STARTED_ANEW
+        from launch_ros.actions._node_names import UNKNOWN_NAMESPACE
+        from launch_ros.actions.node import Node
+
+        full_name = name if name.startswith('/') else f'/{name}'
+
+        def is_container(action: Any) -> bool:
+            if not isinstance(action, Node):
+                return False
+            return action.node_name.replace(UNKNOWN_NAMESPACE, '') == full_name
+
+        def load(event: Any, context: LaunchContext) -> None:
+            # Before it was asked for a node, it has none to load anew.
+            if self.__client is None or not self.__client.has_asked or context.is_shutdown:
+                return
+            if self.__task is not None:
+                self.__task.cancel(STARTED_ANEW)
+            self._load(context, requests, name, event.action.get_asyncio_future())
+
+        context.register_event_handler(OnProcessStart(target_action=is_container, on_start=load))
 
     def _load(
         self,
@@ -92,24 +121,26 @@ class LoadComposableNodes(Action):
         from launch_ros.ros_adapters import get_ros_adapter
 
         adapter = get_ros_adapter(context)
-        client = ContainerClient(adapter.ros_node, name, process)
-        self.__task = adapter.start_task(client.load(requests))
+        self.__client = ContainerClient(adapter.ros_node, name, process)
+        self.__task = adapter.start_task(self.__client.load(requests))
 
     def _requests(self, context: LaunchContext) -> list[LoadRequest]:
         from launch_ros.actions._load_request import build_load_request
 
-        conditions = [description.condition() for description in self.__descriptions]
+        conditions = [
+            description.condition() for description in self.__composable_node_descriptions
+        ]
         return [
             build_load_request(context, description)
-            for description, condition in zip(self.__descriptions, conditions)
+            for description, condition in zip(self.__composable_node_descriptions, conditions)
             if condition is None or condition.evaluate(context)
         ]
 
     def _target(self, context: LaunchContext) -> tuple[str, Optional[asyncio.Future[Any]]]:
         """Return the name of the container, and its process if it is of this launch."""
-        if isinstance(self.__container, ComposableNodeContainer):
-            return self.__container.node_name, self.__container.get_asyncio_future()
-        return perform_substitutions(context, self.__container), None
+        if isinstance(self.__target_container, ComposableNodeContainer):
+            return self.__target_container.node_name, self.__target_container.get_asyncio_future()
+        return perform_substitutions(context, self.__target_container), None
 
     def get_asyncio_future(self) -> Optional[asyncio.Future[None]]:
         """Return a future that is done when all has been loaded or has failed."""

@@ -17,7 +17,9 @@ from launch_ros.actions._node_extensions import extend_node, NodeActionExtension
 from launch_ros.actions._node_names import expand_node_names, NodeNames
 from launch_ros.actions._ros_arguments import (
     global_arguments,
-    own_parameter_arguments,
+    own_parameters,
+    parameter_arguments,
+    ParameterArgument,
     remap_pairs,
     remap_rules,
     rule_arguments,
@@ -95,10 +97,13 @@ class Node(ExecuteProcess):
             **kwargs,
         )
         self.__package = package
-        self.__executable = executable
+        self.__node_executable = executable
+        self.__node_name = name
+        self.__node_namespace = namespace
+        self.__arguments = arguments
+        self.__ros_arguments = ros_arguments
         self.__name = optional_text_like('name', name)
         self.__namespace = optional_text_like('namespace', namespace)
-        self.__raw_names = f'name={name}, namespace={namespace}'
         self.__parameters = [] if parameters is None else normalize_parameters(parameters)
         self.__remappings = (
             []
@@ -106,6 +111,7 @@ class Node(ExecuteProcess):
             else normalize_remap_rules(list_like('remappings', remappings, 'tuples'))
         )
         self.__names: Optional[NodeNames] = None
+        self.__expanded_parameter_arguments: list[ParameterArgument] = []
         self.__expanded_remappings: Optional[list[tuple[str, str]]] = None
 
     @classmethod
@@ -145,7 +151,7 @@ class Node(ExecuteProcess):
     @property
     def node_executable(self) -> SomeSubstitutionsType:
         """Return the executable."""
-        return self.__executable
+        return self.__node_executable
 
     @property
     def node_name(self) -> str:
@@ -175,12 +181,23 @@ class Node(ExecuteProcess):
     def _name_parts(self) -> Optional[list[Substitution]]:
         return self.__name
 
-    def prepare(self, context: LaunchContext) -> None:
-        """Find out the command line, with all that ROS is told behind the last --ros-args."""
-        what = f'package={self.__package}, executable={self.__executable}, {self.__raw_names}'
-        names = expand_node_names(context, self.__name, self.__namespace, what)
+    def _perform_substitutions(self, context: LaunchContext) -> NodeNames:
+        """Find out names, parameters and remappings; public tests of launch files call this."""
+        names = expand_node_names(
+            context,
+            self.__name,
+            self.__namespace,
+            f'package={self.__package}, executable={self.__node_executable}, '
+            f'name={self.__node_name}, namespace={self.__node_namespace}',
+        )
         self.__names = names
         self.__expanded_remappings = remap_pairs(context, self.__remappings)
+        self.__expanded_parameter_arguments = own_parameters(context, self.__parameters, names)
+        return names
+
+    def prepare(self, context: LaunchContext) -> None:
+        """Find out the command line, with all that ROS is told behind the last --ros-args."""
+        names = self._perform_substitutions(context)
         added, known = extend_node(context, names.ros_specific_arguments(), self)
         self.process_description.prepare(
             context,
@@ -190,8 +207,8 @@ class Node(ExecuteProcess):
                 '--ros-args',
                 *rule_arguments(known[each] for each in ('name', 'ns') if each in known),
                 *global_arguments(context, names),
-                *own_parameter_arguments(context, self.__parameters, names),
-                *rule_arguments(remap_rules(self.__expanded_remappings)),
+                *parameter_arguments(self.__expanded_parameter_arguments),
+                *rule_arguments(remap_rules(self.__expanded_remappings or ())),
                 *added,
             ],
         )

@@ -61,9 +61,9 @@ class ComposableNode:
         :param condition: the node is loaded if this is None or fulfilled
         """
         self.__package = normalize_to_list_of_substitutions(package)
-        self.__plugin = normalize_to_list_of_substitutions(plugin)
-        self.__name = _optional(name)
-        self.__namespace = _optional(namespace)
+        self.__node_plugin = normalize_to_list_of_substitutions(plugin)
+        self.__node_name = _optional(name)
+        self.__node_namespace = _optional(namespace)
         self.__parameters = normalize_parameters(parameters or [])
         self.__remappings = normalize_remap_rules(remappings or [])
         self.__extra_arguments = normalize_parameters(extra_arguments or [])
@@ -100,17 +100,17 @@ class ComposableNode:
     @property
     def node_plugin(self) -> list[Substitution]:
         """Return the parts of the name of the class."""
-        return self.__plugin
+        return self.__node_plugin
 
     @property
     def node_name(self) -> Optional[list[Substitution]]:
         """Return the parts of the name, None if there is none."""
-        return self.__name
+        return self.__node_name
 
     @property
     def node_namespace(self) -> Optional[list[Substitution]]:
         """Return the parts of the namespace, None if there is none."""
-        return self.__namespace
+        return self.__node_namespace
 
     @property
     def parameters(self) -> list[NormalizedParameters]:

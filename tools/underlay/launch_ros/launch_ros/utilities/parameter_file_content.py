@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read what a parameter file says about a node."""
+"""Read what a parameter file says about nodes."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from functools import cache
 import re
 from typing import Any
@@ -15,13 +16,38 @@ _PARAMETERS = 'ros__parameters'
 _WILDCARDS = {'*': '/[^/]+', '**': '(?:/[^/]+)*'}
 
 
-def read_parameter_file(path: str, node_name: str) -> list[tuple[str, Any]]:
-    """Return the parameters that a file has for the node of this full name, in its order."""
-    found: list[tuple[str, Any]] = []
-    for pattern, parameters in _sections(_load(path), '', path):
-        if matches(pattern, node_name):
-            found += _flat(parameters, '', path)
-    return found
+@dataclass(frozen=True)
+class ParameterFileContent:
+    """What a file holds: parameters for names of nodes, and what is for none."""
+
+    path: str
+    sections: list[tuple[str, Mapping[Any, Any]]]
+    """The names, which may have wildcards, and what is below their `ros__parameters`."""
+    stray_keys: list[str]
+    """The paths of values that lie outside any `ros__parameters` and so have no effect."""
+
+    def parameters_of(self, node_name: str) -> list[tuple[str, Any]]:
+        """Return the parameters for the node of this full name, in the order of the file."""
+        found: list[tuple[str, Any]] = []
+        for pattern, parameters in self.sections:
+            if matches(pattern, node_name):
+                found += _flat(parameters, '', self.path)
+        return found
+
+
+def read_parameter_file(path: str) -> ParameterFileContent:
+    """
+    Read a file of parameters.
+
+    :raises FileNotFoundError: if there is no such file, with what may have been meant
+    :raises ValueError: if it is not YAML, or parameters are not names with values
+    """
+    content = ParameterFileContent(path, [], [])
+    tree = _load(path)
+    if not isinstance(tree, Mapping):
+        raise ValueError(_misfit(path, '/', tree))
+    _collect(tree, '', content)
+    return content
 
 
 def matches(pattern: str, node_name: str) -> bool:
@@ -37,6 +63,10 @@ def _load(path: str) -> Any:
     try:
         with open(path, encoding='utf-8') as file:
             return yaml.load(file, _loader()) or {}  # noqa: S506  (it is a SafeLoader)
+    except FileNotFoundError as error:
+        from launch._missing_file import explain_missing_file
+
+        raise FileNotFoundError(explain_missing_file('parameter file', path)) from error
     except yaml.YAMLError as error:
         raise ValueError(f"the parameter file '{path}' is not valid YAML: {error}") from error
 
@@ -54,21 +84,24 @@ def _loader() -> Any:
     return Loader
 
 
-def _sections(tree: Any, prefix: str, path: str) -> Iterator[tuple[str, Any]]:
-    """Yield the parameters below each name, which may be nested namespaces."""
-    for key, value in _mapping(tree, prefix, path).items():
+def _collect(tree: Mapping[Any, Any], prefix: str, content: ParameterFileContent) -> None:
+    """Add what is below a name, which may be a nested namespace."""
+    for key, value in tree.items():
+        where = f'{prefix}/{str(key).lstrip("/")}'
         if key == _PARAMETERS:
-            yield prefix, _mapping(value or {}, f'{prefix}/{key}', path)
+            if not isinstance(value or {}, Mapping):
+                raise ValueError(_misfit(content.path, where, value))
+            content.sections.append((prefix, value or {}))
+        elif isinstance(value, Mapping):
+            _collect(value, where, content)
         else:
-            yield from _sections(value, f'{prefix}/{key}', path)
+            content.stray_keys.append(where)
 
 
-def _mapping(value: Any, where: str, path: str) -> Mapping[Any, Any]:
-    if isinstance(value, Mapping):
-        return value
-    raise ValueError(
+def _misfit(path: str, where: str, value: Any) -> str:
+    return (
         f"the parameter file '{path}' must have names of nodes, below them '{_PARAMETERS}', and "
-        f"below that the parameters, but below '{where or '/'}' there is {value!r}"
+        f"below that the parameters, but below '{where}' there is {value!r}"
     )
 
 

@@ -3,15 +3,13 @@
 
 from __future__ import annotations
 
-import atexit
 from collections.abc import Mapping
 import os
 from typing import Any
 
+from launch._temporary_files import is_temporary_file, write_temporary_file
 from launch.logging import get_logger
 from launch_ros.utilities.yaml_text import parameter_file_text
-
-_written: list[str] = []
 
 
 def is_parameter_file(path: str) -> bool:
@@ -33,27 +31,10 @@ def write_parameter_file(node_name: str, parameters: Mapping[str, Any]) -> str:
 
 
 def write_text(text: str) -> str:
-    """Write a file, which is removed when this process ends, and return its path."""
-    if not _written:
-        atexit.register(_remove_all)
-    import tempfile
-
-    descriptor, path = tempfile.mkstemp(prefix='launch_params_', text=True)
-    _written.append(path)
-    with open(descriptor, 'w', encoding='utf-8') as file:
-        file.write(text)
-    return path
+    """Write a file, which is removed when the launch ends, and return its path."""
+    return write_temporary_file('launch_params_', text)
 
 
 def is_written_here(path: str) -> bool:
     """Return whether a file is one of those that were written here."""
-    return path in _written
-
-
-def _remove_all() -> None:
-    for path in _written:
-        try:
-            os.unlink(path)
-        except OSError:
-            pass  # someone has removed it already
-    _written.clear()
+    return is_temporary_file(path)

@@ -8,16 +8,22 @@ import os
 from typing import Any, TYPE_CHECKING
 
 from launch.launch_context import LaunchContext
+from launch.logging import get_logger
 from launch_ros.parameter_descriptions import Parameter
 from launch_ros.utilities.evaluate_parameters_impl import EvaluatedParameters
 from launch_ros.utilities.namespace_utils import prefix_namespace
-from launch_ros.utilities.parameter_file_content import read_parameter_file
-from launch_ros.utilities.parameter_files import is_parameter_file
+from launch_ros.utilities.parameter_file_content import (
+    ParameterFileContent,
+    read_parameter_file,
+)
 
 if TYPE_CHECKING:
     from rclpy.parameter import Parameter as RosParameter
 
 NamedValue = tuple[str, Any]
+
+_LISTED = 3
+_TOLD = 'parameter_files_with_stray_keys'
 
 
 def named_values(
@@ -25,16 +31,44 @@ def named_values(
     elements: Iterable[EvaluatedParameters],
     node_name: str,
 ) -> list[NamedValue]:
-    """Return the parameters for the node of this full name; what comes later counts."""
+    """
+    Return the parameters for the node of this full name; what comes later counts.
+
+    :raises FileNotFoundError: if a file is missing
+    """
     found: list[NamedValue] = []
     for element in elements:
         if isinstance(element, Parameter):
             found.append(element.evaluate(context))
         elif isinstance(element, dict):
             found += element.items()
-        elif is_parameter_file(os.fspath(element)):
-            found += read_parameter_file(os.fspath(element), node_name)
+        else:
+            content = read_parameter_file(os.fspath(element))
+            _warn_of_stray_keys(context, content)
+            found += content.parameters_of(node_name)
     return found
+
+
+def _warn_of_stray_keys(context: LaunchContext, content: ParameterFileContent) -> None:
+    """Say, once for each file, what has no effect in it."""
+    if not content.stray_keys:
+        return
+    told: set[str] = context.get_locals_as_dict().get(_TOLD) or set()
+    context.extend_globals({_TOLD: told})
+    if content.path not in told:
+        told.add(content.path)
+        get_logger('launch_ros.actions.load_composable_nodes').warning(
+            "in the parameter file '%s' %s not below any 'ros__parameters' and so without effect",
+            content.path,
+            _listed(content.stray_keys),
+        )
+
+
+def _listed(keys: list[str]) -> str:
+    shown = [f"'{key}'" for key in keys[:_LISTED]]
+    if len(keys) > _LISTED:
+        shown.append(f'{len(keys) - _LISTED} more')
+    return f'{shown[0]} is' if len(shown) == 1 else f'{", ".join(shown[:-1])} and {shown[-1]} are'
 
 
 def to_parameters_list(

@@ -27,7 +27,7 @@ from typing import Any, Optional
 import pytest
 import yaml
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 100.0
 BANNER_LINES = 2
 
 RECORDER = r"""#!/bin/sh

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 from robot_console.live.channel import Action, Channel
 from robot_console.live.viewer import Viewer
-from robot_console.namespaces import below, NAMESPACE
+from robot_console.namespaces import NAMESPACE, topic_of_robot
 from robot_console.small_page import SmallPage
 from rviz_common.pace import Pace
 from rviz_common.panel import Panel
@@ -26,6 +26,8 @@ class LivePanel(Panel):
 
     PAGE: ClassVar[str]
     """The name of the page, and of its file."""
+    PACKAGE: ClassVar[str] = 'robot_console'
+    """The package that has the file, in its folder `web`."""
     PERIOD_S: ClassVar[float] = 0.2
     PROPERTIES: ClassVar[tuple[Property, ...]] = (NAMESPACE,)
 
@@ -34,7 +36,14 @@ class LivePanel(Panel):
         self._pace = Pace(self.PERIOD_S)
         self.channel = Channel(self.context.queue, self.greet, self.actions())
         namespace = self.values['Namespace']
-        self._page = SmallPage(self.context, self.PAGE, namespace, self.settings(), self.channel)
+        self._page = SmallPage(
+            self.context,
+            self.PAGE,
+            namespace,
+            self.settings(),
+            self.channel,
+            package=self.PACKAGE,
+        )
         try:
             self.begin()
         except Exception:
@@ -72,6 +81,5 @@ class LivePanel(Panel):
         """End what has been begun."""
 
     def full_name(self, topic: str) -> str:
-        """Return the full name of a topic of the robot."""
-        name: str = self.context.node.resolve_topic_name(below(self.values['Namespace'], topic))
-        return name
+        """Return the full name of a topic of the robot, or raise ValueError if it is no name."""
+        return topic_of_robot(self.context.node, self.values['Namespace'], topic)

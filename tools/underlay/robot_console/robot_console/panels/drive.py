@@ -7,7 +7,7 @@ from geometry_msgs.msg import Twist, Vector3
 from rclpy.duration import Duration
 from robot_console.connections import Connections
 from robot_console.drive_session import DriveSession
-from robot_console.namespaces import below, NAMESPACE
+from robot_console.namespaces import NAMESPACE, topic_of_robot
 from robot_console.robot_link import COMMAND, link_of
 from robot_console.small_page import SmallPage
 from robot_console.speed_limits import SpeedLimits, Velocity
@@ -38,10 +38,10 @@ class Drive(Panel):
         self._limits = SpeedLimits(
             *(self.values[f'Max {way} Speed'] for way in ('Forward', 'Sideways', 'Turn'))
         )
-        topic = below(namespace, self.values['Topic'])
+        topic = topic_of_robot(node, namespace, self.values['Topic'])
         self._publisher = node.create_publisher(Twist, topic, COMMAND)
         settings = {
-            'topic': node.resolve_topic_name(topic),
+            'topic': topic,
             'forward': self._limits.forward_m_s,
             'sideways': self._limits.sideways_m_s,
             'turn': self._limits.turn_rad_s,

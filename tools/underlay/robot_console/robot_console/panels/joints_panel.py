@@ -9,7 +9,7 @@ from robot_console.joints.joint_html import notes_html, STYLE, table_html
 from robot_console.joints.joint_state import JointStates
 from robot_console.joints.joint_table import JointTable
 from robot_console.joints.topic_sentence import TopicWatch
-from robot_console.namespaces import below, NAMESPACE
+from robot_console.namespaces import NAMESPACE, topic_of_robot
 from rviz_common.pace import Pace
 from rviz_common.panel import Panel
 from rviz_common.polled_topic import PolledTopic
@@ -52,7 +52,7 @@ class JointsPanel(Panel):
         self._description: DescriptionTopic | None = None
         try:
             self._listen_all()
-        except Exception as error:  # rclpy has no one exception for bad names
+        except ValueError as error:
             self._trouble = f'A topic of the panel cannot be subscribed: {error}'
 
     def update(self) -> None:
@@ -75,7 +75,7 @@ class JointsPanel(Panel):
             topic.close()
 
     def _topic(self, path: str) -> str:
-        return below(self.values['Namespace'], self.values[path])
+        return topic_of_robot(self.context.node, self.values['Namespace'], self.values[path])
 
     def _listen_all(self) -> None:
         for path, states in ((MEASURED, self._table.measured), (COMMANDED, self._table.commanded)):
@@ -91,7 +91,7 @@ class JointsPanel(Panel):
         node = self.context.node
         qos = QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
         self._topics.append((PolledTopic(node, JointState, topic, qos), states))
-        return TopicWatch(node.resolve_topic_name(topic), states)
+        return TopicWatch(topic, states)
 
     def _take(self) -> None:
         for topic, states in self._topics:

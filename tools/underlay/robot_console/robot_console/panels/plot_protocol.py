@@ -18,7 +18,7 @@ class Plot(Protocol):
     context: Context
 
     def full_name(self, topic: str) -> str:
-        """Return the full name of a topic of the robot."""
+        """Return the full name of a topic of the robot, or raise ValueError if it is no name."""
 
     def show(self, series: Iterable[Series]) -> None:
         """Plot these series only."""

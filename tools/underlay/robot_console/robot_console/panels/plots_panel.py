@@ -8,7 +8,7 @@ import time
 from typing import Any
 
 from robot_console.message_types import fields_of
-from robot_console.namespaces import below, NAMESPACE
+from robot_console.namespaces import NAMESPACE, topic_of_robot
 from robot_console.panels.plot_chart import PlotChart
 from robot_console.panels.series_chooser import SeriesChooser
 from robot_console.plots.csv_text import csv_text
@@ -73,9 +73,8 @@ class PlotsPanel(Panel):
         self._chooser.close()
 
     def full_name(self, topic: str) -> str:
-        """Return the full name of a topic of the robot."""
-        name: str = self.context.node.resolve_topic_name(below(self.values['Namespace'], topic))
-        return name
+        """Return the full name of a topic of the robot, or raise ValueError if it is no name."""
+        return topic_of_robot(self.context.node, self.values['Namespace'], topic)
 
     def show(self, series: Any) -> None:
         """Plot these series only."""
@@ -126,7 +125,7 @@ class PlotsPanel(Panel):
         self._board.find_type(topic, type_name, fields_of)
 
     def _set_window(self, window_s: float) -> None:
-        self._board.window_s = self.values['Window'] = window_s
+        self.values['Window'] = self._board.window_s = window_s
         self._chart.draw(window_s, self._board.drawn(time.time()))
 
     def _press(self, event: Any) -> None:

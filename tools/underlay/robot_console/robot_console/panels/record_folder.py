@@ -15,6 +15,7 @@ from robot_console.recordings.child import Child
 from robot_console.recordings.words import clock_text, size_text
 from rviz_common.context import Context
 from rviz_common.panels.marks import escaped, printable
+from rviz_common.topic_names import full_topic_name
 
 __all__ = ['RecordFolder']
 
@@ -101,7 +102,8 @@ class RecordFolder:
         topics = topics_in(self._topics.value)
         if not topics:
             raise ValueError('No topic is chosen: add some, or record all.')
-        return ['--topics', *topics]
+        # As names, since the recorder takes what begins with a dash for an option.
+        return ['--topics', *(full_topic_name(self._context.node, each) for each in topics)]
 
     def _finish(self, child: Child) -> None:
         child.close()

@@ -9,6 +9,7 @@ from typing import Any
 
 from robot_console.connections import Connections
 from robot_console.namespaces import NAMESPACE
+from robot_console.real_time_factor import RealTimeFactor
 from robot_console.robot_kind import AUTO, KINDS, robot_kind
 from robot_console.robot_link import link_of
 from robot_console.safety_session import Facts, SafetySession
@@ -47,6 +48,7 @@ class Safety(Panel):
         namespace, node = self.values['Namespace'], self.context.node
         self._link = link_of(self.context, namespace)
         self._facts = Facts()
+        self._pace = RealTimeFactor(node)
         self._heard = ''
         self._looked_s = -PERIOD_S
         settings = {
@@ -67,6 +69,7 @@ class Safety(Panel):
     def close(self) -> None:
         """End the page: the robot notices if this console was in control."""
         self._page.close()
+        self._pace.close()
 
     def _session(self, person: str) -> SafetySession:
         return SafetySession(self._link, person, lambda: self._facts)
@@ -83,6 +86,7 @@ class Safety(Panel):
             tuple(sorted(filter(_may_be_robot, listeners))),
             tuple(sorted(speakers)),
             self._link.holds_because if is_said else None,
+            self._pace.factor(time.monotonic()),
         )
 
 

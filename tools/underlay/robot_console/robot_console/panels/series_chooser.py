@@ -14,6 +14,7 @@ from robot_console.plots.completion import completions
 from robot_console.plots.field_path import PathError
 from robot_console.samples import Samples
 from rviz_common.pace import Pace
+from rviz_common.topic_names import is_full_topic_name
 
 __all__ = ['SeriesChooser']
 
@@ -66,7 +67,9 @@ class SeriesChooser:
     def _offer_topics(self) -> None:
         """Offer the topics whose messages have numbers."""
         types = {
-            self._short(name): kinds[0] for name, kinds in self._node.get_topic_names_and_types()
+            self._short(name): kinds[0]
+            for name, kinds in self._node.get_topic_names_and_types()
+            if is_full_topic_name(name)
         }
         if types != self._types:
             self._types = self._presets.types = types
@@ -88,9 +91,12 @@ class SeriesChooser:
         return short if self._plot.full_name(short) == name else name
 
     def _choose_topic(self, topic: str) -> None:
+        self.say('')
         _offer(self._field, self._completions(topic))
-        if topic != NOTHING:
+        if topic in self._types:
             self._samples.ask([topic], lambda found: self._offer_fields(topic, found))
+        elif topic != NOTHING:
+            self.say(f"Nobody publishes '{topic}' any longer.")
 
     def _offer_fields(self, topic: str, found: Mapping[str, Any]) -> None:
         if topic in found:

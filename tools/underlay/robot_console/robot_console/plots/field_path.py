@@ -10,7 +10,7 @@ from typing import Union
 __all__ = ['Element', 'Field', 'FieldPath', 'PathError', 'Step', 'parse_path']
 
 EXAMPLE = 'A path is like joint_states.position[left_knee] or imu.angular_velocity.z.'
-TOPIC = re.compile(r'~?/?[A-Za-z0-9_/]+')
+TOPIC = re.compile(r'(~/|/)?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*')
 STEP = re.compile(r'\.([A-Za-z]\w*)|\[([^\[\]]+)\]')
 WHOLE = re.compile(r'-?\d+')
 
@@ -61,7 +61,7 @@ def parse_path(text: str) -> FieldPath:
     text = text.strip()
     topic = TOPIC.match(text)
     if topic is None:
-        raise PathError(f"'{text}' does not begin with a topic. {EXAMPLE}")
+        raise PathError(f"'{text}' does not begin with the name of a topic. {EXAMPLE}")
     steps: list[Step] = []
     at = topic.end()
     while at < len(text):
@@ -86,6 +86,8 @@ def _why(rest: str) -> str:
     """Explain what cannot be a step."""
     if rest.startswith('['):
         return 'brackets hold a number or a name, and are closed.'
+    if rest.startswith('/'):
+        return 'in the name of a topic a letter or an underscore follows each slash.'
     if rest.startswith('.'):
         return 'after a dot comes the name of a field.'
     return 'a dot or a bracket is expected.'

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any, TYPE_CHECKING
 
 from rclpy.qos import qos_check_compatible, QoSCompatibility
+from rviz_common.topic_names import is_full_topic_name
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -23,8 +24,12 @@ MOST = 5
 
 
 def types_of(node: Node) -> dict[str, list[str]]:
-    """Return the topics with their types."""
-    return {name: list(types) for name, types in node.get_topic_names_and_types()}
+    """Return the topics that nodes can subscribe, with their types."""
+    return {
+        name: list(types)
+        for name, types in node.get_topic_names_and_types()
+        if is_full_topic_name(name)
+    }
 
 
 def rows_of(node: Node, types: dict[str, list[str]]) -> list[Row]:
@@ -44,18 +49,26 @@ def ends_of(node: Node, topic: str) -> dict[str, list[tuple[str, str]]]:
 
 
 def mismatches(node: Node, topic: str) -> list[str]:
-    """Return a sentence for each pair of ends between which nothing passes."""
+    """
+    Return a sentence for each pair of nodes between which nothing passes.
+
+    A node may have several ends, of which one that fits is enough.
+    """
     publishers = node.get_publishers_info_by_topic(topic)
     subscribers = node.get_subscriptions_info_by_topic(topic)
     if len(publishers) * len(subscribers) > 1000:
         return []
-    sentences = [
-        f'Nothing passes from {_name(publisher)} to {_name(subscriber)}: {reason}.'
-        for publisher in publishers
-        for subscriber in subscribers
-        if (reason := _reason(publisher, subscriber))
-    ]
-    return sorted(set(sentences))[:MOST]
+    reasons: dict[tuple[str, str], set[str]] = {}
+    for publisher in publishers:
+        for subscriber in subscribers:
+            ends = (_name(publisher), _name(subscriber))
+            reasons.setdefault(ends, set()).add(_reason(publisher, subscriber))
+    return sorted(
+        f'Nothing passes from {publisher} to {subscriber}: {reason}.'
+        for (publisher, subscriber), found in reasons.items()
+        if '' not in found
+        for reason in found
+    )[:MOST]
 
 
 def _named(ends: list[Any]) -> list[tuple[str, str]]:

@@ -2,18 +2,23 @@
 const settings = /* settings */ {};
 const show = (id) => document.getElementById(id);
 const LOST_MS = 800;
+const BUSY_MS = 100;
 const outer = window.parent;
 // All small pages inside of one page are one person.
 const me = (outer.robotConsoleKey ??= Array.from(
   crypto.getRandomValues(new Uint8Array(8)), (each) => each.toString(16).padStart(2, '0')).join(''));
 
 class Link {
-  constructor(onState, onConnection) {
+  // `beat` returns the sign of life: a page that moves the robot goes on with that.
+  constructor(onState, onConnection, beat = () => ({ do: 'beat' })) {
     this.onState = onState;
     this.onConnection = onConnection;
+    this.beat = beat;
     this.periodMs = 250;
     this.isAlive = false;
     this.heardAt = -Infinity;
+    this.silentMs = 0;
+    this.watchedAt = performance.now();
     this.sentAt = 0;
     this.triedAt = -Infinity;
     setInterval(() => this.watch(), 50);
@@ -24,7 +29,7 @@ class Link {
     this.socket?.close();
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
     const socket = new WebSocket(`${scheme}://${location.host}${location.pathname}?me=${me}`);
-    socket.onopen = () => this.send({ do: 'beat' });
+    socket.onopen = () => this.send(this.beat());
     socket.onmessage = (event) => { if (socket === this.socket) this.hear(JSON.parse(event.data)); };
     this.socket = socket;
   }
@@ -39,18 +44,22 @@ class Link {
 
   hear(state) {
     this.heardAt = performance.now();
+    this.silentMs = 0;
     this.onState(state);
     this.tell(true);
   }
 
   watch() {
     const now = performance.now();
-    if (now - this.heardAt > LOST_MS) this.tell(false);
+    // What came while this page was busy has not been heard yet: that is no silence.
+    this.silentMs += Math.min(now - this.watchedAt, BUSY_MS);
+    this.watchedAt = now;
+    if (this.silentMs > LOST_MS) this.tell(false);
     const isClosed = (this.socket?.readyState ?? WebSocket.CLOSED) >= WebSocket.CLOSING;
     const tryMs = isClosed ? 500 : 3000;
     if ((isClosed || now - this.heardAt > 3000) && now - this.triedAt > tryMs) this.connect(now);
     const isFree = this.socket.bufferedAmount === 0;
-    if (isFree && now - this.sentAt >= this.periodMs - 10) this.send({ do: 'beat' });
+    if (isFree && now - this.sentAt >= this.periodMs - 10) this.send(this.beat());
   }
 
   tell(isAlive) {

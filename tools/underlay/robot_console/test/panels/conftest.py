@@ -14,7 +14,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rviz_common.context import Context
 from rviz_common.frames import Frames
-from rviz_common.page import Page
+from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.panel import Panel
 from rviz_common.work_queue import WorkQueue
 from tf2_ros import Buffer
@@ -26,7 +26,7 @@ Show = Callable[..., Any]
 @pytest.fixture(scope='session')
 def watched_page() -> Iterator[Page]:
     """Serve a page that somebody seems to look at."""
-    with Page('test') as page:
+    with Page('test', PageSettings(token=NO_TOKEN)) as page:
         page.viser.get_clients = lambda: {0: object()}
         yield page
 

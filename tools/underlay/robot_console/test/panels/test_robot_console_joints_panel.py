@@ -57,7 +57,7 @@ def test_nobody_publishes(show_panel: Any, work_until: Callable[..., None]) -> N
     panel = show_panel(JointsPanel)
     work_until(panel, lambda: notes(panel))
     assert '/joint_states: Nothing has come yet; nobody publishes it.' in notes(panel)
-    assert 'No limits: no description on robot_description yet.' in notes(panel)
+    assert 'No limits: no description on /robot_description yet.' in notes(panel)
     assert 'in its name' not in notes(panel)
     panel._search.value = 'knee'
     work_until(panel, lambda: 'No joint has &#x27;knee&#x27; in its name.' in notes(panel))

@@ -161,6 +161,19 @@ def test_written_path(show_panel: Any) -> None:
     assert chooser._said.content == '' and listed(panel) == ['joint_states.position[0]']
 
 
+@pytest.mark.parametrize('topic', ['32FC1', 'a//b', '/a/1b', '', '~x', 'x' * 300])
+def test_what_is_no_name_of_a_topic(show_panel: Any, work_until: Work, topic: str) -> None:
+    """Whatever text a page sends as a topic is answered with a sentence; the panel goes on."""
+    panel = show_panel(PlotsPanel)
+    chooser = panel._chooser
+    chooser._choose_topic(topic)
+    assert 'Nobody publishes' in chooser._said.content
+    chooser._path.value = f'{topic}.position[0]'
+    chooser._add_path()
+    said = [chooser._said.content]
+    work_until(panel, lambda: 'topic' in f'{said}{panel._legend.content}')
+
+
 @pytest.mark.parametrize(
     ('preset', 'series'),
     [

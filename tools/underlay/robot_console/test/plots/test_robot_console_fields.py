@@ -35,7 +35,9 @@ def test_paths_are_written_as_they_are_read(path: str) -> None:
 @pytest.mark.parametrize(
     ('text', 'sentence'),
     [
-        ('', 'does not begin with a topic'),
+        ('', 'does not begin with the name of a topic'),
+        ('1a.b', 'does not begin with the name of a topic'),
+        ('a/1b.c', 'a letter or an underscore follows each slash'),
         ('joint_states', 'names no field'),
         ('joint_states[0]', 'names no field'),
         ('joint_states.', "goes wrong at '.': after a dot comes the name of a field"),

@@ -19,6 +19,9 @@ from ros2topic.api import get_topic_names_and_types
 
 __all__ = ['Recorder']
 
+TURN_S = 0.02
+REST_S = 5.0
+
 
 class Recorder:
     """Everything that is received while it runs goes to a writer."""
@@ -46,6 +49,7 @@ class Recorder:
         self._latched: set[str] = set()
         self._publisher_counts: dict[str, int] = {}
         self._held: list[RecordedMessage] = []
+        self._end_ns: int | None = None
         self.received_count = 0
 
     @property
@@ -70,6 +74,26 @@ class Recorder:
         held, self._held = self._held, []
         for message in held:
             self._writer.write(message._replace(log_ns=self._now_ns()))
+
+    def take_rest(self) -> None:
+        """
+        Record what had arrived before now, however long a busy machine takes, and nothing later.
+
+        It is over when nothing happens any more, or when each topic has had its turn and only
+        messages that are too late came; after 5 s at the latest.
+        """
+        self._end_ns = time.time_ns()
+        end_s = time.monotonic() + REST_S
+        turns = pauses = 0
+        while pauses < 2 and turns <= 2 * (1 + self.topic_count) and time.monotonic() < end_s:
+            before, began_s = self.received_count, time.monotonic()
+            self._node.spin_once(TURN_S)
+            if self.received_count > before:
+                turns = pauses = 0
+            elif time.monotonic() - began_s >= TURN_S:
+                pauses += 1
+            else:
+                turns += 1
 
     def _has_changed(self, graph: Graph, name: str) -> bool:
         """Tell if a topic has other publishers than at the last look."""
@@ -127,6 +151,8 @@ class Recorder:
 
     def _receiver(self, name: str) -> Callable[[bytes, dict[str, int]], None]:
         def receive(data: bytes, info: dict[str, int]) -> None:
+            if self._end_ns is not None and info['received_timestamp'] > self._end_ns:
+                return
             self.received_count += 1
             log_ns = self._now_ns() if self._use_sim_time else info['received_timestamp']
             sequence = info['publication_sequence_number'] or 0

@@ -26,7 +26,6 @@ from ros2cli.suggest import did_you_mean
 __all__ = ['record']
 
 PERIOD_S = 0.02
-DRAIN_S = 0.1
 NS_PER_S = 1_000_000_000
 
 
@@ -131,16 +130,7 @@ def _run(
                 recorder.release_held()
             if recorder.missing or not recorder.topic_count:
                 patience.check()
-    _drain(node, recorder)
-
-
-def _drain(node: Any, recorder: Recorder) -> None:
-    """Take what had arrived before the signal."""
-    end = time.monotonic() + DRAIN_S
-    before = -1
-    while recorder.received_count > before and time.monotonic() < end:
-        before = recorder.received_count
-        node.spin_once(PERIOD_S)
+    recorder.take_rest()
 
 
 def _missing_text(node: Any, recorder: Recorder) -> str:

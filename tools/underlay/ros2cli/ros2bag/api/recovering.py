@@ -17,6 +17,8 @@ def recover_and_report(folder: str) -> None:
     """Recover a recording and say what became of its files."""
     outcomes = recover(folder, _Progress())
     for each in outcomes:
+        if each.objection:
+            print(f'{each.path}: left out {each.objection}', file=sys.stderr)
         print(_outcome_text(each))
     total = sum(each.message_count for each in outcomes)
     print(f'{folder}: {total} messages; metadata.yaml is written')

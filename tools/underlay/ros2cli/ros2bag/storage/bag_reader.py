@@ -58,8 +58,10 @@ class BagReader:
     ) -> Iterator[RecordedMessage]:
         """Yield the messages of these topics, or of all, from a time on."""
         from mcap.reader import SeekingReader
+        from ros2bag.storage.bounded_chunks import limit_chunks
         from ros2bag.storage.damage import BoundedFile, damage_told
 
+        limit_chunks()
         for path in self._paths():
             with damage_told(path), BoundedFile(path) as stream:
                 reader = SeekingReader(stream, validate_crcs=True)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import re
 
 from mcap.records import Chunk
-from mcap.stream_reader import get_chunk_data_stream
+from ros2bag.storage.bounded_chunks import chunk_stream
 from ros2bag.storage.damage import BoundedFile, DAMAGE
 from ros2bag.storage.mcap_record import read_record
 
@@ -29,7 +29,7 @@ def next_chunk(stream: BoundedFile, position: int) -> int | None:
 def unpacked(chunk: Chunk) -> bytes | None:
     """Return the records of a chunk, or None if they are not those that were written."""
     try:
-        stream, size = get_chunk_data_stream(chunk, validate_crc=True)
+        stream, size = chunk_stream(chunk, validate_crc=True)
         return stream.read(size)
     except DAMAGE:
         return None

@@ -11,6 +11,7 @@ import os
 import struct
 
 from mcap.exceptions import InvalidMagic, McapError
+from ros2bag.storage.bounded_chunks import ChunkTooLarge
 from ros2bag.storage.errors import BagError
 import yaml
 from zstandard import ZstdError
@@ -71,6 +72,11 @@ def damage_told(path: str) -> Iterator[None]:
         if error.errno != errno.EINVAL:
             raise BagError(f"'{path}' cannot be read: {error.strerror}") from error
         raise _broken(path, error) from error
+    except ChunkTooLarge as error:
+        raise BrokenFile(
+            f"'{path}' is not read: {error}. What else it has can be saved: "
+            f'ros2 bag recover {os.path.dirname(path) or path}'
+        ) from error
     except DAMAGE as error:
         if isinstance(error, InvalidMagic) and not path.endswith('.mcap'):
             raise BagError(f"'{path}' is not an MCAP file") from error

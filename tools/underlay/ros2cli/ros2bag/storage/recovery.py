@@ -33,6 +33,7 @@ class RecoveredFile(NamedTuple):
     message_count: int
     kept_path: str = ''
     damaged_parts: int = 0
+    objection: str = ''
 
     @property
     def was_broken(self) -> bool:
@@ -99,7 +100,7 @@ def _recover_file(path: str, progress: Callable[[str, float], None]) -> Recovere
     kept_path = _free_path(f'{path}{BROKEN_SUFFIX}')
     os.replace(path, kept_path)
     os.replace(new_path, path)
-    return RecoveredFile(path, count, kept_path, survey.damaged_parts)
+    return RecoveredFile(path, count, kept_path, survey.damaged_parts, survey.objection)
 
 
 def _remove(path: str) -> None:

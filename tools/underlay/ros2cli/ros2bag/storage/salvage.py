@@ -10,6 +10,7 @@ import zlib
 
 from mcap.opcode import Opcode
 from mcap.records import Channel, Message, Schema
+from ros2bag.storage.bounded_chunks import size_objection
 from ros2bag.storage.chunk_search import next_chunk, unpacked
 from ros2bag.storage.damage import BoundedFile
 from ros2bag.storage.errors import BagError
@@ -34,13 +35,15 @@ class Salvage:
         self.compression = ''
         self.damaged_parts = 0
         self.is_sound = True
+        self.objection = ''
 
     def records(self, progress: Callable[[float], None] = lambda share: None) -> Iterator[Content]:
         """
         Yield the records; `progress` is told which share of the file has been read.
 
         Afterwards `damaged_parts` tells how many parts were left out, and `is_sound` if the data
-        are those that were written, as far as there are check sums.
+        are those that were written, as far as there are check sums; `objection` why a part was
+        left out that would have filled the memory.
         """
         self.damaged_parts, self.is_sound = 0, True
         with BoundedFile(self._path) as stream:
@@ -86,6 +89,8 @@ class Salvage:
         start = stream.tell() - record.size
         chunk, used = record.parsed()
         data = chunk and unpacked(chunk)
+        if chunk and chunk.compression:
+            self.objection = self.objection or size_objection(chunk)
         if data is not None:
             self.compression = self.compression or chunk.compression
             self._has_chunks = True

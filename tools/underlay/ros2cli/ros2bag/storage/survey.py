@@ -28,6 +28,7 @@ class Survey:
                 self._note(record)
         self.compression = salvage.compression or 'none'
         self.damaged_parts = salvage.damaged_parts
+        self.objection = salvage.objection
         self.is_whole = salvage.is_sound and self.message_count == _counted(path)
 
     def _note(self, record: Content) -> None:

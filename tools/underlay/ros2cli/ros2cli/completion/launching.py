@@ -43,7 +43,9 @@ def arguments(prefix: str, args: argparse.Namespace) -> list[str]:
     name, separator, value = prefix.partition(SEPARATOR)
     declared = _declared(target, args.launch_file_name)
     if separator:
-        values = [text for each in declared if each.name == name for text in _values(each)]
+        known = [text for each in declared if each.name == name for text in _values(each)]
+        # Some choices are names, or paths of one's own.
+        values = [text for text in known if text.startswith(value)]
         return [f'{name}{separator}{text}' for text in values or files(value)]
     given = {text.partition(SEPARATOR)[0] for text in _given(args)}
     names = dict.fromkeys(each.name for each in declared if each.name not in given)

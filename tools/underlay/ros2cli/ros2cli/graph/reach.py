@@ -15,6 +15,9 @@ class Reach(NamedTuple):
     """
     The domain, how far discovery goes, and hosts that it asks besides.
 
+    With LOCALHOST no socket is open to other machines (see the profile of ros_environment), so
+    that other hosts are not asked, either.
+
     :param extent: a value of ROS_AUTOMATIC_DISCOVERY_RANGE
     """
 
@@ -25,7 +28,7 @@ class Reach(NamedTuple):
     @property
     def is_local(self) -> bool:
         """Tell if no other machine is reached, so that all participants can be counted."""
-        return self.extent == OFF or (self.extent == LOCALHOST and not self.peers)
+        return self.extent in (OFF, LOCALHOST)
 
     @property
     def is_wide(self) -> bool:
@@ -40,7 +43,8 @@ def read_reach(environment: Mapping[str, str] = os.environ) -> Reach:
             'ROS_DISCOVERY_SERVER is set, but these commands ask the nodes themselves and know '
             'no discovery server; start the nodes without it, after: unset ROS_DISCOVERY_SERVER'
         )
-    return Reach(_domain_id(environment), _extent(environment), _peers(environment))
+    reach = Reach(_domain_id(environment), _extent(environment))
+    return reach if reach.is_local else reach._replace(peers=_peers(environment))
 
 
 def _domain_id(environment: Mapping[str, str]) -> int:
@@ -62,8 +66,6 @@ def _extent(environment: Mapping[str, str]) -> str:
 
 
 def _peers(environment: Mapping[str, str]) -> tuple[str, ...]:
-    if _is_localhost_only(environment):
-        return ()
     texts = environment.get('ROS_STATIC_PEERS', '').split(';')
     return tuple(text.strip() for text in texts if text.strip())
 

@@ -11,8 +11,17 @@ from ros2cli.messages.lookup import get_message
 from ros2cli.messages.plain import element_type
 
 HEADER, TIME = 'std_msgs/Header', 'builtin_interfaces/Time'
+
+
+def _boolean(value: Any) -> bool:
+    """Return a boolean of YAML; anything else is truthy in Python, a typing mistake as well."""
+    if isinstance(value, bool):
+        return value
+    raise ValueError(value)
+
+
 SCALARS: dict[str, Callable[[Any], Any]] = {
-    'boolean': bool,
+    'boolean': _boolean,
     'float': float,
     'double': float,
     'octet': lambda value: bytes([value]),

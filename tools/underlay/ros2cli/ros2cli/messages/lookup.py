@@ -53,9 +53,11 @@ def _get_interface(name: str, kind: str) -> Any:
         module = import_module(f'{package}.{kind}')
     except ModuleNotFoundError as error:
         raise UnknownType(_no_package_text(package, kind)) from error
+    except ImportError as error:  # it is there, and says itself what it lacks
+        raise UnknownType(f"'{package}' cannot be imported: {error}") from error
     interface = getattr(module, short_name, None)
     if not isinstance(interface, type):
-        raise UnknownType(_no_type_text(f'{package}/{kind}', short_name, vars(module)))
+        raise UnknownType(_no_type_text(f'{package}/{kind}', short_name, dir(module)))
     return interface
 
 
@@ -79,7 +81,7 @@ def _no_package_text(package: str, kind: str) -> str:
     )
 
 
-def _no_type_text(folder: str, name: str, names: dict[str, Any]) -> str:
+def _no_type_text(folder: str, name: str, names: list[str]) -> str:
     from ros2cli.suggest import did_you_mean
 
     known = [known for known in names if known[:1].isupper()]

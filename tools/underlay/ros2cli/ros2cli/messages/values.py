@@ -1,21 +1,137 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The values of a message as the command line gives them."""
+"""
+The values of a message as the command line gives them, in YAML.
+
+Nearly all are like `{linear: {x: 0.3}, name: arm}`: words, numbers and truth values in braces and
+brackets. These are read here, since the import of PyYAML takes a tenth of the time of a command;
+whatever else YAML allows is left to it.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+import re
 from typing import Any
 
-import yaml
+_TOKEN = re.compile(r' *(?:([]{},[])|([a-z][a-z0-9_]*):(?= )|([A-Za-z0-9_.+-]+))', re.ASCII)
+_INTEGER = re.compile(r'[+-]?(?:0|[1-9][0-9]{0,17})', re.ASCII)
+_DECIMAL = re.compile(r'[+-]?[0-9]{1,17}\.[0-9]{1,17}', re.ASCII)
+_WORD = re.compile(r'[A-Za-z][A-Za-z0-9_]*', re.ASCII)
+_TRUTH = {'true': True, 'True': True, 'false': False, 'False': False}
+_NO_WORDS = ('true', 'false', 'yes', 'no', 'on', 'off', 'null')
+_DEEPEST = 20
 
 
 def parse_values(text: str) -> dict[str, Any]:
-    """Return the mapping that a text in YAML stands for."""
+    """Return the mapping that a text in YAML stands for; RuntimeError if it is none."""
+    try:
+        return _Simple(text).mapping()
+    except _NotSimple:
+        return _parse_yaml(text)
+
+
+def _parse_yaml(text: str) -> dict[str, Any]:
+    import yaml
+
     try:
         values = yaml.safe_load(text)
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, LookupError, TypeError, ValueError) as error:  # of values as !!int ''
         raise RuntimeError(f'The passed value is no YAML: {error}') from error
     if values is None:
         return {}
     if not isinstance(values, dict):
         raise RuntimeError('The passed value needs to be a dictionary in YAML format')
     return values
+
+
+class _NotSimple(Exception):
+    """A text needs all of YAML, or is wrong."""
+
+
+class _Simple:
+    """A reader of simple mappings; whatever it returns, YAML would."""
+
+    def __init__(self, text: str) -> None:
+        """Read a text from its begin."""
+        self._tokens = self._split(text.strip(' '))
+        self._depth = 0
+
+    def mapping(self) -> dict[str, Any]:
+        """Return the mapping that the whole text is."""
+        if self._next()[0] != '{':
+            raise _NotSimple
+        result = self._rest_of_mapping()
+        if next(self._tokens, None) is not None:
+            raise _NotSimple
+        return result
+
+    def _split(self, text: str) -> Iterator[tuple[str, str, str]]:
+        """Yield brackets and commas, names before a colon, and values."""
+        place = 0
+        while place < len(text):
+            found = _TOKEN.match(text, place)
+            if found is None:
+                raise _NotSimple
+            place = found.end()
+            yield found[1] or '', found[2] or '', found[3] or ''
+
+    def _next(self) -> tuple[str, str, str]:
+        token = next(self._tokens, None)
+        if token is None:
+            raise _NotSimple
+        return token
+
+    def _rest_of_mapping(self) -> dict[str, Any]:
+        """Read `a: 1, b: 2}`; whoever calls has read the brace."""
+        result: dict[str, Any] = {}
+        mark, name, _ = self._next()
+        if mark == '}':
+            return result
+        while name and name not in result and name not in _NO_WORDS:
+            result[name] = self._value(self._next())
+            if not self._goes_on('}'):
+                return result
+            name = self._next()[1]
+        raise _NotSimple
+
+    def _rest_of_sequence(self) -> list[Any]:
+        """Read `1, 2]`; whoever calls has read the bracket."""
+        result: list[Any] = []
+        token = self._next()
+        if token[0] == ']':
+            return result
+        while True:
+            result.append(self._value(token))
+            if not self._goes_on(']'):
+                return result
+            token = self._next()
+
+    def _goes_on(self, end: str) -> bool:
+        """Tell whether a comma follows, and not the bracket that ends the collection."""
+        mark = self._next()[0]
+        if mark not in (',', end):
+            raise _NotSimple
+        return mark == ','
+
+    def _value(self, token: tuple[str, str, str]) -> Any:
+        mark, _, text = token
+        if text:
+            return _scalar(text)
+        self._depth += 1
+        if self._depth > _DEEPEST or mark not in ('{', '['):
+            raise _NotSimple
+        value = self._rest_of_mapping() if mark == '{' else self._rest_of_sequence()
+        self._depth -= 1
+        return value
+
+
+def _scalar(text: str) -> Any:
+    if _INTEGER.fullmatch(text):
+        return int(text)
+    if _DECIMAL.fullmatch(text):
+        return float(text)
+    if text in _TRUTH:
+        return _TRUTH[text]
+    if _WORD.fullmatch(text) and text.lower() not in _NO_WORDS:
+        return text
+    raise _NotSimple

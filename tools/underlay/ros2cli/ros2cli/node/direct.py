@@ -6,28 +6,29 @@ from __future__ import annotations
 import argparse
 import os
 from types import TracebackType
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
-import rclpy
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.parameter import Parameter
-from rclpy.signals import SignalHandlerOptions
 from ros2cli.graph import DEFAULT_SPIN_TIME_S
-from ros2cli.graph.graph import Graph
-from ros2cli.graph.watch import GraphWatch
 from ros2cli.interrupts import interrupts_deferred
 from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.node.arguments import add_node_arguments as add_arguments
+from ros2cli.node.rclpy_import import import_rclpy
+
+import_rclpy()
+import rclpy  # noqa: E402, I100
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor  # noqa: E402
+from rclpy.parameter import Parameter  # noqa: E402
+from rclpy.signals import SignalHandlerOptions  # noqa: E402
+
+if TYPE_CHECKING:
+    from ros2cli.graph.graph import Graph
+    from ros2cli.graph.watch import GraphWatch
 
 __all__ = ['DirectNode', 'add_arguments']
 
 
 class DirectNode:
-    """
-    A hidden node in a `with` statement; its attributes are those of the rclpy node.
-
-    :ivar watch: the graph, which rclpy itself discovers more slowly
-    """
+    """A hidden node in a `with` statement; its attributes are those of the rclpy node."""
 
     def __init__(
         self,
@@ -42,6 +43,7 @@ class DirectNode:
         Ctrl-C ends the node at once, unless it is to survive that for some last words.
         """
         self._spin_time_s: float = getattr(args, 'spin_time', DEFAULT_SPIN_TIME_S)
+        self._watch: GraphWatch | None = None
         self._use_sim_time: bool = getattr(args, 'use_sim_time', False)
         self._node_name = node_name or f'{NODE_NAME_PREFIX}_{os.getpid()}'
         self._signals = (
@@ -50,7 +52,6 @@ class DirectNode:
 
     def __enter__(self) -> DirectNode:
         """Start rclpy and the node; nobody is waited for."""
-        self.watch = GraphWatch(self._spin_time_s, _check_rclpy)
         rclpy.init(args=[], signal_handler_options=self._signals)
         self.node = rclpy.create_node(
             self._node_name,
@@ -66,6 +67,15 @@ class DirectNode:
         return self
 
     @property
+    def watch(self) -> GraphWatch:
+        """Return what sees the graph, which rclpy itself discovers more slowly."""
+        if self._watch is None:
+            from ros2cli.graph.watch import GraphWatch
+
+            self._watch = GraphWatch(self._spin_time_s, _check_rclpy)
+        return self._watch
+
+    @property
     def graph(self) -> Graph:
         """Return the complete graph, without this node."""
         return self.watch.settled()
@@ -76,7 +86,7 @@ class DirectNode:
 
     def __getattr__(self, name: str) -> Any:
         """Return an attribute of the rclpy node."""
-        if name in ('node', 'executor', 'watch'):
+        if name in ('node', 'executor'):
             raise AttributeError(f'the node exists only inside a with statement: {name!r}')
         return getattr(self.node, name)
 
@@ -89,12 +99,25 @@ class DirectNode:
         """End the node; an error because SIGTERM has ended rclpy becomes a clean end."""
         terminated = not rclpy.ok() and not isinstance(error, KeyboardInterrupt)
         with interrupts_deferred():
-            self.watch.close()
+            if self._watch is not None:
+                self._watch.close()
             self.executor.shutdown()
+            self._destroy_waitables()
             self.node.destroy_node()
             rclpy.try_shutdown()
         if terminated:
             raise ExternalShutdownException from None
+
+    def _destroy_waitables(self) -> None:
+        """
+        Destroy what `Node.destroy_node` leaves to the garbage collector, as clients of actions.
+
+        Each keeps the participant alive, and the process ends without collecting garbage: others
+        would wait for 20 s for the answers of a participant that is no more.
+        """
+        for each in list(self.node.waitables):
+            if destroy := getattr(each, 'destroy', None):
+                destroy()
 
 
 def _check_rclpy() -> None:

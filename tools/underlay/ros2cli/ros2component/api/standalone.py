@@ -14,6 +14,7 @@ from ros2cli.patience import Patience
 from ros2component.api import get_containers, load_component
 from ros2pkg.api import PackageNotFoundError
 from ros2run.api import get_executable_path
+from ros_environment.workspace import explain_missing_package
 
 PACKAGE = 'rclcpp_components'
 EXECUTABLE = 'component_container'
@@ -62,9 +63,9 @@ def _executable() -> str:
     except PackageNotFoundError:
         path = None
     if path is None:
-        raise RuntimeError(
-            f"The executable '{EXECUTABLE}' of the package '{PACKAGE}' is not installed: "
-            'containers are C++ programs, which PyPI does not have. Run the node as a process of '
-            'its own instead'
+        advice = explain_missing_package(PACKAGE)
+        text = (
+            f"The executable '{EXECUTABLE}' of the package '{PACKAGE}' is not installed. {advice}"
         )
+        raise RuntimeError(text.rstrip())
     return path

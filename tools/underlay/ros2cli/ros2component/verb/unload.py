@@ -23,6 +23,12 @@ class UnloadVerb(VerbExtension):
         parser.add_argument(
             'component_uid', nargs='+', type=whole_number, help='Unique ID of the component'
         )
+        parser.add_argument(
+            '-q',
+            '--quiet',
+            action='store_true',
+            help='Say nothing of components that are unloaded',
+        )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Unload the components one by one; the status is 1 if one of them stays."""
@@ -41,6 +47,6 @@ class UnloadVerb(VerbExtension):
                         f'    {reason}',
                         file=sys.stderr,
                     )
-                else:
+                elif not args.quiet:
                     print(f"Unloaded component {uid} from '{container}' container node")
         return status

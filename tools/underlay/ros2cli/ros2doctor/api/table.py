@@ -23,6 +23,7 @@ CHECKS = {
     'neighbours': Entry('ros2doctor.check.neighbours:NeighboursCheck', ''),
     'clock': Entry('ros2doctor.check.clock:ClockCheck', ''),
     'frames': Entry('ros2doctor.check.frames:FramesCheck', ''),
+    'diagnostics': Entry('ros2doctor.check.diagnostics:DiagnosticsCheck', ''),
 }
 REPORTS = {
     'platform': Entry('ros2doctor.report.machine:PlatformReport', ''),

@@ -17,6 +17,8 @@ from ros2doctor.facts.network import Network, read_network
 RANGES = (SUBNET, LOCALHOST, OFF, SYSTEM_DEFAULT)
 WITH_MULTICAST = (SUBNET, SYSTEM_DEFAULT)
 PROFILES_VARIABLE = 'FASTRTPS_DEFAULT_PROFILES_FILE'
+OWN_PROFILE = os.path.join('share', 'ros_environment', 'config', 'fastdds.xml')
+PEERS_VARIABLE, SERVER_VARIABLE = 'ROS_STATIC_PEERS', 'ROS_DISCOVERY_SERVER'
 
 
 class NetworkCheck(DoctorCheck):
@@ -34,6 +36,7 @@ class NetworkCheck(DoctorCheck):
 def network_findings(facts: Network) -> Iterator[Finding]:
     """Yield what keeps nodes from finding each other."""
     yield from _range(facts)
+    yield from _peers(facts)
     yield from _domain(facts)
     yield from _interfaces(facts)
     yield from _profiles(facts)
@@ -45,13 +48,25 @@ def discovery_range(facts: Network) -> str:
     return facts.variables.get('ROS_AUTOMATIC_DISCOVERY_RANGE', '') or SUBNET
 
 
+def who_reaches(facts: Network) -> str:
+    """Return who reaches the nodes that are started here."""
+    profile = facts.variables.get(PROFILES_VARIABLE, '')
+    extent = discovery_range(facts)
+    if extent == OFF:
+        return 'nobody'
+    if not profile.endswith(OWN_PROFILE):
+        return f'whoever {profile} lets in' if profile else 'every machine in the network'
+    return 'this machine only' if extent == LOCALHOST else 'every machine in the network'
+
+
 def _range(facts: Network) -> Iterator[Finding]:
     found = discovery_range(facts)
     if found not in RANGES:
         yield Finding(
             Severity.ERROR,
             f"ROS_AUTOMATIC_DISCOVERY_RANGE is '{found}', which is none of {', '.join(RANGES)}",
-            'nodes take it for LOCALHOST, so they do not find those of other machines',
+            'nodes look for others on this machine only, as with LOCALHOST, but their DDS profile '
+            'is not read with it, so that other machines still reach them',
             'export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET, or LOCALHOST',
         )
     elif found == OFF:
@@ -65,9 +80,35 @@ def _range(facts: Network) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING,
             'ROS_LOCALHOST_ONLY is set, which is deprecated',
-            'it overrides ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_STATIC_PEERS',
+            'it overrides ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_STATIC_PEERS, but only the former '
+            'keeps other machines from reaching the nodes',
             'unset ROS_LOCALHOST_ONLY; export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST',
         )
+
+
+def _peers(facts: Network) -> Iterator[Finding]:
+    """Yield what names other machines although no socket is open to them."""
+    if discovery_range(facts) != LOCALHOST:
+        return
+    for name in (PEERS_VARIABLE, SERVER_VARIABLE):
+        others = [host for host in _hosts(facts.variables.get(name, '')) if not _is_here(host)]
+        if others:
+            yield Finding(
+                Severity.WARNING,
+                f"{name} names '{others[0]}', but ROS_AUTOMATIC_DISCOVERY_RANGE is LOCALHOST",
+                'nodes are on the loopback interface only: they reach no other machine, and none '
+                'reaches them',
+                f'export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET, or: unset {name}',
+            )
+
+
+def _hosts(text: str) -> list[str]:
+    """Return the hosts of a list as in ROS_STATIC_PEERS, or with ports as of discovery servers."""
+    return [each.strip().rpartition(':')[0] or each.strip() for each in text.split(';') if each]
+
+
+def _is_here(host: str) -> bool:
+    return host == 'localhost' or host.startswith('127.')
 
 
 def _domain(facts: Network) -> Iterator[Finding]:

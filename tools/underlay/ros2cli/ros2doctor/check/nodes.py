@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that every node has a name of its own."""
+"""Check that every node has a name of its own, and topics that follow its namespace."""
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 
 from ros2doctor.api.finding import Finding, Severity
 from ros2doctor.check.graph_check import GraphCheck
-from ros2doctor.facts.graph import Graph
+from ros2doctor.facts.graph import Endpoint, Graph
+
+# Topics that all robots have in common on purpose.
+_COMMON = frozenset(
+    ('/clock', '/diagnostics', '/parameter_events', '/rosout', '/tf', '/tf_static')
+)
 
 
 class NodesCheck(GraphCheck):
@@ -19,8 +24,9 @@ class NodesCheck(GraphCheck):
         return 'nodes'
 
     def findings(self, graph: Graph) -> Iterator[Finding]:
-        """Yield the names that several nodes have."""
+        """Yield the names that several nodes have, and namespaces without effect."""
         yield from name_findings(graph.nodes)
+        yield from namespace_findings(graph.endpoints)
 
 
 def name_findings(names: Iterable[str]) -> Iterator[Finding]:
@@ -36,3 +42,29 @@ def name_findings(names: Iterable[str]) -> Iterator[Finding]:
                 f'end the one that is not meant (pgrep -af {last} may show the processes), or '
                 f'start it under another name: ros2 run ... --ros-args -r __node:={last}_2',
             )
+
+
+def namespace_findings(endpoints: Iterable[Endpoint]) -> Iterator[Finding]:
+    """Yield the topics that nodes of one name, in several namespaces, publish together."""
+    namespaces: dict[tuple[str, str], set[str]] = defaultdict(set)
+    for each in endpoints:
+        namespace, _, name = each.node.rpartition('/')
+        is_inside = not namespace or each.topic.startswith(f'{namespace}/')
+        if each.is_publisher and not is_inside and each.topic not in _COMMON:
+            namespaces[each.topic, name].add(namespace.lstrip('/'))
+    for (topic, name), found in sorted(namespaces.items()):
+        if len(found) > 1:
+            yield _namespace_without_effect(topic, name, sorted(found))
+
+
+def _namespace_without_effect(topic: str, name: str, namespaces: list[str]) -> Finding:
+    several = f'{", ".join(namespaces[:-1])} and {namespaces[-1]}'
+    return Finding(
+        Severity.WARNING,
+        f"the namespaces {several} have no effect on '{topic}' of '{name}'",
+        f"a name that begins with '/' is absolute: all {len(namespaces)} nodes publish on one "
+        'topic, and each listener hears all of them',
+        f"write '{topic.lstrip('/')}' in the node, which becomes "
+        f"'/{namespaces[0]}{topic}'; without touching the node, remap it: "
+        f'--ros-args -r {topic}:={topic.lstrip("/")}',
+    )

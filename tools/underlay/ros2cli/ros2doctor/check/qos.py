@@ -15,7 +15,7 @@ Pair = tuple[Endpoint, Endpoint]
 
 
 class QosCheck(GraphCheck):
-    """The check of every pair of a publisher and a subscription."""
+    """The check of every pair of a publisher and a subscription, judged by nodes."""
 
     def category(self) -> str:
         """Return the name."""
@@ -46,14 +46,23 @@ def why_incompatible(offered: Any, requested: Any) -> str:
 def pair_findings(
     endpoints: Iterable[Endpoint], why_not: Callable[[Any, Any], str]
 ) -> Iterator[Finding]:
-    """Yield the pairs of some endpoints between which no message passes."""
-    for publisher, subscription in pairs(endpoints):
+    """
+    Yield the pairs of some endpoints between whose nodes no message passes.
+
+    A node may subscribe to a topic twice, with qualities of service that complement each other:
+    whoever reaches one of the subscriptions reaches the node.
+    """
+    known = tuple(endpoints)
+    findings, connected = [], set()
+    for publisher, subscription in pairs(known):
+        ends = (publisher.topic, publisher.node, subscription.node)
         if publisher.type_name != subscription.type_name:
-            yield _other_type(publisher, subscription)
+            findings.append((ends, _other_type(publisher, subscription)))
+        elif reason := why_not(publisher.qos, subscription.qos):
+            findings.append((ends, _other_qos(publisher, subscription, reason)))
         else:
-            reason = why_not(publisher.qos, subscription.qos)
-            if reason:
-                yield _other_qos(publisher, subscription, reason)
+            connected.add(ends)
+    yield from (finding for ends, finding in findings if ends not in connected)
 
 
 def pairs(endpoints: Iterable[Endpoint]) -> Iterator[Pair]:

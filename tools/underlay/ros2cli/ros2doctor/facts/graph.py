@@ -13,9 +13,12 @@ from typing import Any
 from ros2cli.graph.graph import Graph as ObservedGraph
 from ros2doctor.facts.clock import nodes_on_clock
 from ros2doctor.facts.clock import TOPIC as CLOCK
+from ros2doctor.facts.diagnostics import Complaint, DiagnosticsListener
 from ros2doctor.facts.transforms import Transform, TransformListener
 
 TRANSFORM_TIME_S = 1.0
+DIAGNOSTICS_TIME_S = 1.5
+"""Longer than a second, which is how often they are usually published."""
 PERIOD_S = 0.05
 
 
@@ -45,6 +48,7 @@ class Graph:
     :param nodes: full names, each as often as there are nodes of that name
     :param elsewhere: names of nodes that run on other machines
     :param domain_id: the domain that was looked at
+    :param complaints: what nodes say on the topics `diagnostics` that is not all right
     :param without_clock: names of nodes that take the time from /clock, which nobody publishes
     """
 
@@ -54,6 +58,7 @@ class Graph:
     elsewhere: tuple[str, ...] = ()
     domain_id: int = 0
     without_clock: tuple[str, ...] = ()
+    complaints: tuple[Complaint, ...] = ()
 
 
 @lru_cache(maxsize=1)
@@ -69,9 +74,14 @@ def read_graph() -> Graph:
         known = node.graph
         endpoints = tuple(_endpoints(known))
         nodes = get_node_names(node=known, include_hidden_nodes=True)
-        listener.listen_to({each.topic: each.type_name for each in endpoints})
-        if listener.is_listening:
-            _spin(node)
+        diagnostics = DiagnosticsListener(node)
+        types = {each.topic: each.type_name for each in endpoints if each.is_publisher}
+        listener.listen_to(types)
+        diagnostics.listen_to(types)
+        if diagnostics.is_listening:
+            _spin(node, DIAGNOSTICS_TIME_S)
+        elif listener.is_listening:
+            _spin(node, TRANSFORM_TIME_S)
         return Graph(
             tuple(name.full_name for name in nodes),
             endpoints,
@@ -79,6 +89,7 @@ def read_graph() -> Graph:
             tuple(sorted({each.node for each in endpoints if each.is_elsewhere})),
             node.watch.domain_id,
             nodes_on_clock(node, _waiting_for_clock(endpoints)),
+            tuple(diagnostics.complaints),
         )
 
 
@@ -88,9 +99,9 @@ def _waiting_for_clock(endpoints: Iterable[Endpoint]) -> list[str]:
     return [] if any(each.is_publisher for each in clock) else [each.node for each in clock]
 
 
-def _spin(node: Any) -> None:
-    """Receive for a while what the topics of transforms carry."""
-    end = time.monotonic() + TRANSFORM_TIME_S
+def _spin(node: Any, duration_s: float) -> None:
+    """Receive for a while what the topics carry that are listened to."""
+    end = time.monotonic() + duration_s
     while time.monotonic() < end:
         node.spin_once(PERIOD_S)
 

@@ -7,7 +7,7 @@ from ros2cli.graph.interfaces import Interface
 from ros2doctor.api.extension import DoctorReport
 from ros2doctor.api.report import Report
 from ros2doctor.check.multicast import multicast_state
-from ros2doctor.check.network import discovery_range
+from ros2doctor.check.network import discovery_range, who_reaches
 from ros2doctor.facts.network import Network, read_network
 
 
@@ -24,6 +24,7 @@ class NetworkReport(DoctorReport):
         report = Report('NETWORK CONFIGURATION')
         variables = facts.variables
         report.add_to_report('discovery range', discovery_range(facts))
+        report.add_to_report('nodes are reached by', who_reaches(facts))
         report.add_to_report('domain', variables.get('ROS_DOMAIN_ID') or '0')
         report.add_to_report('static peers', variables.get('ROS_STATIC_PEERS', ''))
         report.add_to_report('middleware', variables.get('RMW_IMPLEMENTATION', ''))

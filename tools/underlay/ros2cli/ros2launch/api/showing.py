@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import redirect_stdout
+from io import StringIO
 from typing import Any
 
 HEADER = "Arguments (pass arguments as '<name>:=<value>'):"
@@ -11,9 +13,21 @@ FOOTNOTE = '* argument(s) which are only used if specific conditions occur'
 
 
 def print_arguments_of_launch_file(*, launch_file_path: str) -> None:
-    """Load a launch file and print its arguments, and those of the files that it includes."""
-    description = load_launch_file(launch_file_path)
-    print('\n'.join(argument_lines(description.get_launch_arguments())))
+    """
+    Load a launch file and print its arguments, and those of the files that it includes.
+
+    What the files themselves print while they are loaded comes below the heading.
+    """
+    printed = StringIO()
+    try:
+        with redirect_stdout(printed):
+            lines = list(argument_lines(load_launch_file(launch_file_path).get_launch_arguments()))
+    except BaseException:
+        print(printed.getvalue(), end='')
+        raise
+    print(HEADER)
+    print(printed.getvalue(), end='')
+    print('\n'.join(lines))
 
 
 def print_a_launch_file(*, launch_file_path: str) -> None:
@@ -32,8 +46,7 @@ def load_launch_file(path: str) -> Any:
 
 
 def argument_lines(arguments: list[Any]) -> Iterator[str]:
-    """Yield the lines that describe all arguments."""
-    yield HEADER
+    """Yield the lines that describe all arguments, below the heading."""
     if not arguments:
         yield from ('', '  No arguments.')
     for argument in arguments:

@@ -12,6 +12,7 @@ from ament_index_python.packages import get_packages_with_prefixes, PackageNotFo
 __all__ = [
     'PackageNotFoundError',
     'get_executable_paths',
+    'get_executable_paths_of_all',
     'get_package_names',
     'get_package_prefix',
     'get_share_directory',
@@ -38,11 +39,29 @@ def get_share_directory(package_name: str) -> str:
 
 def get_executable_paths(*, package_name: str) -> list[str]:
     """Return the paths of a package's executables, sorted."""
-    return sorted(_walk(os.path.join(get_package_prefix(package_name), 'lib', package_name)))
+    return _executables(get_package_prefix(package_name), package_name)
 
 
-def _walk(top: str) -> Iterator[str]:
-    for root, folders, names in os.walk(top):
-        folders[:] = [name for name in folders if not name.startswith('.')]
-        paths = (os.path.join(root, name) for name in names)
-        yield from (path for path in paths if os.access(path, os.X_OK))
+def get_executable_paths_of_all() -> dict[str, list[str]]:
+    """Return the paths of the executables of each package, all sorted."""
+    found = sorted(get_packages_with_prefixes().items())
+    return {package: _executables(prefix, package) for package, prefix in found}
+
+
+def _executables(prefix: str, package: str) -> list[str]:
+    return sorted(_walk(os.path.join(prefix, 'lib', package)))
+
+
+def _walk(folder: str) -> Iterator[str]:
+    """Yield the executable files in a folder and in those below it that are not hidden."""
+    try:
+        entries = os.scandir(folder)
+    except OSError:  # most packages have no such folder
+        return
+    with entries:
+        for entry in entries:
+            if not entry.is_dir():
+                if os.access(entry.path, os.X_OK):
+                    yield entry.path
+            elif not entry.is_symlink() and not entry.name.startswith('.'):
+                yield from _walk(entry.path)

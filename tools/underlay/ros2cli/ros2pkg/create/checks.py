@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import keyword
 import os
 import re
 import sys
@@ -20,6 +21,11 @@ def refusal(args: argparse.Namespace, package_folder: str) -> str:
         return (
             f"'{args.package_name}' is a path and no name of a package. Give the folder in which "
             'to create the package with --destination-directory.'
+        )
+    if not re.fullmatch(r'[A-Za-z][A-Za-z0-9_-]*', args.package_name):
+        return (
+            f"'{args.package_name}' is no name of a package: use letters, digits and underscores, "
+            f"with a letter first, for example '{_better_name(args.package_name)}'."
         )
     if args.build_type == 'cmake':
         return (
@@ -55,13 +61,23 @@ def _python_refusal(args: argparse.Namespace) -> str:
 
 def _module_problem(what: str, name: str) -> str:
     """Return why a name cannot be that of a Python module, or ''."""
-    if name.isidentifier():
+    if not name.isidentifier():
+        return (
+            f"{what} '{name}' is no name of a Python module: use letters, digits and underscores "
+            f"only, for example '{_better_name(name)}'."
+        )
+    if keyword.iskeyword(name):
+        why = f"'{name}' is a word of the language Python, so that nobody could import it"
+    elif what == 'package' and name in sys.stdlib_module_names:
+        why = f"Python has a module '{name}' of its own, which is imported instead"
+    else:
         return ''
-    better = re.sub(r'^(?=\d)', 'n', re.sub(r'\W', '_', name))
-    return (
-        f"{what} '{name}' is no name of a Python module: use letters, digits and underscores "
-        f"only, for example '{better}'."
-    )
+    return f"{what} '{name}' cannot be: {why}. Choose another name, for example 'my_{name}'."
+
+
+def _better_name(name: str) -> str:
+    """Return a name of letters, digits and underscores that is close to another one."""
+    return re.sub(r'^(?![A-Za-z])', 'n', re.sub(r'[^A-Za-z0-9_]', '_', name))
 
 
 def renamed_node(node_name: str | None, library_name: str | None) -> str | None:

@@ -6,8 +6,11 @@ from __future__ import annotations
 import argparse
 import os
 
-from ros2pkg.api import get_executable_paths, get_package_names, PackageNotFoundError
-from ros2pkg.api.missing import missing_package_by_name
+from ros2pkg.api import (
+    get_executable_paths,
+    get_executable_paths_of_all,
+    PackageNotFoundError,
+)
 from ros2pkg.verb import VerbExtension
 
 
@@ -23,15 +26,14 @@ class ExecutablesVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print the executables of one package, or of all."""
-        names = get_package_names() if args.package_name is None else [args.package_name]
+        name = args.package_name
         try:
-            for name in names:
-                _print_executables(name, args.full_path)
+            found = {name: get_executable_paths(package_name=name)} if name is not None else None
         except PackageNotFoundError:
-            return missing_package_by_name(args.package_name)
+            from ros2pkg.api.missing import missing_package_by_name
+
+            return missing_package_by_name(name)
+        for package, paths in (found or get_executable_paths_of_all()).items():
+            for path in paths:
+                print(path if args.full_path else f'{package} {os.path.basename(path)}')
         return None
-
-
-def _print_executables(package: str, full_path: bool) -> None:
-    for path in get_executable_paths(package_name=package):
-        print(path if full_path else f'{package} {os.path.basename(path)}')

@@ -14,6 +14,7 @@ class ListVerb(VerbExtension):
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
         """Print one name a line."""
-        for name in get_package_names():
-            print(name)
+        names = get_package_names()
+        if names:
+            print('\n'.join(names))
         return None

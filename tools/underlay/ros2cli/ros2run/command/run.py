@@ -5,8 +5,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-import shlex
-import signal
 
 from ros2cli.command import CommandExtension
 
@@ -35,7 +33,6 @@ class RunCommand(CommandExtension):
     ) -> int | str | None:
         """Find the executable and run it until it ends."""
         from ros2pkg.api import PackageNotFoundError
-        from ros2pkg.api.missing import missing_package_by_name
         from ros2run.api import get_executable_path, MultipleExecutables, run_executable
 
         try:
@@ -43,6 +40,8 @@ class RunCommand(CommandExtension):
                 package_name=args.package_name, executable_name=args.executable_name
             )
         except PackageNotFoundError:
+            from ros2pkg.api.missing import missing_package_by_name
+
             return missing_package_by_name(args.package_name)
         except MultipleExecutables as error:
             return ''.join(['Multiple executables found:', *(f'\n- {p}' for p in error.paths)])
@@ -55,6 +54,8 @@ class RunCommand(CommandExtension):
 
 def _split(text: str) -> list[str]:
     """Return the words of a command, or say why it has none."""
+    import shlex
+
     try:
         return shlex.split(text)
     except ValueError as error:
@@ -65,6 +66,8 @@ def _report(status: int) -> None:
     if status > 0:
         print(f'[ros2run]: Process exited with failure {status}')
     elif status < 0:
+        import signal
+
         print(f'[ros2run]: {signal.strsignal(-status)}')
 
 

@@ -8,7 +8,6 @@ from typing import Any
 
 from rclpy.duration import Duration, Infinite
 from rclpy.qos import LivelinessPolicy, qos_check_compatible, QoSCompatibility, QoSProfile
-from ros2cli.graph.endpoint_info import UNKNOWN_NODE
 from ros2topic.api.qos import copy_profile
 
 DURATIONS = ('deadline', 'lifespan', 'liveliness_lease_duration')
@@ -36,14 +35,19 @@ class Incompatibility:
         """Name the nodes of a mismatch as soon as they are known."""
         if not self._is_due:
             return
-        for info in self._others():
-            reason = self._reason(info)
-            if reason and bytes(info.endpoint_gid) not in self._told:
+        reasons = [(info, self._reason(info)) for info in self._others()]
+        # A node with several ends is reached by one that fits.
+        reached = {_full_name(info) for info, reason in reasons if not reason}
+        for info, reason in reasons:
+            is_apart = reason and _full_name(info) not in reached
+            if is_apart and bytes(info.endpoint_gid) not in self._told:
                 self._told.add(bytes(info.endpoint_gid))
                 self._is_due = False
                 print(self._text(info, reason), file=sys.stderr)
 
     def _others(self) -> list[Any]:
+        from ros2cli.graph.endpoint_info import UNKNOWN_NODE
+
         graph = self._node.watch.updated()
         find = (
             graph.get_subscriptions_info_by_topic
@@ -60,8 +64,7 @@ class Incompatibility:
         return '; '.join(str(reason).replace('ERROR: ', '').strip(' ;').split(';'))
 
     def _text(self, info: Any, reason: str) -> str:
-        ends = [f"'/{self._node.get_name()}'", f"'{info.node_namespace.rstrip('/')}/"]
-        ends[1] += f"{info.node_name}'"
+        ends = [f"'/{self._node.get_name()}'", f"'{_full_name(info)}'"]
         publisher, subscriber = ends if self._publishes else reversed(ends)
         cure = 'Change the --qos options' + (
             '.' if self._publishes else ', or leave them away to follow the publisher.'
@@ -70,6 +73,10 @@ class Incompatibility:
             f'WARNING: no message passes from {publisher} to {subscriber} on '
             f"'{self._topic}': {reason}. {cure}"
         )
+
+
+def _full_name(info: Any) -> str:
+    return f'{info.node_namespace.rstrip("/")}/{info.node_name}'
 
 
 def as_discovered(profile: QoSProfile) -> QoSProfile:

@@ -37,11 +37,12 @@ def nested_field(message: Any, path: str) -> Any:
     """Return the value of a field, named with dots between the levels."""
     value = message
     for name in path.split('.'):
-        try:
-            value = getattr(value, name)
-        except AttributeError as error:
+        if name not in getattr(value, 'get_fields_and_field_types', dict)():
+            text = f"'{type(value).__name__}' object has no attribute '{name}'"
+            error = AttributeError(text, name=name, obj=value)
             lines = [f"Invalid field '{path}': {error}", field_hint(error)]
-            raise RuntimeError('\n'.join(lines).rstrip()) from error
+            raise RuntimeError('\n'.join(lines).rstrip())
+        value = getattr(value, name)
     return value
 
 

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
-from ros2cli.graph.graph import Graph
 from ros2cli.messages.lookup import type_name
 from ros2topic.api import get_topic_types
+
+if TYPE_CHECKING:
+    from ros2cli.graph.graph import Graph
 
 
 def type_mismatch(graph: Graph, topic: str, message_type: Any) -> str:

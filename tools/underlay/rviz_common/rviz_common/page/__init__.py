@@ -4,6 +4,6 @@
 from rviz_common.page.listening import PortError
 from rviz_common.page.page import Page
 from rviz_common.page.routes import Route
-from rviz_common.page.settings import PageSettings
+from rviz_common.page.settings import NO_TOKEN, PageSettings
 
-__all__ = ['Page', 'PageSettings', 'PortError', 'Route']
+__all__ = ['NO_TOKEN', 'Page', 'PageSettings', 'PortError', 'Route']

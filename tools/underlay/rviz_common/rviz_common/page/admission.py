@@ -15,22 +15,23 @@ from http.cookies import CookieError, SimpleCookie
 import secrets
 from urllib.parse import parse_qs, quote, unquote, urlsplit
 
-__all__ = ['Admission', 'Refusal']
+__all__ = ['Admission', 'Refusal', 'without_token']
 
 OWN_NAMES = ('127.0.0.1', 'localhost', '[::1]')
 
 
 @dataclass(frozen=True)
 class Refusal:
-    """Why a request is not answered."""
+    """Why a request is not answered, and whether a token would make the difference."""
 
     status: HTTPStatus
     sentence: str
+    wants_token: bool = False
 
 
 @dataclass(frozen=True)
 class Admission:
-    """Decides on the requests to a port; an empty token admits whoever is on this machine."""
+    """Decides on the requests to a port; without a token it admits whoever is on this machine."""
 
     port: int
     token: str = ''
@@ -58,12 +59,14 @@ class Admission:
                 HTTPStatus.UNAUTHORIZED,
                 'This page needs a token. Open the address with ?token= that was printed at the '
                 'start.',
+                wants_token=True,
             )
         if not secrets.compare_digest(given.encode(), self.token.encode()):
             return Refusal(
                 HTTPStatus.FORBIDDEN,
                 'The token is not that of this page. Open the address that was printed at the '
                 'last start.',
+                wants_token=True,
             )
         return None
 
@@ -99,6 +102,14 @@ def _is_address(text: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def without_token(path: str) -> str:
+    """Return the address of a request without its token, on this host."""
+    # Two slashes at the beginning would lead elsewhere.
+    place, _, query = path.partition('#')[0].partition('?')
+    rest = [each for each in query.split('&') if each and each.partition('=')[0] != 'token']
+    return '/' + place.lstrip('/\\') + ('?' if rest else '') + '&'.join(rest)
 
 
 def _token_in(path: str) -> str:

@@ -11,11 +11,13 @@ from http import HTTPStatus
 import socket
 from typing import Any
 
-from rviz_common.page.admission import Admission, Refusal
+from rviz_common.page.admission import Admission, Refusal, without_token
 from rviz_common.page.complaints import complain_about_task, LOGGER
 from rviz_common.page.routes import Route, Routes
-from rviz_common.page.strainer import Strained
+from rviz_common.page.sign_in import sign_in_page
+from rviz_common.page.strainer import OptionsOf, Strained
 from rviz_common.page.title import entitle
+from rviz_common.page.uploads import Uploads
 import websockets.asyncio.server
 from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
@@ -31,9 +33,14 @@ POLICY = "frame-ancestors 'self'"
 
 @contextmanager
 def gated(
-    bound: socket.socket, title: str, admission: Admission, routes: Routes
+    bound: socket.socket,
+    title: str,
+    admission: Admission,
+    routes: Routes,
+    uploads: Uploads,
+    options_of: OptionsOf,
 ) -> Iterator[None]:
-    """Give the server that is started meanwhile a socket, a title, an admission and routes."""
+    """Give the server that is started meanwhile a socket, a title, an admission and limits."""
     serve = websockets.asyncio.server.serve
     used: list[bool] = []
 
@@ -45,7 +52,7 @@ def gated(
         answer = _gate(options.pop('process_request'), title, admission, routes)
         options.update(process_request=answer, max_size=LARGEST_BYTES, logger=LOGGER)
         asyncio.get_running_loop().set_exception_handler(complain_about_task)
-        return serve(_routed(handler, routes), sock=bound, **options)
+        return serve(_routed(handler, routes, uploads, options_of), sock=bound, **options)
 
     websockets.asyncio.server.serve = serve_gated  # type: ignore[assignment, misc]
     try:
@@ -56,14 +63,18 @@ def gated(
         raise RuntimeError('The page is not protected: this version of viser starts otherwise.')
 
 
-def _routed(handler: Any, routes: Routes) -> Any:
+def _routed(handler: Any, routes: Routes, uploads: Uploads, options_of: OptionsOf) -> Any:
     """Return what talks to those who connect: a route, or viser."""
 
     async def talk(connection: ServerConnection) -> None:
         request = connection.request
         route = routes.find(request.path) if request else None
         if route is None or route.connect is None:
-            await handler(Strained(connection))
+            strained = Strained(connection, uploads, options_of)
+            try:
+                await handler(strained)
+            finally:
+                uploads.leave(strained)
         else:
             await route.connect(connection)
 
@@ -82,8 +93,8 @@ def _gate(answer: Any, title: str, admission: Admission, routes: Routes) -> Any:
             '; '.join(headers.get_all('Cookie')),
         )
         if refusal is not None:
-            return _refused(refusal)
-        if admission.brings_token(request.path):
+            return _refused(refusal, headers, title)
+        if admission.brings_token(request.path) and 'Upgrade' not in headers:
             return _with_cookie(request.path, admission)
         route = routes.find(request.path)
         if route is not None:
@@ -97,7 +108,14 @@ def _gate(answer: Any, title: str, admission: Admission, routes: Routes) -> Any:
     return process_request
 
 
-def _refused(refusal: Refusal) -> Response:
+def _refused(refusal: Refusal, headers: Headers, title: str) -> Response:
+    """Return why something is not answered: to people a page, to programs a sentence."""
+    if refusal.wants_token and 'text/html' in ', '.join(headers.get_all('Accept')):
+        heading = refusal.sentence.partition('. ')[0]
+        text = sign_in_page(title, ', '.join(headers.get_all('Host')), f'{heading}.')
+        response = _answer(refusal.status, text, 'text/html; charset=utf-8')
+        response.headers['Content-Security-Policy'] = POLICY
+        return response
     return _answer(refusal.status, f'{refusal.sentence}\n', 'text/plain; charset=utf-8')
 
 
@@ -116,7 +134,7 @@ def _answer(status: HTTPStatus, text: str, kind: str) -> Response:
 
 def _with_cookie(path: str, admission: Admission) -> Response:
     """Send the browser to the address without the token, which the history must not keep."""
-    place = '/' + path.partition('?')[0].lstrip('/\\')  # two slashes would lead elsewhere
+    place = without_token(path)
     headers = Headers(
         {'Location': place, 'Set-Cookie': admission.set_cookie, 'Content-Length': '0'}
     )

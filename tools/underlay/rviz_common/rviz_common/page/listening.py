@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Take a port of this machine."""
+"""Take a port of this machine, and say where others reach it."""
 
 from __future__ import annotations
 
 import errno
+import ipaddress
 import os
 import socket
 
+from ros2cli.graph.interfaces import read_interfaces
 from rviz_common.page.settings import FIRST_PORT, PageSettings
 
-__all__ = ['PortError', 'listen']
+__all__ = ['PortError', 'listen', 'reachable']
 
 TRIES = 100
 
@@ -19,23 +21,28 @@ class PortError(RuntimeError):
 
 
 def listen(settings: PageSettings) -> socket.socket:
-    """Return a socket that is bound to the port of the settings or, without one, to a free one."""
+    """
+    Return a socket that listens at the port of the settings or, without one, at a free one.
+
+    It listens already: two programs may bind the same port as long as neither of them does.
+    """
     if settings.port is not None:
-        return _bind(settings.host, settings.port)
+        return _listen(settings.host, settings.port)
     for port in range(FIRST_PORT, FIRST_PORT + TRIES):
         try:
-            return _bind(settings.host, port)
+            return _listen(settings.host, port)
         except PortError as error:
             failure = error
     raise failure
 
 
-def _bind(host: str, port: int) -> socket.socket:
+def _listen(host: str, port: int) -> socket.socket:
     family = socket.AF_INET6 if ':' in host else socket.AF_INET
     bound = socket.socket(family, socket.SOCK_STREAM)
     bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         bound.bind((host, port))
+        bound.listen()
     except OSError as error:
         bound.close()
         raise PortError(_reason(host, port, error.errno or 0)) from error
@@ -54,3 +61,33 @@ def _reason(host: str, port: int, number: int) -> str:
         f'Port {port} of {host} cannot be taken: {why}. End what uses it, or choose another port; '
         'without a choice the next free one is taken.'
     )
+
+
+def reachable(host: str) -> list[str]:
+    """
+    Return the addresses at which a page is reached that is served at a host.
+
+    One that means all addresses of this machine stands for those of its interfaces: first the one
+    that leads to other networks, as far as there is a way there, and the loopback's if there is
+    no other.
+    """
+    address = ipaddress.ip_address(host)
+    if not address.is_unspecified:
+        return [host]
+    first = _address_to_other_networks(address.version)
+    others = [each.address for each in read_interfaces() if each.is_up and not each.is_loopback]
+    found = [each for each in (first, *others) if each]
+    return list(dict.fromkeys(found)) or ['127.0.0.1' if address.version == 4 else '::1']
+
+
+def _address_to_other_networks(version: int) -> str:
+    """Return the address with which packets leave for far away; '' without a way there."""
+    family, test_net = (
+        (socket.AF_INET, '192.0.2.1') if version == 4 else (socket.AF_INET6, '2001:db8::1')
+    )
+    with socket.socket(family, socket.SOCK_DGRAM) as asking:
+        try:
+            asking.connect((test_net, 9))  # sends nothing, but chooses the address
+        except OSError:
+            return ''
+        return str(asking.getsockname()[0])

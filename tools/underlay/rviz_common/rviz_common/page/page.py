@@ -4,18 +4,22 @@
 from __future__ import annotations
 
 from dataclasses import replace
-import ipaddress
 import secrets
-import socket
 from types import TracebackType
 from urllib.parse import urlencode
 
 import rich
 from rviz_common.page.admission import Admission
-from rviz_common.page.listening import listen
+from rviz_common.page.listening import listen, reachable
 from rviz_common.page.routes import Routes
-from rviz_common.page.settings import PageSettings
+from rviz_common.page.settings import NO_TOKEN, PageSettings
+from rviz_common.page.uploads import Uploads
 import viser
+from viser._messages import (
+    FileTransferPartAck,
+    FileTransferStartUpload,
+    RemoveNotificationMessage,
+)
 
 __all__ = ['Page']
 
@@ -28,15 +32,17 @@ class Page:
         from rviz_common.page.gate import gated
 
         settings = settings or PageSettings()
-        if not settings.is_local and not settings.token:
+        if not settings.token:
             settings = replace(settings, token=secrets.token_urlsafe(16))
         rich.get_console().quiet = True  # viser prints addresses, but not the token
         bound = listen(settings)
         self.settings = settings
         self.port: int = bound.getsockname()[1]
         self.routes = Routes()
-        admission = Admission(self.port, settings.token)
-        with gated(bound, title, admission, self.routes):
+        self.uploads = Uploads()
+        self._token = '' if settings.token == NO_TOKEN else settings.token
+        admission = Admission(self.port, self._token)
+        with gated(bound, title, admission, self.routes, self.uploads, self._options_of):
             self.viser = viser.ViserServer(
                 host=settings.host, port=self.port, label=title, verbose=False
             )
@@ -51,12 +57,38 @@ class Page:
         self.viser.scene.configure_default_lights(cast_shadow=False)
 
     @property
+    def urls(self) -> list[str]:
+        """Return the addresses to open, with the token if there is one; the best one first."""
+        query = f'?{urlencode({"token": self._token})}' if self._token else ''
+        hosts = [f'[{each}]' if ':' in each else each for each in reachable(self.settings.host)]
+        return [f'http://{host}:{self.port}/{query}' for host in hosts]
+
+    @property
     def url(self) -> str:
-        """Return the address to open, with the token if there is one."""
-        address = _reachable(self.settings.host)
-        host = f'[{address}]' if ':' in address else address
-        query = f'?{urlencode({"token": self.settings.token})}' if self.settings.token else ''
-        return f'http://{host}:{self.port}/{query}'
+        """Return the address to open."""
+        return self.urls[0]
+
+    def end_upload(self, start: FileTransferStartUpload) -> None:
+        """
+        Make browsers show a file that was refused no longer as being on its way.
+
+        They would show it as uploaded instead, so that what they say about it is removed too.
+        """
+        complete = FileTransferPartAck(
+            start.source_component_uuid,
+            start.transfer_uuid,
+            transferred_bytes=start.size_bytes,
+            total_bytes=start.size_bytes,
+        )
+        for client in self.viser.get_clients().values():
+            for message in (complete, RemoveNotificationMessage(f'upload-{start.transfer_uuid}')):
+                client.gui._websock_interface.queue_message(message)
+
+    def _options_of(self, widget: str) -> tuple[str, ...] | None:
+        """Return what a widget lets people choose, None if it is not there or offers nothing."""
+        handle = self.viser.gui._gui_input_handle_from_uuid.get(widget)
+        options: tuple[str, ...] | None = getattr(handle, 'options', None)
+        return options
 
     def close(self) -> None:
         """Serve no longer."""
@@ -74,19 +106,3 @@ class Page:
     ) -> None:
         """Close the page."""
         self.close()
-
-
-def _reachable(host: str) -> str:
-    """Return an address that can be opened; a host may mean all addresses of this machine."""
-    address = ipaddress.ip_address(host)
-    if not address.is_unspecified:
-        return host
-    family, test_net = (
-        (socket.AF_INET, '192.0.2.1') if address.version == 4 else (socket.AF_INET6, '2001:db8::1')
-    )
-    with socket.socket(family, socket.SOCK_DGRAM) as asking:
-        try:
-            asking.connect((test_net, 9))  # sends nothing, but chooses the address
-        except OSError:
-            return '127.0.0.1' if address.version == 4 else '::1'
-        return str(asking.getsockname()[0])

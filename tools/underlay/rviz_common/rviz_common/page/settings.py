@@ -6,13 +6,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 import ipaddress
 
-__all__ = ['FIRST_PORT', 'PARAMETERS', 'PageSettings']
+__all__ = ['FIRST_PORT', 'NO_TOKEN', 'PARAMETERS', 'PageSettings']
 
 FIRST_PORT = 8080
+NO_TOKEN = 'none'
+"""The token that means: admit whoever is on this machine."""
 PARAMETERS: dict[str, tuple[str | int, str]] = {
     'host': ('127.0.0.1', 'The address at which the page is served.'),
     'port': (0, 'The port of the page; 0: the first free one from 8080 on.'),
-    'token': ('', 'What must be known to open the page, if other machines can reach it.'),
+    'token': ('', 'What must be known to open the page; made up if empty, "none" for none.'),
 }
 """What the parameters of a node with a page are called: their defaults, and what they mean."""
 
@@ -22,8 +24,9 @@ class PageSettings:
     """
     Where a page is served, and to whom.
 
-    Without a port the first free one from 8080 on is taken. A page that other machines can reach
-    is only shown to who knows the token; one is made up if none is given.
+    Without a port the first free one from 8080 on is taken. The page is only shown to who knows
+    the token, as any user of this machine could open it otherwise, and any program; one is made
+    up if none is given. `NO_TOKEN` does without, on an address that only this machine reaches.
     """
 
     host: str = '127.0.0.1'
@@ -41,6 +44,11 @@ class PageSettings:
             ) from None
         if self.port is not None and not 1 <= self.port <= 65535:
             raise ValueError(f'The port is {self.port}, but must be from 1 to 65535.')
+        if self.token == NO_TOKEN and not self.is_local:
+            raise ValueError(
+                f"The token is 'none', but other machines reach {self.host}: everybody there "
+                'could drive the robot. Choose a token, as in token:=TEXT, or host:=127.0.0.1.'
+            )
 
     @property
     def is_local(self) -> bool:

@@ -8,15 +8,17 @@ message would make the page known to the internet.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection
 import math
-from typing import Any
+from typing import Any, Optional
 
 import msgspec
 from rviz_common.page.complaints import complain
+from rviz_common.page.uploads import Uploads
 from viser import _messages
 from websockets.asyncio.server import ServerConnection
 
-__all__ = ['Strained', 'objection']
+__all__ = ['OptionsOf', 'Strained', 'decoded']
 
 SENT = (
     _messages.FileTransferPart,
@@ -32,14 +34,20 @@ SENT = (
 DECODERS = {kind.__name__: msgspec.msgpack.Decoder(kind, strict=False) for kind in SENT}
 FIELDS = {kind.__name__: {'type', *kind.__dataclass_fields__} for kind in SENT}
 LONGEST_NAME = 40
+OptionsOf = Callable[[str], Optional[Collection[str]]]
+"""Takes the id of a widget; returns what may be chosen, None if it is no widget of choices."""
 
 
 class Strained:
     """A connection that gives out only messages that a page sends; others are left out."""
 
-    def __init__(self, connection: ServerConnection) -> None:
-        """Take the connection to a browser."""
+    def __init__(
+        self, connection: ServerConnection, uploads: Uploads, options_of: OptionsOf
+    ) -> None:
+        """Take the connection to a browser, what limits its files, and what widgets offer."""
         self._connection = connection
+        self._uploads = uploads
+        self._options_of = options_of
 
     def __getattr__(self, name: str) -> Any:
         """Return what else the connection has."""
@@ -49,14 +57,24 @@ class Strained:
         """Return the next message that a page sends."""
         while True:
             received = await self._connection.recv()
-            reason = objection(received)
-            if not reason:
+            message = decoded(received)
+            if not isinstance(message, str) and not self._is_offered(message):
+                continue
+            if isinstance(message, str):
+                complain(f'A browser has sent what this page does not: {message}')
+            elif self._uploads.admits(message, self):
                 return received
-            complain(f'A browser has sent what this page does not: {reason}')
+
+    def _is_offered(self, message: _messages.Message) -> bool:
+        """Whether a widget of choices has the one that is made; it may be gone since lately."""
+        if not isinstance(message, _messages.GuiUpdateMessage):
+            return True
+        options = self._options_of(message.uuid)
+        return options is None or message.updates['value'] in options
 
 
-def objection(received: bytes | str) -> str:
-    """Return why no page sends this, or '' if one does."""
+def decoded(received: bytes | str) -> _messages.Message | str:
+    """Return a message as a page sends it, or in words why no page sends this."""
     if not isinstance(received, bytes):
         return 'a text'
     try:
@@ -71,7 +89,7 @@ def objection(received: bytes | str) -> str:
         return f'a {name} with too much in it'
     if isinstance(message, _messages.GuiUpdateMessage) and message.updates.keys() != {'value'}:
         return 'other properties of a widget than its value'
-    return '' if _is_finite(fields) else f'a {name} with numbers that are not finite'
+    return message if _is_finite(fields) else f'a {name} with numbers that are not finite'
 
 
 def _is_finite(value: Any) -> bool:

@@ -4,15 +4,22 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 from rviz_common.config import ConfigError, Configuration
 from rviz_common.config.configuration import LARGEST, TOO_LARGE
 from rviz_common.context import Context
+from rviz_common.pace import Pace
 from rviz_common.panels.marks import printable
 from rviz_common.panels.order import FILE_ORDER
 
+if TYPE_CHECKING:
+    from viser._messages import FileTransferStartUpload
+
 __all__ = ['FileFolder']
+
+REFUSAL_PERIOD_S = 1.0
+LONGEST_NAME = 100
 
 
 class FileFolder:
@@ -36,6 +43,8 @@ class FileFolder:
         context.on_click(save, self._save)
         download.on_click(lambda event: context.queue.post(lambda: self._download(event.client)))
         upload.on_upload(self._on_upload)
+        self._pace = Pace(REFUSAL_PERIOD_S)
+        context.page.uploads.on_refusal = self._on_refusal
 
     def close(self) -> None:
         """Remove the widgets."""
@@ -57,6 +66,15 @@ class FileFolder:
     def _on_upload(self, event: Any) -> None:
         file = event.target.value
         self._context.queue.post(lambda: self._load(file.name, file.content))
+
+    def _on_refusal(self, start: FileTransferStartUpload, sentence: str) -> None:
+        """Tell that a file is not taken; not often, as who floods the page with files is deaf."""
+        if self._pace.is_due():
+            self._context.queue.post(lambda: self._refuse(start, sentence))
+
+    def _refuse(self, start: FileTransferStartUpload, sentence: str) -> None:
+        self._context.page.end_upload(start)
+        self._visualizer.notify('Not loaded', f'{start.filename[:LONGEST_NAME]}: {sentence}')
 
     def _load(self, name: str, content: bytes) -> None:
         try:

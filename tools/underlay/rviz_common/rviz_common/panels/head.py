@@ -88,7 +88,7 @@ class Head:
             if names:
                 more = f' and {len(names) - NAMED} more' if len(names) > NAMED else ''
                 lines.append(f'{MARKS[level]} {", ".join(names[:NAMED])}{more}: see Displays')
-        return '\n\n'.join(lines) or f'{MARKS[Level.OK]} All is shown.'
+        return '\n\n'.join(lines) or f'{MARKS[Level.OK]} No display problems.'
 
 
 _MISSING = object()

@@ -10,18 +10,26 @@ from typing import Any
 
 from rviz_common.context import Context
 from rviz_common.described_error import described_error
+from rviz_common.pace import Pace
 from rviz_common.panel import Panel
+from rviz_common.panels.marks import escaped
 from rviz_common.panels.order import TABS_ORDER
-from rviz_common.plugins import load_plugin, PANELS
+from rviz_common.plugins import load_plugin, PANELS, PANELS_ON_DEMAND, plugin_names
 
 __all__ = ['BUILT_IN', 'PanelTabs']
 
 BUILT_IN = ('rviz_common/Help', 'rviz_common/Selection', 'rviz_common/Transformation')
 """Panels of RViz that mean nothing in a browser."""
+LOOK_S = 2.0
 
 
 class PanelTabs:
-    """The panels of a file, most in a tab each; other entries are kept for the file."""
+    """
+    The panels of a file, most in a tab each; other entries are kept for the file.
+
+    Panels on demand that the file does not list appear when there is something that they are
+    for, and stay; they are not written to the file.
+    """
 
     def __init__(self, context: Context, entries: Sequence[Mapping[str, Any]]) -> None:
         """Add the panels that a file lists."""
@@ -30,7 +38,11 @@ class PanelTabs:
         self._entries: list[Panel | Mapping[str, Any]] = [self._made(entry) for entry in entries]
         has_tabs = not all(panel.IS_ALWAYS_VISIBLE for panel in self.panels)
         self._tabs: Any = context.gui.add_tab_group(order=TABS_ORDER) if has_tabs else None
+        self._places: dict[Panel, Any] = {}
         self._running = [panel for panel in self.panels if self._started(panel)]
+        listed = {each['Class'] for each in entries}
+        self._awaited = [each for each in plugin_names(PANELS_ON_DEMAND) if each not in listed]
+        self._look = Pace(LOOK_S)
 
     @property
     def panels(self) -> list[Panel]:
@@ -45,6 +57,8 @@ class PanelTabs:
 
     def update(self) -> None:
         """Show what is new."""
+        if self._awaited and self._look.is_due():
+            self._look_for_awaited()
         for panel in list(self._running):
             if not self._guarded(panel, panel.update):
                 self._running.remove(panel)
@@ -63,6 +77,26 @@ class PanelTabs:
         if self._tabs is not None:
             self._tabs.remove()
 
+    def _look_for_awaited(self) -> None:
+        """Add the panels on demand that are wanted by now."""
+        for name in list(self._awaited):
+            try:
+                kind = load_plugin(PANELS_ON_DEMAND, name)
+                is_wanted = kind.is_wanted(self._context.node)
+            except Exception as error:  # whatever a panel does, the others go on
+                self._awaited.remove(name)
+                self._logger.error(f"Panel '{name}' cannot be used: {described_error(error)}")
+                continue
+            if is_wanted:
+                self._awaited.remove(name)
+                self._add(kind(self._context))
+
+    def _add(self, panel: Panel) -> None:
+        if self._tabs is None:
+            self._tabs = self._context.gui.add_tab_group(order=TABS_ORDER)
+        if self._started(panel):
+            self._running.append(panel)
+
     def _made(self, entry: Mapping[str, Any]) -> Panel | Mapping[str, Any]:
         try:
             panel: Panel = load_plugin(PANELS, entry['Class'])(self._context, entry)
@@ -72,19 +106,38 @@ class PanelTabs:
 
     def _started(self, panel: Panel) -> bool:
         tab = nullcontext() if panel.IS_ALWAYS_VISIBLE else self._tabs.add_tab(panel.name)
-        with tab:
-            has_started = self._guarded(panel, panel.start)
-            if not has_started and not panel.IS_ALWAYS_VISIBLE:
-                self._context.gui.add_markdown('✖ It has been stopped by an error: see the log.')
-        return has_started
+        self._places[panel] = tab
+        try:
+            with tab:
+                panel.start()
+        except ValueError as error:  # a sentence about what the file gives
+            self._logger.error(f'{_named(panel)} is not shown: {error}')
+            self._say(panel, str(error))
+        except Exception as error:  # whatever a panel does, the others go on
+            self._report(panel, error)
+        else:
+            return True
+        return False
 
     def _guarded(self, panel: Panel, work: Callable[[], None]) -> bool:
         """Have a panel do something; return whether it succeeded."""
         try:
             work()
         except Exception as error:  # whatever a panel does, the others go on
-            self._logger.error(
-                f"Panel '{panel.name}' ({panel.CLASS}) has been stopped: {described_error(error)}"
-            )
+            self._report(panel, error)
             return False
         return True
+
+    def _report(self, panel: Panel, error: Exception) -> None:
+        self._logger.error(f'{_named(panel)} has been stopped: {described_error(error)}')
+        self._say(panel, 'It has been stopped by an error: see the log.')
+
+    def _say(self, panel: Panel, sentence: str) -> None:
+        """Say in the tab of a panel why it is not there."""
+        if not panel.IS_ALWAYS_VISIBLE:
+            with self._places[panel]:
+                self._context.gui.add_markdown(f'✖ {escaped(sentence)}')
+
+
+def _named(panel: Panel) -> str:
+    return f"Panel '{panel.name}' ({panel.CLASS})"

@@ -32,7 +32,10 @@ class FrameLoop:
 
     def set_rate(self, rate_hz: float) -> None:
         """Draw so many frames in a second from now on, up to 60."""
-        self._timer.timer_period_ns = int(_period_s(rate_hz) * 1e9)
+        period_ns = int(_period_s(rate_hz) * 1e9)
+        if period_ns != self._timer.timer_period_ns:
+            self._timer.timer_period_ns = period_ns
+            self._timer.reset()
 
     def close(self) -> None:
         """Draw no more frames."""

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable, Mapping
 import re
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,7 @@ __all__ = ['FrameWatch']
 SUBJECT = 'Fixed Frame'
 TOPICS = ('/tf', '/tf_static')
 PARENT = re.compile(r'^Frame (.*) exists with parent (.*)\.$', re.MULTILINE)
+NO_PARENT = 'NO_PARENT'
 SHOWN = 4
 
 
@@ -65,8 +67,9 @@ class FrameWatch:
     def _of_trees(self, fixed: str, names: list[str]) -> tuple[Level, str]:
         """Say which frames no transform connects with the fixed one."""
         parents = dict(PARENT.findall(self._frames.buffer.all_frames_as_string()))
-        roots = Counter(_root(name, parents) for name in names)
-        own = _root(fixed, parents)
+        tops = _tops(names, parents)
+        roots = Counter(tops[name] for name in names)
+        own = tops[fixed]
         connected = roots.pop(own)
         if not roots:
             return Level.OK, f'{connected} frames are known.'
@@ -80,13 +83,24 @@ class FrameWatch:
         )
 
 
-def _root(name: str, parents: dict[str, str]) -> str:
-    """Return the topmost frame above one."""
-    seen = {name}
-    while name in parents and parents[name] not in ('NO_PARENT', *seen):
-        name = parents[name]
-        seen.add(name)
-    return name
+def _tops(names: Iterable[str], parents: Mapping[str, str]) -> dict[str, str]:
+    """
+    Return the topmost frame above each one, in a time that is linear in the number of frames.
+
+    Of frames that go round in a circle it is the one at which the way up comes to its beginning.
+    """
+    tops: dict[str, str] = {}
+    for name in names:
+        way = {name: None}  # in the order in which they are met
+        while name not in tops:
+            above = parents.get(name, NO_PARENT)
+            if above == NO_PARENT or above in way:
+                tops[name] = name
+            else:
+                name = above
+                way[name] = None
+        tops.update(dict.fromkeys(way, tops[name]))
+    return tops
 
 
 def _unknown(fixed: str, names: list[str]) -> str:

@@ -33,6 +33,9 @@ def surprises(shown: Visualizer) -> Iterator[str]:
         yield f"{source}: The global option '{name}' is not known. The file keeps it."
     yield from (f'{source}: Of the global options, {each}' for each in shown.options.refusals)
     yield from (f'{source}: Of the view, {each}' for each in view.values.refusals)
+    for panel in shown.panels.panels:
+        about = f"Of the panel '{panel.name}' ({panel.CLASS})"
+        yield from (f'{source}: {about}, {each}' for each in panel.values.refusals)
     for tool in shown.tools.tools:
         yield from (f'{source}: Of {tool.CLASS}, {each}' for each in tool.values.refusals)
 

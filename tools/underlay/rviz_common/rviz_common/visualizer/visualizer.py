@@ -3,11 +3,9 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 import os
 from typing import Any, TYPE_CHECKING
 
-from rclpy.exceptions import InvalidHandle
 from rviz_common.config import ConfigError, Configuration
 from rviz_common.config.configuration import (
     DISPLAYS,
@@ -32,6 +30,7 @@ from rviz_common.panels.panel_tabs import PanelTabs
 from rviz_common.properties import topic_path, Values
 from rviz_common.status import Statuses
 from rviz_common.views import View
+from rviz_common.visualizer.attention import Attention, REST_HZ
 from rviz_common.visualizer.background import paint
 from rviz_common.visualizer.cameras import Cameras, WORLD
 from rviz_common.visualizer.entry import Entry
@@ -65,28 +64,43 @@ class Visualizer:
     """
 
     def __init__(
-        self, node: Node, page: Page, configuration: Configuration, path: str = ''
+        self,
+        node: Node,
+        page: Page,
+        configuration: Configuration,
+        path: str = '',
+        may_rest: bool = False,
     ) -> None:
-        """Show what a configuration says; `path` is the file that it is from."""
+        """
+        Show what a configuration says.
+
+        :param path: the file that it is from
+        :param may_rest: draw nothing, and hear nothing that moves, while no page is open
+        """
         self._buffer = Buffer()
         self._listener = FrameListener(self._buffer, node)
         frames = Frames(self._buffer)
         self.context = Context(node, page, frames, WorkQueue(self._rouse), self)
         self.status = Statuses()
         self.watch = FrameWatch(node, frames, self.status)
-        self._wake = node.create_guard_condition(self._work)
         self._logger = node.get_logger()
         self._pace = Pace()
         self._maker = Maker(self.context, f'{WORLD}/displays')
         self._open(configuration, path)
         self._files = FileFolder(self.context)
+        self._attention = Attention(
+            node, self._listener, lambda: bool(page.viser.get_clients()), may_rest
+        )
+        self._slow = Pace(1.0)
+        self._is_closed = False
         self._loop = FrameLoop(node, self.frame, self.options[FRAME_RATE])
+        page.viser.on_client_connect(lambda _: self._rouse())
 
     def load(self, configuration: Configuration, path: str = '') -> None:
         """Show what another file says, and no longer what the last one said."""
         self._close()
         self._open(configuration, path)
-        self._loop.set_rate(self.options[FRAME_RATE])
+        self._set_rate()
 
     def save(self, path: str) -> None:
         """Write what is shown to a file, or raise ConfigError."""
@@ -121,7 +135,11 @@ class Visualizer:
             self.revision += 1
 
     def frame(self) -> None:
-        """Draw the next frame."""
+        """Draw the next frame; while nobody looks, do what must go on all the same."""
+        self._attend()
+        if self._attention.rests and not self._slow.is_due():
+            self.panels.update()
+            return
         self._listener.take_all()
         if self._pace.is_due():
             self.watch.update()
@@ -139,11 +157,11 @@ class Visualizer:
 
     def close(self) -> None:
         """Show nothing any longer."""
+        self._is_closed = True
         self._loop.close()
         self._close()
         self._files.close()
         self._listener.unregister()
-        self.context.node.destroy_guard_condition(self._wake)
 
     def _open(self, configuration: Configuration, path: str) -> None:
         self.configuration, self.path = configuration, path
@@ -176,9 +194,19 @@ class Visualizer:
             self.context.frames.fixed_frame = value.strip().lstrip('/')
             self.watch.update()
         elif option == FRAME_RATE:
-            self._loop.set_rate(value)
+            self._set_rate()
         else:
             paint(self.context.server, value)
+
+    def _attend(self) -> None:
+        """Rest while nobody looks, and be there again for who comes."""
+        if self._attention.look():
+            self._set_rate()
+
+    def _set_rate(self) -> None:
+        """Draw as often as is chosen, or look around now and then."""
+        rests = self._attention.rests
+        self._loop.set_rate(REST_HZ if rests else self.options[FRAME_RATE])
 
     def _sections(self) -> dict[Place, Any]:
         """Return the sections of the file that may have been changed."""
@@ -194,6 +222,7 @@ class Visualizer:
     def _work(self) -> None:
         """Do what widgets have posted."""
         try:
+            self._attend()
             self.context.queue.run()
         except Exception as error:  # whatever a widget does, all else goes on
             self._logger.error(f'What was entered failed: {described_error(error)}')
@@ -201,5 +230,6 @@ class Visualizer:
 
     def _rouse(self) -> None:
         """Have posted work done soon; a browser may post some until the page is closed."""
-        with suppress(InvalidHandle):
-            self._wake.trigger()
+        executor = self.context.node.executor
+        if executor is not None and not self._is_closed:
+            executor.create_task(self._work)

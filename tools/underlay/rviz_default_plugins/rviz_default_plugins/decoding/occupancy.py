@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 from functools import cache
+from io import BytesIO
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 from rviz_default_plugins.decoding.geometry import FARTHEST
 
-__all__ = ['Cells', 'apply_update', 'binary', 'cells_of', 'paint', 'thinned']
+__all__ = ['Cells', 'apply_update', 'binary', 'cells_of', 'png_of', 'thinned']
 
 Cells = NDArray[np.int8]
 Palette = NDArray[np.uint8]
@@ -60,12 +62,16 @@ def binary(cells: Cells, threshold: int) -> Cells:
     return np.where(cells < 0, cells, np.where(cells >= threshold, 100, 0)).astype(np.int8)
 
 
-def paint(cells: Cells, scheme: str, alpha: float) -> NDArray[np.uint8]:
-    """Return the picture of a map with red, green, blue and alpha, the smallest y first."""
-    palette = _palette(scheme).copy()
-    palette[:, 3] = (palette[:, 3] * alpha).round()
-    picture: Palette = palette[np.ascontiguousarray(cells).view(np.uint8)]
-    return picture
+def png_of(cells: Cells, scheme: str, alpha: float) -> bytes:
+    """Return the picture of a map as a PNG file, the smallest y on top, as the scene has it."""
+    palette = _palette(scheme)
+    height, width = cells.shape
+    picture = Image.frombytes('P', (width, height), np.ascontiguousarray(cells).tobytes())
+    picture.putpalette(palette[:, :3].tobytes())
+    transparency = (palette[:, 3] * alpha).round().astype(np.uint8).tobytes()
+    file = BytesIO()
+    picture.save(file, 'PNG', compress_level=1, transparency=transparency)
+    return file.getvalue()
 
 
 def _rows(data: Any, width: int, height: int) -> Cells:

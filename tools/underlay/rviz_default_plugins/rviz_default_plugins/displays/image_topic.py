@@ -41,6 +41,7 @@ class ImageTopicDisplay(TopicDisplay):
 
     def update(self) -> None:
         """Show the newest picture."""
+        super().update()
         message = self._newest
         if message is None or message is self._shown or not self.is_looked_at():
             return

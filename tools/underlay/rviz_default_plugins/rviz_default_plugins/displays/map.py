@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-import importlib
-from typing import Any
+from collections import deque
+from typing import Any, ClassVar
+from weakref import WeakKeyDictionary
 
+from map_msgs.msg import OccupancyGridUpdate
 from nav_msgs.msg import OccupancyGrid
 import numpy as np
-from rviz_common.canvas import Canvas
 from rviz_common.message_display import MessageDisplay
 from rviz_common.properties import Choice, Flag, Number, topic_properties, Whole
 from rviz_common.status import Level
@@ -18,15 +19,21 @@ from rviz_default_plugins.decoding.occupancy import (
     binary,
     Cells,
     cells_of,
-    paint,
+    png_of,
     thinned,
 )
+from rviz_default_plugins.drawing.flat_picture import FlatPicture
 
 __all__ = ['Map']
 
 MOST = 1500
 """Cells along a side; a picture of more takes too long to be packed."""
-BEHIND = -0.01
+BEHIND, LOWEST, STEP = -0.04, -0.032, 0.008
+"""Metres: maps lie a little below what else is on the ground, one above the other."""
+LOOK = ('Alpha', 'Color Scheme', 'Binary representation', 'Binary threshold')
+MOST_WAITING = 1000
+MOST_WAITING_CELLS = 100_000_000
+"""Cells, of a byte each, of the updates that wait for the next frame, or for their map."""
 
 
 class Map(MessageDisplay):
@@ -44,24 +51,30 @@ class Map(MessageDisplay):
         Whole('Binary threshold', 100, 'Least value of occupied cells.', 0, 100),
     )
     UNUSED = ('Use Timestamp',)
+    _layers: ClassVar[WeakKeyDictionary[Any, set[int]]] = WeakKeyDictionary()
+    """Layers that are taken, by page: where maps overlap, the later one is above."""
 
     def start(self) -> None:
         """Subscribe the map and its updates."""
-        self._canvas = Canvas(self.context.scene, self.root)
+        taken = self._layers.setdefault(self.context.scene, set())
+        self._layer = next(layer for layer in range(len(taken) + 1) if layer not in taken)
+        taken.add(self._layer)
+        self._picture = FlatPicture(self.context.scene, f'{self.root}/map')
+        self._shown_as: tuple[Any, ...] = ()
+        self._shown_cells: Cells = np.empty((0, 0), np.int8)
         self._of: Any = None
         self._cells: Cells | None = None
-        self._updates: list[Any] = []
+        self._updates = _Updates()
         super().start()
         topic = self.values['Update Topic/Value'] or f'{self.values["Topic/Value"]}_updates'
-        kind = _update_type()
-        if kind is None:
-            self.status.say(
-                'Update Topic',
-                Level.OK,
-                f'{topic} is not subscribed: the package map_msgs is not installed.',
-            )
-        elif self.values['Topic/Value']:
-            self.subscribe(kind, topic, self._take_update, 'Update Topic')
+        if self.values['Topic/Value']:
+            self.subscribe(OccupancyGridUpdate, topic, self._take_update, 'Update Topic')
+
+    def stop(self) -> None:
+        """Subscribe no longer, and remove what was drawn."""
+        self._picture.remove()
+        self._layers[self.context.scene].discard(self._layer)
+        super().stop()
 
     def take(self, message: Any) -> None:
         """Keep the newest map; updates from before are of another one."""
@@ -88,46 +101,68 @@ class Map(MessageDisplay):
             self.status.say('Map', Level.WARN, sentence)
         else:
             self.status.forget('Map')
-        with self._canvas.anew():
-            self._add(cells, step, message.info)
+        self._draw(cells, step, message.info)
 
-    def _add(self, cells: Cells, step: int, info: Any) -> None:
-        if self.values['Binary representation']:
-            cells = binary(cells, self.values['Binary threshold'])
-        picture = paint(cells, self.values['Color Scheme'], self.values['Alpha'])
+    def _draw(self, cells: Cells, step: int, info: Any) -> None:
+        """Draw cells, unless they are drawn already: many costmaps come again as they were."""
         at, turn = position(info.origin.position, 'origin'), rotation(info.origin.orientation)
         height, width = (length * step * info.resolution for length in cells.shape)
-        behind = BEHIND if self.values['Draw Behind'] else 0.0
-        middle = rotated(np.array([[width / 2.0, height / 2.0, behind]]), turn)[0] + at
-        self._canvas.put(
-            'image',
-            'map',
-            image=picture,
-            render_width=width,
-            render_height=height,
-            format='png',
-            position=tuple(middle),
-            wxyz=turn,
-        )
+        height_m = min(LOWEST + STEP * self._layer, -STEP / 2.0)
+        behind = BEHIND if self.values['Draw Behind'] else height_m
+        x, y, z = rotated(np.array([[width / 2.0, height / 2.0, behind]]), turn)[0] + at
+        shown_as = (width, height, float(x), float(y), float(z), turn, *self._look())
+        if shown_as == self._shown_as and np.array_equal(cells, self._shown_cells):
+            return
+        self._shown_as, self._shown_cells = shown_as, cells.copy()
+        if self.values['Binary representation']:
+            cells = binary(cells, self.values['Binary threshold'])
+        png = png_of(cells, self.values['Color Scheme'], self.values['Alpha'])
+        self._picture.show(png, (width, height), (float(x), float(y), float(z)), turn)
+
+    def _look(self) -> tuple[Any, ...]:
+        """Return the properties that decide what cells look like."""
+        return tuple(self.values[path] for path in LOOK)
 
     def _take_update(self, message: Any) -> None:
-        self._updates.append(message)
-        del self._updates[:-1000]
+        self._updates.add(message)
 
     def _apply(self, cells: Cells) -> None:
-        updates, self._updates = self._updates, []
         self.status.forget('Update Topic')
-        for each in updates:
+        if self._updates.lost:
+            sentence = f'Left out of too many at once: {self._updates.lost}, the oldest.'
+            self.status.say('Update Topic', Level.WARN, sentence)
+        for each in self._updates.take():
             try:
                 apply_update(cells, each)
             except ValueError as error:
                 self.status.say('Update Topic', Level.ERROR, f'An update is left out: {error}')
 
 
-def _update_type() -> type | None:
-    """Return the type of updates, which is not installed everywhere."""
-    try:
-        kind: type = importlib.import_module('map_msgs.msg').OccupancyGridUpdate
-    except ImportError:
-        return None
-    return kind
+class _Updates:
+    """The newest updates of a map that wait for it, of limited number and size."""
+
+    def __init__(self) -> None:
+        self.clear()
+
+    def __bool__(self) -> bool:
+        """Whether there are some, or were."""
+        return bool(self._waiting or self.lost)
+
+    def add(self, update: Any) -> None:
+        """Add an update; the oldest ones are lost for one too many."""
+        self._waiting.append(update)
+        self._cells += len(update.data)
+        while len(self._waiting) > MOST_WAITING or self._cells > MOST_WAITING_CELLS:
+            self._cells -= len(self._waiting.popleft().data)
+            self.lost += 1
+
+    def take(self) -> list[Any]:
+        """Return the updates in the order in which they came; none waits then."""
+        updates = list(self._waiting)
+        self.clear()
+        return updates
+
+    def clear(self) -> None:
+        """Forget all."""
+        self._waiting: deque[Any] = deque()
+        self._cells = self.lost = 0

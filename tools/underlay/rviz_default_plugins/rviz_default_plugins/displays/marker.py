@@ -12,20 +12,13 @@ from rviz_common.topic_display import TopicDisplay
 from rviz_default_plugins.markers.marker_scene import MarkerScene
 from visualization_msgs.msg import Marker as MarkerMessage
 
-__all__ = ['NAMESPACES', 'Marker']
+__all__ = ['NAMESPACES', 'Marker', 'Markers']
 
 NAMESPACES = Flags('Namespaces', {}, 'Which markers are shown, by their namespace.')
 
 
-class Marker(TopicDisplay):
-    """The markers of a topic."""
-
-    CLASS = 'rviz_default_plugins/Marker'
-    MESSAGE = MarkerMessage
-    PROPERTIES = (
-        *topic_properties('visualization_msgs/msg/Marker', '/visualization_marker', depth=10),
-        NAMESPACES,
-    )
+class Markers(TopicDisplay):
+    """A display that draws the messages of a topic as markers."""
 
     def start(self) -> None:
         """Subscribe the topic."""
@@ -35,6 +28,7 @@ class Marker(TopicDisplay):
 
     def update(self) -> None:
         """Draw what has come."""
+        super().update()
         enabled = self.values['Namespaces']
         self._markers.update(self._now_ns(), lambda namespace: enabled.get(namespace, True))
         new = self._markers.namespaces() - set(enabled)
@@ -50,10 +44,25 @@ class Marker(TopicDisplay):
 
     def markers_of(self, message: Any) -> Iterable[Any]:
         """Return the markers of a message."""
-        return (message,)
+        raise NotImplementedError
 
     def redraw(self) -> None:
         """Show and hide namespaces, as the next frame does."""
 
     def _now_ns(self) -> int:
         return int(self.context.node.get_clock().now().nanoseconds)
+
+
+class Marker(Markers):
+    """The markers of a topic."""
+
+    CLASS = 'rviz_default_plugins/Marker'
+    MESSAGE = MarkerMessage
+    PROPERTIES = (
+        *topic_properties('visualization_msgs/msg/Marker', '/visualization_marker', depth=10),
+        NAMESPACES,
+    )
+
+    def markers_of(self, message: Any) -> Iterable[Any]:
+        """Return the markers of a message."""
+        return (message,)

@@ -7,13 +7,13 @@ from collections.abc import Iterable
 from typing import Any
 
 from rviz_common.properties import topic_properties
-from rviz_default_plugins.displays.marker import Marker, NAMESPACES
+from rviz_default_plugins.displays.marker import Markers, NAMESPACES
 from visualization_msgs.msg import MarkerArray as MarkerArrayMessage
 
 __all__ = ['MarkerArray']
 
 
-class MarkerArray(Marker):
+class MarkerArray(Markers):
     """The markers of a topic that has arrays of them."""
 
     CLASS = 'rviz_default_plugins/MarkerArray'

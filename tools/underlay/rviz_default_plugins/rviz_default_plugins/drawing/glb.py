@@ -12,17 +12,22 @@ from numpy.typing import NDArray
 
 __all__ = ['glb_of']
 
-ARRAY_BUFFER, FLOAT, BYTE = 34962, 5126, 5121
+ARRAY_BUFFER, FLOAT, SHORT = 34962, 5126, 5123
 
 
 def glb_of(vertices: NDArray[np.float32], colors: NDArray[np.uint8]) -> bytes:
-    """Return a file; each three vertices are a triangle, each has red, green, blue, alpha."""
+    """
+    Return a file; each three vertices are a triangle, each has red, green, blue, alpha.
+
+    Colours are those of a screen (sRGB), as in markers; in the file they are proportional to
+    light, as glTF 2.0 has it, in 16 bits, since 8 are too coarse for dark ones.
+    """
     positions = np.ascontiguousarray(vertices, np.float32)
-    paints = np.ascontiguousarray(colors, np.uint8)
+    paints = np.ascontiguousarray(_linear(np.asarray(colors, np.uint8)))
     count = len(positions)
     material = {
         'doubleSided': True,
-        'alphaMode': 'BLEND' if (paints[:, 3] < 255).any() else 'OPAQUE',
+        'alphaMode': 'BLEND' if (colors[:, 3] < 255).any() else 'OPAQUE',
         'pbrMetallicRoughness': {'metallicFactor': 0.0, 'roughnessFactor': 1.0},
     }
     content: dict[str, Any] = {
@@ -43,7 +48,7 @@ def glb_of(vertices: NDArray[np.float32], colors: NDArray[np.uint8]) -> bytes:
             },
             {
                 'bufferView': 1,
-                'componentType': BYTE,
+                'componentType': SHORT,
                 'normalized': True,
                 'count': count,
                 'type': 'VEC4',
@@ -56,6 +61,14 @@ def glb_of(vertices: NDArray[np.float32], colors: NDArray[np.uint8]) -> bytes:
         'buffers': [{'byteLength': positions.nbytes + paints.nbytes}],
     }
     return _packed(json.dumps(content).encode(), positions.tobytes() + paints.tobytes())
+
+
+def _linear(colors: NDArray[np.uint8]) -> NDArray[np.uint16]:
+    """Return the light of colours (n, 4) of a screen; the last column, alpha, is left as it is."""
+    parts = colors / 255.0
+    light = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
+    light[:, 3] = parts[:, 3]
+    return np.asarray((65535.0 * light).round(), dtype=np.uint16)
 
 
 def _view(offset: int, length: int) -> dict[str, int]:

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Displays of clouds, scans, maps and pictures."""
 
+from io import BytesIO
 import struct
-import sys
-from types import ModuleType, SimpleNamespace
+from types import SimpleNamespace
 
+from map_msgs.msg import OccupancyGridUpdate
 from message_stage import near, sentence
 from nav_msgs.msg import OccupancyGrid
 import numpy as np
+from PIL import Image as PillowImage
 import pytest
+from rviz_default_plugins.displays import map as map_module
 from rviz_default_plugins.displays.camera import Camera, info_topic, view_of
 from rviz_default_plugins.displays.image import Image
 from rviz_default_plugins.displays.laser_scan import LaserScan
@@ -126,6 +129,46 @@ def test_colors_of_points(message_stage):
     assert sentence(display, 'Color Transformer') == ''
 
 
+def test_a_transform_that_comes_a_moment_later(message_stage):
+    """Once points are shown, it is no error that the newest wait; it is one if they go on to."""
+    display = message_stage.listen(PointCloud2)
+    message_stage.tell(display, cloud_of([(1, 0, 0)]))
+    display.steady_s = lambda: now_s
+    now_s = 10.0
+    message_stage.tell(display, cloud_of([(2, 0, 0)]), frame='nowhere')
+    now_s = 11.9
+    display.update()
+    assert sentence(display, 'Transform') == ''
+    now_s = 12.0
+    display.update()
+    assert 'nowhere' in sentence(display, 'Transform')
+
+
+def test_messages_from_before_the_transforms(message_stage):
+    """What is older than all that tf knows is given up when a newer message is drawn."""
+    stage = message_stage
+    display = stage.listen(PointCloud2, {})
+    display.steady_s = lambda: now_s
+    now_s = 0.0
+    stage._stamp = 100
+    stage.move('map', 'laser')
+    for second in (1, 2, 3, 4, 5, 6):
+        message = cloud_of([(1, 0, 0)])
+        message.header.stamp.sec = second
+        stage.tell(display, message, frame='laser')
+    now_s = 9.0
+    display.update()
+    assert 'laser' in sentence(display, 'Transform')
+    message = cloud_of([(1, 0, 0)])
+    message.header.stamp.sec = 101
+    stage.tell(display, message, frame='laser')
+    assert stage.drawn(display) == ['1', '1/points']
+    assert sentence(display, 'Transform') == ''
+    now_s = 99.0
+    display.update()
+    assert sentence(display, 'Transform') == ''
+
+
 def test_axis_is_that_of_the_fixed_frame(message_stage):
     """With Use Fixed Frame the height is that in the fixed frame, where the frame is turned."""
     stage = message_stage
@@ -194,6 +237,11 @@ def grid(rows, resolution=0.5):
     return message
 
 
+def painted(handle):
+    """Return the pixels of the file that a picture of the scene has."""
+    return np.asarray(PillowImage.open(BytesIO(handle._data)).convert('RGBA'))
+
+
 def test_map_is_a_picture_on_the_ground(message_stage):
     """The corner of the map is at its origin; the picture has its size in metres."""
     message = grid([[0, 100], [50, -1], [0, 0]])
@@ -202,9 +250,9 @@ def test_map_is_a_picture_on_the_ground(message_stage):
     message_stage.tell(display, message)
     picture = message_stage.at(display, 'map')
     assert (picture.render_width, picture.render_height) == (1.0, 1.5)
-    assert near(picture.position, 10.5, 0.75, -0.01)
-    assert picture.image.shape == (3, 2, 4)
-    assert picture.image[0, :, 0].tolist() == [255, 0]
+    assert near(picture.position, 10.5, 0.75, -0.04)
+    assert painted(picture).shape == (3, 2, 4)
+    assert painted(picture)[0, :, 0].tolist() == [255, 0]
 
 
 def test_map_that_is_turned(message_stage):
@@ -213,7 +261,18 @@ def test_map_that_is_turned(message_stage):
     message.info.origin.orientation.w = message.info.origin.orientation.z = HALF
     display = message_stage.listen(Map)
     message_stage.tell(display, message)
-    assert near(message_stage.at(display, 'map').position, -0.5, 1, 0)
+    assert near(message_stage.at(display, 'map').position, -0.5, 1, -0.032)
+
+
+def test_maps_lie_above_each_other(message_stage):
+    """The later one of two maps is above, so that they do not flicker, and below the ground."""
+    heights = []
+    for _ in range(6):
+        display = message_stage.listen(Map)
+        message_stage.tell(display, grid([[0]]))
+        heights.append(message_stage.at(display, 'map').position[2])
+    assert heights[:4] == sorted(set(heights[:4]))
+    assert max(heights) < 0.0
 
 
 def test_schemes_of_a_map(message_stage):
@@ -229,7 +288,9 @@ def test_schemes_of_a_map(message_stage):
         display.values[path] = value
         display.on_change(path)
     display.update()
-    assert message_stage.at(display, 'map').image.tolist() == [[[0, 0, 0, 0], [255, 0, 255, 255]]]
+    assert painted(message_stage.at(display, 'map')).tolist() == [
+        [[0, 0, 0, 0], [255, 0, 255, 255]]
+    ]
 
 
 def test_strange_maps(message_stage):
@@ -252,31 +313,52 @@ def test_strange_maps(message_stage):
     assert message_stage.at(display, 'map').render_width == pytest.approx(200, abs=0.2)
 
 
-def test_updates_of_a_map(message_stage, monkeypatch):
-    """Updates are subscribed where map_msgs is installed, and change the map."""
-    module = ModuleType('map_msgs.msg')
-    module.OccupancyGridUpdate = SimpleNamespace
-    monkeypatch.setitem(sys.modules, 'map_msgs', ModuleType('map_msgs'))
-    monkeypatch.setitem(sys.modules, 'map_msgs.msg', module)
+def test_map_that_comes_again_as_it_was(message_stage):
+    """A costmap without news is not sent to browsers again; one that is elsewhere moves."""
+    display = message_stage.listen(Map)
+    message_stage.tell(display, grid([[0, 50]]))
+    sent = message_stage.at(display, 'map')._data
+    message_stage.tell(display, grid([[0, 50]]))
+    assert message_stage.at(display, 'map')._data is sent
+    moved = grid([[0, 50]])
+    moved.info.origin.position.x = 3.0
+    message_stage.tell(display, moved)
+    assert message_stage.at(display, 'map').position[0] == pytest.approx(3.5)
+    message_stage.tell(display, grid([[0, 51]]))
+    assert message_stage.at(display, 'map')._data != sent
+
+
+def test_updates_of_a_map(message_stage):
+    """Updates are subscribed, and change the map."""
     display = message_stage.listen(Map, {'Alpha': 1})
-    update = SimpleNamespace(x=1, y=0, width=1, height=1, data=[100])
+    update = OccupancyGridUpdate(x=1, y=0, width=1, height=1, data=[100])
     message_stage.node.say('/topic_updates', update)  # of a map from before
     message_stage.tell(display, grid([[0, 0]]))
-    assert message_stage.at(display, 'map').image[0, :, 0].tolist() == [255, 255]
+    assert painted(message_stage.at(display, 'map'))[0, :, 0].tolist() == [255, 255]
     message_stage.node.say('/topic_updates', update)
     display.update()
-    assert message_stage.at(display, 'map').image[0, :, 0].tolist() == [255, 0]
-    update = SimpleNamespace(x=0, y=5, width=1, height=1, data=[100])
+    assert painted(message_stage.at(display, 'map'))[0, :, 0].tolist() == [255, 0]
+    update = OccupancyGridUpdate(x=0, y=5, width=1, height=1, data=[100])
     message_stage.node.say('/topic_updates', update)
     display.update()
     assert 'is not inside the map of 2 x 1' in sentence(display, 'Update Topic')
 
 
-def test_map_without_map_msgs(message_stage):
-    """Where map_msgs is not installed, it is said that updates are not shown."""
-    display = message_stage.listen(Map)
-    assert 'map_msgs is not installed' in sentence(display, 'Update Topic')
-    assert display.status.level.name == 'WARN'
+@pytest.mark.parametrize('limit', ['MOST_WAITING', 'MOST_WAITING_CELLS'])
+def test_updates_that_wait_are_bounded(message_stage, monkeypatch, limit):
+    """Of too many updates between two frames, or too large ones, the newest are shown."""
+    monkeypatch.setattr(map_module, limit, 2)
+    display = message_stage.listen(Map, {'Alpha': 1})
+    message_stage.tell(display, grid([[0, 0, 0]]))
+    for x in range(3):
+        update = OccupancyGridUpdate(x=x, y=0, width=1, height=1, data=[100])
+        message_stage.node.say('/topic_updates', update)
+    display.update()
+    assert painted(message_stage.at(display, 'map'))[0, :, 0].tolist() == [255, 0, 0]
+    assert 'Left out of too many at once: 1' in sentence(display, 'Update Topic')
+    message_stage.node.say('/topic_updates', update)
+    display.update()
+    assert sentence(display, 'Update Topic') == ''
 
 
 def picture(red=200, width=8, height=4):

@@ -15,7 +15,7 @@ from rviz_default_plugins.decoding.occupancy import (
     apply_update,
     binary,
     cells_of,
-    paint,
+    png_of,
     thinned,
 )
 from sensor_msgs.msg import CompressedImage, Image
@@ -272,16 +272,21 @@ def test_broken_maps_are_refused():
 )
 def test_colors_of_cells(scheme, value, expected):
     """Each value has the colour that it has in RViz."""
-    assert paint(np.array([[value]], np.int8), scheme, 1.0).tolist() == [[expected]]
+    assert painted(np.array([[value]], np.int8), scheme, 1.0).tolist() == [[expected]]
+
+
+def painted(cells, scheme, alpha):
+    """Return the pixels of a map."""
+    return np.asarray(Pillow.open(io.BytesIO(png_of(cells, scheme, alpha))).convert('RGBA'))
 
 
 def test_alpha_and_order_of_a_painted_map():
     """Alpha counts for all colours, and does not stay; the first row stays the first."""
     cells = np.array([[0], [100]], np.int8)
-    painted = paint(cells, 'map', 0.5)
-    assert painted[:, 0, 0].tolist() == [255, 0]
-    assert painted[:, 0, 3].tolist() == [128, 128]
-    assert paint(cells, 'map', 1.0)[0, 0, 3] == 255
+    picture = painted(cells, 'map', 0.5)
+    assert picture[:, 0, 0].tolist() == [255, 0]
+    assert picture[:, 0, 3].tolist() == [128, 128]
+    assert painted(cells, 'map', 1.0)[0, 0, 3] == 255
 
 
 def test_binary_map():

@@ -249,6 +249,8 @@ def test_message_waits_for_its_transform(message_stage):
     stage.move('map', 'base', 1.0)
     stage.tell(display, message, frame='base')
     assert stage.drawn(display) == []
+    display.GRACE_S = 0.0
+    display.update()
     assert sentence(display, 'Transform') != ''
     stage.move('map', 'base', 7.0)
     display.update()

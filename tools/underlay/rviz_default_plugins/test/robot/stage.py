@@ -12,7 +12,7 @@ import pytest
 from rviz_common.context import Context
 from rviz_common.display import Display
 from rviz_common.frames import Frames
-from rviz_common.page import Page
+from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.work_queue import WorkQueue
 from std_msgs.msg import String
 from tf2_ros import Buffer
@@ -38,6 +38,12 @@ class NotingNode:
 
     def destroy_subscription(self, subscription: Any) -> None:
         self.subscriptions.remove(subscription)
+
+    def resolve_topic_name(self, topic: str) -> str:
+        return topic
+
+    def get_publishers_info_by_topic(self, topic: str) -> list[Any]:
+        return []
 
     def say(self, topic: str, message: Any) -> None:
         for name, callback, _ in list(self.subscriptions):
@@ -107,7 +113,7 @@ class Stage:
 @pytest.fixture(scope='session')
 def page() -> Iterator[Page]:
     """Serve a page for all tests."""
-    with Page('test') as page:
+    with Page('test', PageSettings(token=NO_TOKEN)) as page:
         yield page
 
 

@@ -19,7 +19,7 @@ from rviz_default_plugins.robot.description import read_description
 from stage import Stage
 from std_msgs.msg import String
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 100.0
 URDF = '<robot name="r"><link name="base"/></robot>'
 
 

@@ -97,11 +97,16 @@ class Prefork:
         scripts = sorted({program.command[0] for program in programs})
         environment = os.environ if programs[0].env is None else programs[0].env
         try:
-            self._template = TemplateHandle(kind, environment, scripts, self._guard)
+            with programs[0].marking():
+                self._template = TemplateHandle(kind, environment, scripts, self._guard)
         except OSError as error:
             get_logger('launch').debug('nothing is forked: %s', error)
             return
         self._kind = kind
+
+    def groups(self) -> set[int]:
+        """Return the group of the template, if there is one."""
+        return {self._template.group} if self._template is not None else set()
 
     def close(self) -> None:
         """End the template."""

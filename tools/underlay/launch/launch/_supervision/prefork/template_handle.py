@@ -9,6 +9,7 @@ import os
 import signal
 import socket
 import subprocess
+from typing import Optional
 
 from launch._supervision.orphan_guard import OrphanGuard
 from launch._supervision.prefork.eligibility import Kind
@@ -18,6 +19,8 @@ from launch._supervision.prefork.template_failure import TemplateFailure
 from launch._supervision.program import Program
 
 _PATIENCE_S = 20.0
+IDLE_S = 10.0
+"""When nothing was forked for so long, all has started that starts together."""
 
 
 class TemplateHandle:
@@ -39,6 +42,8 @@ class TemplateHandle:
         with theirs:
             self._origin = _start(kind, environment, theirs.fileno(), scripts)
         guard.add(self.group)
+        self._asked = 0
+        self._retirement: Optional[asyncio.TimerHandle] = None
         self._ready: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._life = asyncio.ensure_future(self._live())
 
@@ -77,12 +82,30 @@ class TemplateHandle:
 
     async def fork(self, program: Program, stdout: int, stderr: int) -> ForkedChild:
         """Have a process made that runs a program; a TemplateFailure says that there is none."""
+        self._asked += 1
+        self._stay()
         try:
             await asyncio.wait_for(asyncio.shield(self._ready), _PATIENCE_S)
-            return await self._make(ForkRequest(self._kind.interpreter, program), stdout, stderr)
+            request = ForkRequest(self._kind.interpreter, program)
+            return await self._make(request, stdout, stderr)
         except (OSError, asyncio.TimeoutError) as error:
             self.close()
             raise TemplateFailure(str(error) or 'the template does not answer') from None
+        finally:
+            self._asked -= 1
+            if self.is_open and not self._asked:
+                self._retire_later()
+
+    def _stay(self) -> None:
+        """Do not end the template for now."""
+        if self._retirement is not None:
+            self._retirement.cancel()
+            self._retirement = None
+
+    def _retire_later(self) -> None:
+        """End the template when nobody asks any longer: its memory is then of no use."""
+        loop = asyncio.get_running_loop()
+        self._retirement = loop.call_later(IDLE_S, self.close, 'nothing was forked for a while')
 
     async def _make(self, request: ForkRequest, stdout: int, stderr: int) -> ForkedChild:
         try:
@@ -98,6 +121,7 @@ class TemplateHandle:
         if not self.is_open:
             return
         self.is_open = False
+        self._stay()
         self._life.cancel()
         if not self._ready.done():
             self._ready.set_exception(TemplateFailure(reason))

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say the address of the page once more when all is up, so that it is what one sees last."""
+
+from __future__ import annotations
+
+import re
+from typing import Optional
+
+from launch import Action
+from launch.actions import LogInfo, TimerAction
+from launch.event_handlers import OnProcessIO
+from launch.events.process import ProcessIO
+
+ADDRESS = re.compile(r'RViz is at (http\S+)\s')
+ROBOT = re.compile(r'(Simulator|Mock robot) started')
+SETTLE_S = 2.0
+"""What else has to say something at the start has then said it."""
+_LONGEST = 4096
+
+
+class Startup:
+    """Finds in what processes write whether the robot and its page are there."""
+
+    def __init__(self) -> None:
+        self._written: dict[str, str] = {}
+        self._url: str | None = None
+        self._has_robot = self._is_over = False
+
+    def hear(self, process: str, text: str) -> Optional[str]:
+        """
+        Take what a process has written, in pieces of any size.
+
+        Returns
+        -------
+        Optional[str]
+            The address of the page, once, when the robot has started as well.
+
+        """
+        if self._is_over:
+            return None
+        written = self._written[process] = (self._written.get(process, '') + text)[-_LONGEST:]
+        found = ADDRESS.search(written)
+        self._url = found[1] if found else self._url
+        self._has_robot |= ROBOT.search(written) is not None
+        self._is_over = self._has_robot and self._url is not None
+        return self._url if self._is_over else None
+
+
+def announce_page() -> OnProcessIO:
+    """Return what says the address of the page when the robot and the page are there."""
+    startup = Startup()
+
+    def hear(event: ProcessIO) -> Optional[list[Action]]:
+        url = startup.hear(event.process_name, event.text.decode(errors='replace'))
+        if url is None:
+            return None
+        return [TimerAction(period=SETTLE_S, actions=[LogInfo(msg=announcement(url))])]
+
+    return OnProcessIO(on_stdout=hear, on_stderr=hear)
+
+
+def announcement(url: str) -> str:
+    """Return the lines that one is to see."""
+    sentence = f'Open {url} to see and drive the robot.'
+    line = '-' * len(sentence)
+    return f'\n{line}\n{sentence}\n{line}'

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Start the whole humanoid in a home: it finds its way, sees, and does what it is told."""
+
+from __future__ import annotations
+
+from humanoid_bringup.robot_time import robot_time
+from launch import LaunchDescription, Substitution
+from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription
+from launch.conditions import IfCondition
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.substitutions import FindPackageShare
+
+DEFAULTS = {
+    'scene': ('apartment', 'The scene that is simulated.'),
+    'navigation': ('true', 'Start Nav2, so that the robot finds its way.'),
+    'perception': ('true', 'Detect objects, remember where they are, and look for them.'),
+}
+
+PARTS = {
+    'planner': 'Understand commands, and do them.',
+    'voice': 'Hear commands, and speak aloud what the robot says.',
+}
+
+
+def generate_launch_description() -> LaunchDescription:
+    """Compose the humanoid and what makes use of it."""
+    return LaunchDescription(
+        [
+            *(
+                DeclareLaunchArgument(name, default_value=default, description=description)
+                for name, (default, description) in DEFAULTS.items()
+            ),
+            *(
+                DeclareLaunchArgument(
+                    name, default_value='true', choices=['true', 'false'], description=description
+                )
+                for name, description in PARTS.items()
+            ),
+            _include('humanoid_bringup', 'bringup'),
+            *(
+                GroupAction(
+                    [_include(package, name, {'use_sim_time': robot_time()})],
+                    condition=IfCondition(LaunchConfiguration(name)),
+                )
+                for package, name in (('llm_planner', 'planner'), ('voice_control', 'voice'))
+            ),
+        ]
+    )
+
+
+def _include(
+    package: str, name: str, arguments: dict[str, Substitution] | None = None
+) -> IncludeLaunchDescription:
+    """Include a launch file of a package, which gets all arguments."""
+    path = [FindPackageShare(package), 'launch', f'{name}.launch.py']
+    return IncludeLaunchDescription(
+        PythonLaunchDescriptionSource(PathJoinSubstitution(path)),
+        launch_arguments=(arguments or {}).items(),
+    )

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The executor of the nodes: rclpy's EventsExecutor, and what it needs to be relied on.
+
+Waiting costs it a third of what it costs SingleThreadedExecutor, which tells the middleware anew
+of every subscription and timer before each callback. As it is experimental in ROS 2 Jazzy:
+
+- Guard conditions are not supported. Use `Executor.create_task` to wake it from another thread.
+- Without a timeout, no timer fires while it waits. `spin_until` always gives one.
+- An exception in a task of an executor with a single node crashes the process. `make_executor`
+  adds a second one, which has nothing to do.
+- A subscription's callback gets the message only, and no information about it.
+- A service whose callback is a coroutine is not awaited. `create_async_service` awaits it.
+- While a coroutine waits, it is asked again and again, which takes a whole processor. That of
+  `make_executor` sleeps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Coroutine
+import inspect
+from typing import Any, cast
+
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.node import Node
+from rclpy.service import Service
+from rclpy.task import Future
+
+__all__ = ['create_async_service', 'destroy', 'make_executor', 'spin_until']
+
+_WAIT_S = 1.0
+_EventsExecutor: Any = getattr(_rclpy, 'EventsExecutor', object)
+AsyncCallback = Callable[[Any, Any], Awaitable[Any]]
+
+
+class _NoNode:
+    """What an executor takes for a node without anything to do."""
+
+    executor = None
+    subscriptions = timers = clients = services = guards = waitables = ()
+
+
+class _SleepingExecutor(_EventsExecutor):
+    """An executor of events whose tasks sleep while they wait."""
+
+    def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Any:
+        """Run a callback, or a coroutine function until its end, from any thread."""
+        if not inspect.iscoroutinefunction(callback):
+            return super().create_task(callback, *args, **kwargs)
+        end: Future[Any] = Future(executor=self)
+        self.create_task(self._resume, callback(*args, **kwargs), end)
+        return end
+
+    def _resume(self, coroutine: Coroutine[Any, Any, Any], end: Future[Any]) -> None:
+        """Run a coroutine until it waits; go on when what it waits for is done."""
+        try:
+            coroutine.send(None)
+        except StopIteration as stop:
+            end.set_result(stop.value)
+            return
+        except BaseException as error:
+            end.set_exception(error)
+            raise
+
+        def go_on(_: object) -> None:
+            self.create_task(self._resume, coroutine, end)
+
+        awaited = _awaited(coroutine)
+        if awaited is None:
+            go_on(None)
+        else:
+            awaited.add_done_callback(go_on)
+
+
+def _awaited(coroutine: Any) -> Future[Any] | None:
+    """Return the future for which a coroutine waits; what it yields does not tell in Jazzy."""
+    while inspect.iscoroutine(coroutine):
+        coroutine = coroutine.cr_await
+    frame = getattr(coroutine, 'gi_frame', None)
+    waiting = frame.f_locals.get('self') if frame is not None else None
+    return waiting if isinstance(waiting, Future) else None
+
+
+def make_executor(context: Context | None = None) -> Executor:
+    """
+    Make the executor that all nodes of this workspace use.
+
+    Parameters
+    ----------
+    context
+        The ROS context; by default that of the process.
+
+    Returns
+    -------
+    Executor
+        An EventsExecutor, or a SingleThreadedExecutor where rclpy is older than that.
+
+    """
+    if _EventsExecutor is object:
+        return SingleThreadedExecutor(context=context)
+    context = context or rclpy.get_default_context()
+    executor = cast(Executor, _SleepingExecutor(context))
+    context.on_shutdown(executor.wake)
+    executor.add_node(cast(Node, _NoNode()))
+    return executor
+
+
+def spin_until(executor: Executor, stop: Future[None], context: Context | None = None) -> None:
+    """
+    Run callbacks until a future is done, or the context is shut down.
+
+    The future may be set from any thread, and between two callbacks the executor returns.
+
+    Raises
+    ------
+    ExternalShutdownException
+        Something else shut the context down.
+
+    """
+    while not stop.done() and rclpy.ok(context=context):
+        executor.spin_until_future_complete(stop, timeout_sec=_WAIT_S)
+    if not stop.done():
+        raise ExternalShutdownException
+
+
+def create_async_service(
+    node: Node, kind: type, name: str, callback: AsyncCallback, **options: Any
+) -> Service:
+    """
+    Create a service whose callback is a coroutine function, whatever the executor.
+
+    Parameters
+    ----------
+    node
+        The node that offers the service.
+    kind, name, options
+        As for `Node.create_service`.
+    callback
+        Takes request and response, and returns the response when it is there. An exception in it
+        ends the node, as in other callbacks.
+
+    """
+    service = node.create_service(kind, name, callback, **options)
+    send = service.send_response
+
+    async def send_when_done(answer: Awaitable[Any], header: Any) -> None:
+        send(await answer, header)
+
+    def send_now_or_later(answer: Any, header: Any) -> None:
+        if inspect.isawaitable(answer) and node.executor is not None:
+            node.executor.create_task(send_when_done, answer, header)
+        else:
+            send(answer, header)
+
+    service.send_response = send_now_or_later
+    return service
+
+
+def destroy(node: Node) -> None:
+    """
+    Destroy a node with all that it has.
+
+    `Node.destroy_node` leaves action servers and clients to the garbage collector. Until it comes,
+    others see the node; and when it comes, the log of a node of the same name, which may have been
+    made meanwhile, is no longer published on /rosout.
+    """
+    for waitable in list(node.waitables):
+        destroy_waitable = getattr(waitable, 'destroy', None)
+        if destroy_waitable is not None:
+            destroy_waitable()
+    node.destroy_node()

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether the robot may be sent somewhere, and if not, why."""
+
+from __future__ import annotations
+
+FALLEN = (
+    'The robot has fallen. Put it onto its feet first; in a simulation, call the service stand_up.'
+)
+STANDING_UP = 'The robot is being put onto its feet. Send the goal again when it stands.'
+
+
+class Inhibition:
+    """Knows from what the robot's controllers say why it cannot go anywhere, if it cannot."""
+
+    def __init__(self) -> None:
+        self._walking = ''
+        self._stopped = ''
+
+    @property
+    def reason(self) -> str:
+        """Why the robot cannot go anywhere, as a sentence; empty if it can."""
+        if self._stopped:
+            return f'The robot holds still: {self._stopped}.'
+        return {'fallen': FALLEN, 'stand_up': STANDING_UP}.get(self._walking, '')
+
+    def tell_walking_state(self, state: str) -> None:
+        """Take the state of the walk: `fallen`, `stand_up`, or one in which it stands or walks."""
+        self._walking = state
+
+    def tell_stop_state(self, reason: str) -> None:
+        """Take why the robot has been stopped; empty if it has not."""
+        self._stopped = reason

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Actions of which one goal runs at a time, because they move the same joints."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+import traceback
+from typing import Any
+
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
+from rclpy.action.server import ServerGoalHandle
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.task import Future
+
+__all__ = ['GoalAborted', 'GoalCanceled', 'RunningGoal', 'SingleGoal']
+
+_TICK_HZ = 20.0
+
+
+class GoalCanceled(Exception):
+    """The client has canceled the goal."""
+
+
+class GoalAborted(Exception):
+    """A goal cannot be reached; `name` is that of a code of its result, the text says why."""
+
+    def __init__(self, name: str, text: str) -> None:
+        super().__init__(text)
+        self.name = name
+
+
+class RunningGoal:
+    """A goal that is being worked on: its request, its result, and whether it may go on."""
+
+    def __init__(self, owner: SingleGoal, handle: ServerGoalHandle, result: Any) -> None:
+        self._owner, self._handle = owner, handle
+        self.request, self.result = handle.request, result
+
+    def publish_feedback(self, feedback: Any) -> None:
+        """Tell the client how far it is."""
+        if self._handle.is_active:
+            self._handle.publish_feedback(feedback)
+
+    def check(self) -> None:
+        """
+        Leave the work if the goal is to end now.
+
+        Raises
+        ------
+        GoalCanceled
+            The client wants that.
+        GoalAborted
+            A newer goal is there, or the robot may not move.
+
+        """
+        if self._handle.is_cancel_requested:
+            raise GoalCanceled
+        if self._owner.newest is not self._handle:
+            raise GoalAborted('PREEMPTED', 'A newer goal took its place.')
+        reason = self._owner.inhibition()
+        if reason:
+            raise GoalAborted('INHIBITED', reason)
+
+    async def tick(self) -> None:
+        """Wait a moment by a clock that nobody stops, and check."""
+        await self._owner.tick()
+        self.check()
+
+    async def answer(self, future: Future, timeout_s: float, name: str, text: str) -> Any:
+        """Return what a future brings; abort with the code and text if it brings nothing."""
+        ticks = 0
+        while not future.done():
+            ticks += 1
+            if ticks > timeout_s * _TICK_HZ:
+                raise GoalAborted(name, text)
+            await self.tick()
+        return future.result()
+
+
+Work = Callable[[RunningGoal], Awaitable[None]]
+
+
+class SingleGoal:
+    """
+    Works on the goals of some actions, one at a time; the newest takes the place of others.
+
+    Parameters
+    ----------
+    node
+        The node that offers the actions.
+    inhibition
+        Returns why the robot may not move; nothing if it may.
+
+    """
+
+    def __init__(self, node: Node, inhibition: Callable[[], str]) -> None:
+        self._node, self.inhibition = node, inhibition
+        self.newest: ServerGoalHandle | None = None
+        """The goal that came last."""
+        self._running: Future[None] | None = None
+        self._servers: list[ActionServer] = []
+        self._clock = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer: Any = None
+        self._waiting: list[Future[None]] = []
+
+    def offer(
+        self, kind: Any, name: str, work: Work, check: Callable[[Any], str] = lambda _: ''
+    ) -> None:
+        """
+        Offer an action.
+
+        Parameters
+        ----------
+        kind, name
+            Its type and name.
+        work
+            A coroutine function that reaches a goal; it awaits `RunningGoal.tick` again and again.
+        check
+            Returns why a goal is rejected; nothing if it is not.
+
+        """
+
+        def consider(request: Any) -> GoalResponse:
+            reason = check(request)
+            if reason:
+                self._node.get_logger().warning(f"Rejected a goal of '{name}'. {reason}")
+                return GoalResponse.REJECT
+            return GoalResponse.ACCEPT
+
+        def accept(handle: ServerGoalHandle) -> None:
+            self.newest = handle
+            handle.execute()
+
+        async def execute(handle: ServerGoalHandle) -> Any:
+            return await self._execute(kind, name, work, handle)
+
+        self._servers.append(
+            ActionServer(
+                self._node,
+                kind,
+                name,
+                execute,
+                goal_callback=consider,
+                handle_accepted_callback=accept,
+                cancel_callback=lambda _: CancelResponse.ACCEPT,
+            )
+        )
+
+    async def tick(self) -> None:
+        """Wait a moment, by a clock that nobody stops."""
+        if self._timer is None:
+            self._timer = self._node.create_timer(1.0 / _TICK_HZ, self._fire, clock=self._clock)
+        elif self._timer.is_canceled():
+            self._timer.reset()
+        done: Future[None] = Future(executor=self._node.executor)
+        self._waiting.append(done)
+        await done
+
+    def _fire(self) -> None:
+        waiting, self._waiting = self._waiting, []
+        for each in waiting:
+            each.set_result(None)
+        if not waiting and self._running is None:
+            self._timer.cancel()
+
+    async def _execute(self, kind: Any, name: str, work: Work, handle: ServerGoalHandle) -> Any:
+        """Wait for the goal before, work on this one, and say how it ended."""
+        while self._running is not None:
+            await self._running
+        self._running = Future(executor=self._node.executor)
+        goal = RunningGoal(self, handle, kind.Result())
+        try:
+            goal.check()
+            await work(goal)
+            handle.succeed()
+        except GoalCanceled:
+            handle.canceled()
+        except GoalAborted as error:
+            self._settle(goal.result, name, error)
+            handle.abort()
+        except Exception as error:
+            self._node.get_logger().error(traceback.format_exc())
+            text = f'{type(error).__name__}: {error}'
+            self._settle(goal.result, name, GoalAborted('UNKNOWN', text))
+            handle.abort()
+        finally:
+            running, self._running = self._running, None
+            running.set_result(None)
+        return goal.result
+
+    def _settle(self, result: Any, name: str, error: GoalAborted) -> None:
+        if error.name != 'PREEMPTED':
+            self._node.get_logger().warning(f"Aborted a goal of '{name}'. {error}")
+        if hasattr(result, 'error_code'):
+            result.error_code = getattr(type(result), error.name, 99)
+            result.error_msg = str(error)

@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Follow trajectories that are goals: watch the way, say how it ended, and hold the last pose."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+
+from humanoid_control.backends import Array, JointTargets, Observation
+from humanoid_control.controllers.interface import Mask
+from humanoid_control.controllers.spline import Spline
+from humanoid_control.controllers.trajectory_goal import TrajectoryGoal
+from humanoid_control.controllers.trajectory_runner import spline_from
+import numpy as np
+
+REACHED = 'Goal reached.'
+PREEMPTED = 'A newer goal took its place.'
+CANCELED = 'Canceled: the joints are held where they were.'
+RESTARTED = 'The robot was reset, or its mode changed.'
+DEACTIVATED = 'The controller was deactivated.'
+
+
+class ErrorCode(IntEnum):
+    """How a goal ended, with the numbers of control_msgs/action/FollowJointTrajectory."""
+
+    SUCCESSFUL = 0
+    INVALID_GOAL = -1
+    INVALID_JOINTS = -2
+    OLD_HEADER_TIMESTAMP = -3
+    PATH_TOLERANCE_VIOLATED = -4
+    GOAL_TOLERANCE_VIOLATED = -5
+
+
+@dataclass(frozen=True)
+class GoalResult:
+    """The end of a goal, with a sentence on it."""
+
+    code: ErrorCode
+    message: str
+    is_canceled: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Progress:
+    """Where the m joints of a controller should be and are, each array (m,)."""
+
+    time_s: float
+    """Since the start of the trajectory."""
+    desired_rad: Array
+    desired_rad_s: Array
+    actual_rad: Array
+    actual_rad_s: Array
+
+
+Done = Callable[[GoalResult], None]
+
+
+class JointTrajectoryController:
+    """
+    Runs one goal at a time on the joints that it claims.
+
+    It claims them with its first goal and keeps them, held in the last pose, until it is
+    deactivated or the robot begins anew: what was reached stays. A new goal goes on from the
+    position and the velocity that the joints were told last.
+    """
+
+    way_out = 'deactivate that controller (ros2 control switch_controllers --deactivate)'
+
+    def __init__(self, name: str, joints: Sequence[str], own: Sequence[str]) -> None:
+        """
+        Claim nothing yet.
+
+        Parameters
+        ----------
+        name
+            What users call the controller.
+        joints
+            All joints of the robot, in the order of its targets.
+        own
+            The joints that the controller moves, all at once.
+
+        """
+        self.name, self.joints, self.own = name, tuple(joints), tuple(own)
+        self.places = np.array([self.joints.index(joint) for joint in own], dtype=np.intp)
+        self.is_active = True
+        self.progress: Progress | None = None
+        """Of the goal that runs."""
+        self._mask = np.zeros(len(self.joints), dtype=np.bool_)
+        self._mask[self.places] = True
+        self._none = np.zeros_like(self._mask)
+        self._claims = self._starts = False
+        self._goal: TrajectoryGoal | None = None
+        self._done: Done = _nobody
+        self._spline: Spline | None = None
+        self._start_s = 0.0
+        self._hold_rad: Array | None = None
+        rest = np.zeros(len(self.joints))
+        self._targets = JointTargets(rest, rest.copy(), rest.copy())
+
+    @property
+    def has_goal(self) -> bool:
+        """Whether a goal runs, or is to start with the next period."""
+        return self._goal is not None
+
+    @property
+    def waits(self) -> bool:
+        """Whether it is to be started, even if it has its joints already."""
+        return self._starts
+
+    def accept(self, goal: TrajectoryGoal, done: Done) -> None:
+        """Run a goal from the next period on, not the present one; `done` hears its end."""
+        self._end(GoalResult(ErrorCode.INVALID_GOAL, PREEMPTED))
+        self._goal, self._done = goal, done
+        self._claims = self._starts = True
+
+    def cancel_goal(self) -> None:
+        """End the goal as its client asks; hold the joints where they were told to be last."""
+        self._end(GoalResult(ErrorCode.SUCCESSFUL, CANCELED, is_canceled=True))
+
+    def abort(self, why: str) -> None:
+        """End the goal; hold the joints, as soon as they are there to be held."""
+        self._end(GoalResult(ErrorCode.INVALID_GOAL, why))
+
+    def release(self, why: str) -> None:
+        """End the goal, and give the joints back."""
+        self.abort(why)
+        self._claims = self._starts = False
+
+    def cancel(self) -> None:
+        """Begin anew: no goal, no joints."""
+        self.release(RESTARTED)
+
+    def wanted(self, now_s: float) -> Mask:
+        """Return its joints among all, (n,), once it has had a goal."""
+        return self._mask if self._claims else self._none
+
+    def start(self, observation: Observation, held: JointTargets) -> None:
+        """Begin from what the joints were told last: the goal, or to hold them there."""
+        self._starts = False
+        hold_rad, self._hold_rad = self._hold_rad, None
+        if self._goal is not None:
+            self._start_s = observation.time_s
+            self._spline = spline_from(self._goal.trajectory, held)
+            return
+        own_rad = held.positions_rad[self.places] if hold_rad is None else hold_rad
+        self._targets.positions_rad[self.places] = own_rad
+        self._targets.velocities_rad_s[self.places] = 0.0
+
+    def update(self, observation: Observation) -> JointTargets:
+        """Return the targets of now, and see whether the goal is reached or out of reach."""
+        if self._goal is not None and self._spline is not None:
+            time_s = observation.time_s - self._start_s
+            positions_rad, velocities_rad_s = self._spline.at(time_s)
+            self._targets.positions_rad[self.places] = positions_rad
+            self._targets.velocities_rad_s[self.places] = velocities_rad_s
+            self.progress = Progress(
+                time_s,
+                positions_rad,
+                velocities_rad_s,
+                observation.positions_rad[self.places],
+                observation.velocities_rad_s[self.places],
+            )
+            self._watch(self._goal, self.progress, self._spline.end_s)
+        return self._targets
+
+    def _watch(self, goal: TrajectoryGoal, progress: Progress, end_s: float) -> None:
+        """End a goal that is reached, or whose tolerances are violated."""
+        errors = (
+            progress.desired_rad - progress.actual_rad,
+            progress.desired_rad_s - progress.actual_rad_s,
+        )
+        late_s = progress.time_s - end_s
+        if late_s < 0.0:
+            fault = goal.path.violation(*errors)
+            if fault:
+                self._end(_path_violated(fault, progress.time_s))
+                self._hold_rad = progress.actual_rad
+            return
+        fault = goal.goal.violation(*errors)
+        if not fault:
+            self._end(GoalResult(ErrorCode.SUCCESSFUL, REACHED), stays=True)
+        elif late_s > goal.goal_time_s:
+            self._end(_goal_violated(fault, goal.goal_time_s), stays=True)
+
+    def _end(self, result: GoalResult, stays: bool = False) -> None:
+        """Say how the goal ended; unless the joints stay as they are told now, hold them."""
+        if self._goal is None:
+            return
+        done, self._done = self._done, _nobody
+        self._goal = self._spline = self.progress = self._hold_rad = None
+        self._starts = not stays
+        done(result)
+
+
+def _path_violated(fault: str, time_s: float) -> GoalResult:
+    """Return the end of a goal that leaves its path."""
+    return GoalResult(
+        ErrorCode.PATH_TOLERANCE_VIOLATED,
+        f'Path tolerance violated {max(time_s, 0.0):.2f} s after the start: {fault}. The joints '
+        'are held where they are.',
+    )
+
+
+def _goal_violated(fault: str, goal_time_s: float) -> GoalResult:
+    """Return the end of a goal that is not reached in time."""
+    return GoalResult(
+        ErrorCode.GOAL_TOLERANCE_VIOLATED,
+        f'Goal tolerance violated {goal_time_s:g} s after the end of the trajectory: {fault}. '
+        'The joints are held there.',
+    )
+
+
+def _nobody(result: GoalResult) -> None:
+    """Tell nobody."""

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How far joints may be from where a trajectory has them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+from humanoid_common.naming import did_you_mean, shortened
+from humanoid_control.backends import Array
+from humanoid_control.controllers.commands import CommandError
+import numpy as np
+
+ERASED = -1.0
+"""The tolerance that stands for none at all (control_msgs/JointTolerance)."""
+
+
+@dataclass(frozen=True)
+class JointTolerance:
+    """The largest errors of a joint: 0 is what the controller has by default, -1 any error."""
+
+    joint: str
+    position_rad: float = 0.0
+    velocity_rad_s: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class StateTolerances:
+    """The largest errors of m joints, each array (m,); infinite is any error."""
+
+    joints: tuple[str, ...]
+    position_rad: Array
+    velocity_rad_s: Array
+
+    @classmethod
+    def of(
+        cls,
+        joints: Sequence[str],
+        given: Sequence[JointTolerance],
+        default_rad: float = math.inf,
+    ) -> StateTolerances:
+        """
+        Combine the tolerances of a goal with those by default.
+
+        Parameters
+        ----------
+        joints
+            The joints of the controller.
+        given
+            What the goal says, of any of them.
+        default_rad
+            The tolerance of the positions of those of which it says nothing.
+
+        Raises
+        ------
+        CommandError
+            A tolerance of another joint, or a value that means nothing.
+
+        """
+        position_rad = np.full(len(joints), default_rad)
+        velocity_rad_s = np.full(len(joints), np.inf)
+        for each in given:
+            place = _place(each.joint, joints)
+            position_rad[place] = _limit('position', each.joint, each.position_rad, default_rad)
+            velocity_rad_s[place] = _limit('velocity', each.joint, each.velocity_rad_s, math.inf)
+        return cls(tuple(joints), position_rad, velocity_rad_s)
+
+    def violation(self, positions_rad: Array, velocities_rad_s: Array) -> str:
+        """
+        Say which joint is off by more than it may, and by how much; nothing if none is.
+
+        Parameters
+        ----------
+        positions_rad, velocities_rad_s
+            The errors of the joints, (m,).
+
+        """
+        for errors, limits, unit in (
+            (positions_rad, self.position_rad, 'rad'),
+            (velocities_rad_s, self.velocity_rad_s, 'rad/s'),
+        ):
+            sizes = np.abs(errors)
+            beyond = sizes > limits
+            if beyond.any():
+                place = int(np.argmax(np.where(beyond, sizes, -1.0)))
+                return (
+                    f"'{self.joints[place]}' is off by {sizes[place]:.3f} {unit}, and "
+                    f'{limits[place]:g} {unit} are tolerated'
+                )
+        return ''
+
+
+def _place(joint: str, joints: Sequence[str]) -> int:
+    """Return the place of a joint; refuse one that is not among the joints."""
+    if joint not in joints:
+        raise CommandError(
+            f"It has a tolerance of '{shortened(joint)}', which is no joint of this controller. "
+            f'{did_you_mean(joint, joints)} It has: {", ".join(joints)}.'
+        )
+    return list(joints).index(joint)
+
+
+def _limit(kind: str, joint: str, value: float, default: float) -> float:
+    """Return what a value of a tolerance means."""
+    if value == 0.0:
+        return default
+    if value == ERASED:
+        return math.inf
+    if not (math.isfinite(value) and value > 0.0):
+        raise CommandError(
+            f"The tolerance of the {kind} of '{joint}' is {value:g}. Give a number above zero, 0 "
+            'for what the controller has by default, or -1 for none.'
+        )
+    return value

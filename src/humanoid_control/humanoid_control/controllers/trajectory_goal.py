@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Goals of trajectory controllers: what is asked for, and whether it can be done."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+import math
+
+from humanoid_control.controllers.commands import CommandError, JointNames
+from humanoid_control.controllers.tolerances import JointTolerance, StateTolerances
+from humanoid_control.controllers.trajectory import (
+    checked_trajectory,
+    Trajectory,
+    TrajectoryPoint,
+)
+from humanoid_control.limits import JointLimits
+import numpy as np
+
+GOAL_TOLERANCE_RAD = 0.1
+"""Of positions at the end, unless the goal says otherwise: an arm sags a little by its weight."""
+_AT_REST_RAD_S = 1e-6
+
+
+@dataclass(frozen=True)
+class TrajectoryRequest:
+    """A goal as it was asked for."""
+
+    joints: Sequence[str]
+    points: Sequence[TrajectoryPoint]
+    path: Sequence[JointTolerance] = ()
+    """Errors on the way."""
+    goal: Sequence[JointTolerance] = ()
+    """Errors at the end."""
+    goal_time_s: float = 0.0
+    """By so much the goal may be reached late; 0 is any time."""
+    start_in_s: float = 0.0
+    """When the trajectory starts, from now; below zero it has started already."""
+
+
+@dataclass(frozen=True, eq=False)
+class TrajectoryGoal:
+    """A sound goal; its joints are all those of the controller, in their order."""
+
+    trajectory: Trajectory
+    path: StateTolerances
+    goal: StateTolerances
+    goal_time_s: float
+    """Infinite for any time."""
+
+
+def checked_goal(
+    controller: str,
+    own: Sequence[str],
+    robot: JointNames,
+    limits: JointLimits,
+    request: TrajectoryRequest,
+) -> TrajectoryGoal:
+    """
+    Check a request as a whole.
+
+    Parameters
+    ----------
+    controller
+        The name of the controller that is to run it.
+    own
+        The joints of the controller.
+    robot, limits
+        All joints of the robot, and what they can do.
+    request
+        What is asked for.
+
+    Raises
+    ------
+    CommandError
+        The first reason why it cannot be done, in sentences.
+
+    """
+    _check_joints(controller, own, robot, request.joints)
+    trajectory = checked_trajectory(robot, limits, request.joints, request.points)
+    _check_end(trajectory, request.joints)
+    return TrajectoryGoal(
+        _shifted(_ordered(trajectory, own, request.joints), request.start_in_s),
+        StateTolerances.of(own, request.path),
+        StateTolerances.of(own, request.goal, GOAL_TOLERANCE_RAD),
+        _checked_time(request.goal_time_s),
+    )
+
+
+def _check_joints(
+    controller: str, own: Sequence[str], robot: JointNames, given: Sequence[str]
+) -> None:
+    """Refuse a goal that does not name just the joints of the controller."""
+    robot.places(given)
+    foreign = [joint for joint in given if joint not in own]
+    if foreign:
+        raise CommandError(
+            f"'{foreign[0]}' is no joint of '{controller}', which has: {', '.join(own)}."
+        )
+    missing = [joint for joint in own if joint not in given]
+    if missing:
+        raise CommandError(
+            f"It leaves out '{missing[0]}'. A goal of '{controller}' names all of its joints: "
+            f'{", ".join(own)}.'
+        )
+
+
+def _check_end(trajectory: Trajectory, joints: Sequence[str]) -> None:
+    """Refuse a trajectory that ends in motion: nothing says what comes then."""
+    if trajectory.velocities_rad_s is None:
+        return
+    moving = np.abs(trajectory.velocities_rad_s[-1]) > _AT_REST_RAD_S
+    if moving.any():
+        joint = int(np.argmax(moving))
+        raise CommandError(
+            f"Its last point lets '{joints[joint]}' move on at "
+            f'{trajectory.velocities_rad_s[-1, joint]:.3g} rad/s. End at rest.'
+        )
+
+
+def _ordered(trajectory: Trajectory, own: Sequence[str], given: Sequence[str]) -> Trajectory:
+    """Put the columns of a trajectory into the order of the controller's joints."""
+    order = [list(given).index(joint) for joint in own]
+    velocities, accelerations = trajectory.velocities_rad_s, trajectory.accelerations_rad_s2
+    return Trajectory(
+        trajectory.places[order],
+        trajectory.times_s,
+        trajectory.positions_rad[:, order],
+        None if velocities is None else velocities[:, order],
+        None if accelerations is None else accelerations[:, order],
+    )
+
+
+def _shifted(trajectory: Trajectory, start_in_s: float) -> Trajectory:
+    """Let a trajectory begin at its time; refuse one that is over."""
+    times_s = trajectory.times_s + start_in_s
+    if start_in_s and times_s[-1] <= 0.0:
+        raise CommandError(
+            f'By the stamp of its header it ended {-times_s[-1]:.3g} s ago. Give the time at '
+            'which it is to start, or zero for now.'
+        )
+    return replace(trajectory, times_s=times_s)
+
+
+def _checked_time(goal_time_s: float) -> float:
+    """Return how late the goal may be reached."""
+    if not math.isfinite(goal_time_s) or goal_time_s < 0.0:
+        raise CommandError(
+            f'Its goal time tolerance is {goal_time_s:g} s. Give a time from zero on; zero is any '
+            'time.'
+        )
+    return goal_time_s or math.inf

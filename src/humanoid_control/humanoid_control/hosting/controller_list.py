@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The controllers of a robot as ros2_control's users know them: who is active, who claims what."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+
+from humanoid_common.naming import did_you_mean, shortened
+from humanoid_control.controllers import JointTrajectoryController
+from humanoid_control.controllers.joint_trajectory_controller import DEACTIVATED
+from humanoid_control.hosting.robot_control import RobotControl
+
+ACTIVE, INACTIVE = 'active', 'inactive'
+TRAJECTORY_TYPE = 'joint_trajectory_controller/JointTrajectoryController'
+"""The type of those that take goals, by the name that clients look for."""
+QUANTITIES = ('position', 'velocity', 'effort')
+"""What a joint is told, and what it says."""
+
+
+class Strictness(IntEnum):
+    """What happens when a part of a switch cannot be done (controller_manager_msgs)."""
+
+    BEST_EFFORT = 1
+    STRICT = 2
+    AUTO = 3
+    FORCE_AUTO = 4
+
+
+@dataclass(frozen=True)
+class ControllerInfo:
+    """A controller, the joints that belong to it now, and those that it needs to do its work."""
+
+    name: str
+    kind: str
+    is_active: bool
+    claimed: tuple[str, ...]
+    required: tuple[str, ...]
+
+    @property
+    def state(self) -> str:
+        """Return the name of its state."""
+        return ACTIVE if self.is_active else INACTIVE
+
+
+def interfaces_of(joints: Sequence[str]) -> list[str]:
+    """Name the interfaces of joints; to command and to read them are the same."""
+    return [f'{joint}/{quantity}' for joint in joints for quantity in QUANTITIES]
+
+
+def controllers_of(control: RobotControl) -> list[ControllerInfo]:
+    """
+    List all that can own a joint of a robot.
+
+    First come those that take goals, then the modes, of which one is active, and then those that
+    move what they are told to on a topic. At each moment, every joint is claimed by one of them.
+    """
+    manager = control.manager
+    lends = any(manager.is_lent(controller.places) for controller in control.controllers.values())
+    limbs = [
+        ControllerInfo(
+            name,
+            TRAJECTORY_TYPE,
+            controller.is_active and manager.is_lent(controller.places),
+            manager.joints_of(name),
+            controller.own,
+        )
+        for name, controller in control.controllers.items()
+    ]
+    modes = [
+        ControllerInfo(name, kind, name == manager.mode, manager.joints_of(name), manager.joints)
+        for name, kind in manager.mode_types.items()
+    ]
+    others = [
+        ControllerInfo(
+            guest.name,
+            f'humanoid_control/{type(guest).__name__}',
+            control.must_hold if guest is control.still else lends,
+            manager.joints_of(guest.name),
+            (),
+        )
+        for guest in manager.guests
+        if not isinstance(guest, JointTrajectoryController)
+    ]
+    return limbs + modes + others
+
+
+def switch(
+    control: RobotControl, activate: Sequence[str], deactivate: Sequence[str], strictness: int
+) -> tuple[bool, str]:
+    """
+    Activate and deactivate controllers that take goals.
+
+    Parameters
+    ----------
+    control
+        The robot.
+    activate, deactivate
+        Names of controllers. One that is in both begins anew: it gives its joints back.
+    strictness
+        With BEST_EFFORT what is possible is done, and it is fine if a controller is in the
+        wanted state already. With all others it is done as a whole, or not at all: as there are
+        no chains of controllers, AUTO and FORCE_AUTO have nothing to resolve.
+
+    Returns
+    -------
+    tuple[bool, str]
+        Whether that worked, and what did not, in sentences.
+
+    """
+    if strictness not in (0, *Strictness):
+        return False, f'{strictness} is no strictness. Give BEST_EFFORT (1) or STRICT (2).'
+    is_strict = strictness not in (0, Strictness.BEST_EFFORT)
+    restarted = set(activate) & set(deactivate)
+    faults = {
+        **{name: _fault(control, name, False, is_strict) for name in deactivate},
+        **{
+            name: _fault(control, name, True, is_strict and name not in restarted)
+            for name in activate
+        },
+    }
+    message = ' '.join(fault for fault in faults.values() if fault)
+    if is_strict and message:
+        return False, f'{message} Nothing was switched.'
+    for name in deactivate:
+        if not faults[name]:
+            _set(control.controllers[name], False)
+    for name in activate:
+        if not faults[name]:
+            _set(control.controllers[name], True)
+    lists = [names for names in (activate, deactivate) if names]
+    return all(any(not faults[name] for name in names) for names in lists), message
+
+
+def _set(controller: JointTrajectoryController, active: bool) -> None:
+    """Activate or deactivate a controller; one that is not active owns nothing."""
+    if not active:
+        controller.release(DEACTIVATED)
+    controller.is_active = active
+
+
+def _fault(control: RobotControl, name: str, active: bool, is_strict: bool) -> str:
+    """Say why a controller cannot be activated or deactivated, or nothing if it can."""
+    controller = control.controllers.get(name)
+    if controller is None:
+        return _not_switched(control, name)
+    if active and not control.manager.is_lent(controller.places):
+        reason = control.manager.trouble
+        lends = f'accepts no commands now: {reason}' if reason else 'does not lend its joints'
+        return f"'{name}' cannot be active: the mode '{control.manager.mode}' {lends}."
+    if is_strict and controller.is_active == active:
+        return f"'{name}' is {ACTIVE if active else INACTIVE} already."
+    return ''
+
+
+def _not_switched(control: RobotControl, name: str) -> str:
+    """Say why something is not switched that takes no goals."""
+    if name in control.manager.modes:
+        return (
+            f"'{name}' is a mode of the robot. Set the parameter 'mode' of the node that runs the "
+            'robot.'
+        )
+    known = [each.name for each in controllers_of(control)]
+    if name in known:
+        return f"'{name}' is always there, for whoever publishes on its topic."
+    advice = did_you_mean(name, known) or f'There are: {", ".join(known)}.'
+    return f"There is no controller '{shortened(name)}'. {advice}"

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The services of a controller manager, answered from what runs the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from controller_manager_msgs.msg import ControllerState, HardwareComponentState, HardwareInterface
+from controller_manager_msgs.srv import (
+    ListControllers,
+    ListControllerTypes,
+    ListHardwareComponents,
+    ListHardwareInterfaces,
+    SwitchController,
+)
+from humanoid_control.hosting.controller_list import (
+    ControllerInfo,
+    controllers_of,
+    interfaces_of,
+    switch,
+    TRAJECTORY_TYPE,
+)
+from humanoid_control.hosting.robot_control import RobotControl
+from humanoid_control.hosting.topics.filling import topic
+from lifecycle_msgs.msg import State
+from rclpy.node import Node
+
+WRENCH = (*(f'force.{axis}' for axis in 'xyz'), *(f'torque.{axis}' for axis in 'xyz'))
+SENSORS = {
+    'imu_link': (
+        *(f'orientation.{axis}' for axis in 'xyzw'),
+        *(f'angular_velocity.{axis}' for axis in 'xyz'),
+        *(f'linear_acceleration.{axis}' for axis in 'xyz'),
+    ),
+    'l_sole': WRENCH,
+    'r_sole': WRENCH,
+}
+"""What the controllers read besides the joints."""
+BASE_CLASS = 'controller_interface::ControllerInterface'
+VALUE = 'double'
+
+
+class ControllerServices:
+    """Offers the services below `controller_manager` of a robot, whose control loop that is."""
+
+    def __init__(
+        self,
+        node: Node,
+        robot: str,
+        control: RobotControl,
+        hardware: str,
+        rate_hz: float,
+        prefix: str = '',
+    ) -> None:
+        """
+        Offer the services.
+
+        Parameters
+        ----------
+        node
+            The node that runs the robot.
+        robot
+            The name of the robot; empty if it is alone.
+        control
+            What decides where its joints go.
+        hardware
+            The class of what moves the joints, as package/Class.
+        rate_hz
+            How often the controllers decide.
+        prefix
+            What the names of frames begin with.
+
+        """
+        self._control, self._hardware, self._prefix = control, hardware, prefix
+        self._name, self._rate_hz = robot or 'humanoid', round(rate_hz)
+        answers: tuple[tuple[Any, str, Callable[[Any, Any], Any]], ...] = (
+            (ListControllers, 'list_controllers', self._list),
+            (ListControllerTypes, 'list_controller_types', self._list_types),
+            (ListHardwareComponents, 'list_hardware_components', self._list_components),
+            (ListHardwareInterfaces, 'list_hardware_interfaces', self._list_interfaces),
+            (SwitchController, 'switch_controller', self._switch),
+        )
+        for kind, name, answer in answers:
+            node.create_service(kind, topic(robot, f'controller_manager/{name}'), answer)
+
+    def _list(self, _: Any, response: Any) -> Any:
+        response.controller = [self._state(each) for each in self._controllers()]
+        return response
+
+    def _list_types(self, _: Any, response: Any) -> Any:
+        response.types = sorted({TRAJECTORY_TYPE, *(each.kind for each in self._controllers())})
+        response.base_classes = [BASE_CLASS] * len(response.types)
+        return response
+
+    def _list_components(self, _: Any, response: Any) -> Any:
+        response.component = [
+            HardwareComponentState(
+                name=self._name,
+                type='system',
+                rw_rate=self._rate_hz,
+                class_type=self._hardware,
+                plugin_name=self._hardware,
+                state=State(id=State.PRIMARY_STATE_ACTIVE, label='active'),
+                command_interfaces=self._commands(),
+                state_interfaces=self._states(),
+            )
+        ]
+        return response
+
+    def _list_interfaces(self, _: Any, response: Any) -> Any:
+        response.command_interfaces, response.state_interfaces = self._commands(), self._states()
+        return response
+
+    def _switch(self, request: Any, response: Any) -> Any:
+        response.ok, response.message = switch(
+            self._control,
+            request.activate_controllers,
+            request.deactivate_controllers,
+            request.strictness,
+        )
+        return response
+
+    def _controllers(self) -> list[ControllerInfo]:
+        return controllers_of(self._control)
+
+    def _state(self, controller: ControllerInfo) -> ControllerState:
+        """Return the message on a controller."""
+        required = interfaces_of(controller.required)
+        return ControllerState(
+            name=controller.name,
+            state=controller.state,
+            type=controller.kind,
+            update_rate=self._rate_hz,
+            claimed_interfaces=interfaces_of(controller.claimed),
+            required_command_interfaces=required,
+            required_state_interfaces=required,
+        )
+
+    def _commands(self) -> list[HardwareInterface]:
+        """Return what joints can be told; each joint has an owner."""
+        claimed = {
+            name
+            for controller in self._controllers()
+            for name in interfaces_of(controller.claimed)
+        }
+        return [
+            HardwareInterface(
+                name=name, data_type=VALUE, is_available=True, is_claimed=name in claimed
+            )
+            for name in interfaces_of(self._control.manager.joints)
+        ]
+
+    def _states(self) -> list[HardwareInterface]:
+        """Return what joints and sensors say; to read it, nobody has to claim it."""
+        sensors = [
+            f'{self._prefix}{sensor}/{value}'
+            for sensor, values in SENSORS.items()
+            for value in values
+        ]
+        names = interfaces_of(self._control.manager.joints) + sensors
+        return [HardwareInterface(name=name, data_type=VALUE, is_available=True) for name in names]

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say in the log that something is in the way of a robot."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+BLOCKED = (
+    'Something is in the way. It steps back and goes no further in that direction: turn it, walk '
+    'another way, or let go for half a second to try again.'
+)
+
+
+class Log(Protocol):
+    """What sentences are told to."""
+
+    def warning(self, message: str) -> object:
+        """Say what limits the robot."""
+
+
+class ObstacleReport:
+    """Says it once when a robot meets something."""
+
+    def __init__(self, log: Log, robot: str) -> None:
+        """Begin with a free way; the only robot of a node may have no name."""
+        self._log = log
+        self._who = f"The robot '{robot}' is blocked." if robot else 'The robot is blocked.'
+        self._was_blocked = False
+
+    def look(self, is_blocked: bool) -> None:
+        """Take note of whether something is in the way."""
+        if is_blocked and not self._was_blocked:
+            self._log.warning(f'{self._who} {BLOCKED}')
+        self._was_blocked = is_blocked

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Estimate what pushes the robot besides the ground.
+
+The momentum of the robot changes by the forces at its feet, which are measured, and by those of
+whatever else it touches, which are not. An observer of the momentum finds the difference without
+differentiating: A. De Luca and R. Mattone, "Actuator failure detection and isolation using
+generalized momenta", ICRA 2003, here for the linear momentum in the plane.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+import math
+
+from humanoid_control.walking.planar import Point
+
+
+@dataclass
+class ForceObserver:
+    """A low-pass filter of the horizontal force that acts elsewhere than on the soles."""
+
+    mass_kg: float
+    rate_1_s: float
+    """How fast the estimate follows."""
+    force_n: Point = field(init=False, default=0j)
+    """In the axes of the odometry: against the motion of a robot that walks into something."""
+    _velocity_m_s: Point | None = field(init=False, default=None)
+
+    def update(self, velocity_m_s: Point, ground_n: Point, passed_s: float) -> Point:
+        """
+        Return the force after a tick.
+
+        :param velocity_m_s: of the centre of mass, as measured
+        :param ground_n: what acts on both feet, as measured
+        """
+        last, self._velocity_m_s = self._velocity_m_s, velocity_m_s
+        if last is not None and passed_s > 0.0:
+            change_n = self.mass_kg * (velocity_m_s - last) / passed_s
+            share = 1.0 - math.exp(-self.rate_1_s * passed_s)
+            self.force_n += share * (change_n - ground_n - self.force_n)
+        return self.force_n

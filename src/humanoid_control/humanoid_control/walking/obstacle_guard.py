@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Stop at what is in the way, step back from it, and go no further that way."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+import math
+
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.planar import cross, dot, PlanarPose, Point
+from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
+
+_ALONG = 0.5
+"""A velocity of which less than this share leads past the obstacle does not lead past it."""
+_STILL_M_S = 1e-3
+
+
+@dataclass(frozen=True)
+class LegInAir:
+    """A leg that swings."""
+
+    side: int
+    push_nm: Point
+    """What pushes it: where to, and the moment about the hip."""
+    foot_m: Point
+    """Where the foot is."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """What the robot feels of things around it, in the axes of the odometry."""
+
+    force_n: Point = 0j
+    """The horizontal force on the whole robot, from outside."""
+    arms_nm: Sequence[Point] = ()
+    """What pushes the arms: where to, and the moments about the shoulders."""
+    leg: LegInAir | None = None
+
+
+@dataclass
+class Blockage:
+    """Something in the way of the robot, and what the robot has done about it."""
+
+    towards: Point
+    """The direction to it, a unit vector in the plane of the odometry."""
+    place_m: Point
+    """Where the robot met it: the middle between its feet, if the front one closed up."""
+    leg: LegInAir | None = None
+    """The leg that met it, if one did: no foot gets any further."""
+    elapsed_s: float = 0.0
+    retreats: bool = True
+    leans: bool = False
+    """Whether the robot's balance is off towards it: steps away from it would make that worse."""
+    let_go_s: float = 0.0
+    """For how long nobody has wanted to go there."""
+
+
+@dataclass(frozen=True)
+class _Course:
+    """How the robot goes."""
+
+    ahead: Point
+    """The direction, a unit vector in the plane of the odometry; zero if it goes nowhere."""
+    aside: float
+    """How much of the velocity is to the side."""
+    moves: bool
+    """Whether it goes or turns."""
+
+    @classmethod
+    def of(cls, going: VelocityCommand, heading_rad: float) -> _Course:
+        """Return the course at a velocity."""
+        speed = going.linear_m_s
+        if abs(speed) < _STILL_M_S:
+            return cls(0j, 0.0, abs(going.turn_rad_s) > _STILL_M_S)
+        along = speed / abs(speed)
+        return cls(along * cmath.rect(1.0, heading_rad), abs(along.imag), True)
+
+    def against(self, push: Point) -> float:
+        """Return the part of a push that is against the motion."""
+        return -dot(push, self.ahead)
+
+    def towards(self, push: Point) -> Point:
+        """
+        Return the direction to what pushes.
+
+        Friction turns the push, and what is met is where the robot goes: take the middle.
+        """
+        both = self.ahead - push / abs(push)
+        return both / abs(both)
+
+
+class ObstacleGuard:
+    """
+    Watch the force that acts against the motion, and turn the robot away from what exerts it.
+
+    The force is summed up with a memory that fades: a short push stays below the limit, a thing
+    that stays in the way soon exceeds it. Then the robot takes back its velocity, steps back a
+    little, and refuses to go that way until nobody wants it any more, or it is elsewhere.
+    """
+
+    def __init__(self, parameters: WalkParameters) -> None:
+        """Begin with a free way."""
+        self._parameters = parameters
+        self._impulse_ns: Point = 0j
+        self.blockage: Blockage | None = None
+
+    def update(
+        self,
+        contact: Contact,
+        stands: tuple[PlanarPose, PlanarPose],
+        wanted: VelocityCommand,
+        going: VelocityCommand,
+        error_m: Point,
+        passed_s: float,
+    ) -> bool:
+        """
+        Take note of what happened since the tick before; return whether something is newly met.
+
+        :param contact: what is felt of things around
+        :param stands: where the robot would stand beside its left and its right foot
+        :param wanted: the velocity that is asked for
+        :param going: the velocity at which the robot goes now
+        :param error_m: how far the divergent component is from its reference
+        """
+        p, body = self._parameters, stands[0].halfway(stands[1])
+        fading = math.exp(-passed_s / p.bump_memory_s)
+        self._impulse_ns = self._impulse_ns * fading + contact.force_n * passed_s
+        if self.blockage:
+            self.blockage.leans = dot(error_m, self.blockage.towards) > p.lean_m
+            self._follow(self.blockage, stands, wanted, passed_s)
+        course = _Course.of(going, body.yaw_rad)
+        by_leg = self._hits_leg(contact.leg, course)
+        hit = by_leg or self._hits_arm(contact.arms_nm, course) or self._hits_body(course)
+        if hit is None:
+            return False
+        self._impulse_ns = 0j
+        if self.blockage and self.blockage.retreats and dot(hit, self.blockage.towards) < 0.0:
+            # There is something behind as well: stay between the two.
+            self.blockage.retreats = False
+            return True
+        place_m = min((stand.position_m for stand in stands), key=lambda at_m: dot(at_m, hit))
+        self.blockage = Blockage(hit, place_m, contact.leg if by_leg else None)
+        return True
+
+    def kept_off(self, foot_m: Point) -> Point:
+        """Return the point nearest to one where a foot is to land that is before the obstacle."""
+        blockage = self.blockage
+        if blockage is None or blockage.leg is None:
+            return foot_m
+        way_m, p = foot_m - blockage.leg.foot_m, self._parameters
+        slack_m = p.keep_off_slope * abs(cross(way_m, blockage.towards)) - p.keep_off_m
+        beyond_m = dot(way_m, blockage.towards) - slack_m
+        return foot_m - max(0.0, beyond_m) * blockage.towards
+
+    def allowed(self, wanted: VelocityCommand, heading_rad: float) -> VelocityCommand:
+        """
+        Return the velocity at which the robot may go, of the one that is asked for.
+
+        :param wanted: the velocity that is asked for, in the axes of the robot
+        :param heading_rad: how the robot is turned in the plane of the odometry
+        """
+        blockage = self.blockage
+        if blockage is None:
+            return wanted
+        ahead = cmath.rect(1.0, heading_rad)
+        towards = blockage.towards / ahead
+        if blockage.retreats and blockage.leans:
+            return STANDING
+        if blockage.retreats:
+            back = -self._parameters.retreat_m_s * towards
+            return VelocityCommand(back.real, back.imag)
+        speed = wanted.linear_m_s
+        into = dot(speed, towards)
+        if into <= 0.0:
+            return wanted
+        along = speed - into * towards
+        if abs(along) < _ALONG * abs(speed):
+            along = 0j
+        return replace(wanted, forward_m_s=along.real, left_m_s=along.imag)
+
+    def _hits_leg(self, leg: LegInAir | None, course: _Course) -> Point | None:
+        """Return the direction to what stops the leg in the air, if anything does."""
+        p, aside = self._parameters, course.aside
+        least_nm = (1.0 - aside) * p.leg_touch_nm + aside * p.leg_touch_aside_nm
+        if leg is None or course.against(leg.push_nm) < least_nm:
+            return None
+        towards = course.towards(leg.push_nm)
+        known = self.blockage.leg if self.blockage and self._retreats_from(towards) else None
+        return None if known and known.side == leg.side else towards
+
+    def _hits_arm(self, arms_nm: Sequence[Point], course: _Course) -> Point | None:
+        """Return the direction to what an arm touches, if one does and does not retreat yet."""
+        for push_nm in arms_nm:
+            against_nm = course.against(push_nm) if course.ahead else abs(push_nm)
+            if course.moves and against_nm > self._parameters.arm_touch_nm:
+                towards = course.towards(push_nm)
+                return None if self._retreats_from(towards) else towards
+        return None
+
+    def _retreats_from(self, towards: Point) -> bool:
+        """Tell whether the robot is on its way from something in this direction."""
+        blockage = self.blockage
+        return blockage is not None and blockage.retreats and dot(towards, blockage.towards) > 0.0
+
+    def _hits_body(self, course: _Course) -> Point | None:
+        """Return the direction to what has stopped the robot for a while, if anything has."""
+        least_ns = self._parameters.bump_ns
+        if not course.moves or abs(self._impulse_ns) < least_ns:
+            return None
+        if course.ahead and course.against(self._impulse_ns) < least_ns / 2:
+            return None
+        return course.towards(self._impulse_ns)
+
+    def _follow(
+        self,
+        blockage: Blockage,
+        stands: tuple[PlanarPose, PlanarPose],
+        wanted: VelocityCommand,
+        passed_s: float,
+    ) -> None:
+        """Go on with the retreat, and forget what nobody walks into any more."""
+        p = self._parameters
+        blockage.elapsed_s += passed_s
+        ways_m = [stand.position_m - blockage.place_m for stand in stands]
+        # It will stand beside the foot that is farther away.
+        left_m = p.retreat_m + min(dot(way_m, blockage.towards) for way_m in ways_m)
+        if left_m < p.retreat_m / 2 or blockage.elapsed_s > p.retreat_s:
+            blockage.retreats = False
+        heading = cmath.rect(1.0, stands[0].halfway(stands[1]).yaw_rad)
+        into = dot(wanted.linear_m_s * heading, blockage.towards)
+        blockage.let_go_s = blockage.let_go_s + passed_s if into < _STILL_M_S else 0.0
+        is_over = blockage.let_go_s > p.let_go_s and not blockage.retreats
+        if is_over or abs(sum(ways_m) / 2) > p.forget_m:
+            self.blockage = None

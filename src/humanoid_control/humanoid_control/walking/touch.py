@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Feel with which limbs the robot touches something.
+
+What the drives exert accelerates the limbs and holds them against gravity; inverse dynamics says
+how much of it. The rest is what the limbs touch: A. De Luca et al., "Collision detection and safe
+reaction with the DLR-III lightweight manipulator arm", IROS 2006, here with accelerations from
+differences, a low-pass filter behind them, and a root that moves as the inertial sensor says.
+"""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.planar import Point
+from humanoid_control.walking.senses import Sensed
+from humanoid_control.walking.sides import NAMES
+from humanoid_control.walking.walking_robot import WalkingRobot
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Touch:
+    """
+    How limbs are pushed, left and right: where to, and the moment (Nm) about hip or shoulder.
+
+    A foot on the ground pushes its leg as well; so legs count while they are in the air.
+    """
+
+    legs_nm: tuple[Point, Point] = (0j, 0j)
+    arms_nm: tuple[Point, Point] = (0j, 0j)
+
+
+NOTHING = Touch()
+
+
+class TouchObserver:
+    """Compares the efforts of all joints with what their motion needs."""
+
+    def __init__(self, robot: WalkingRobot, parameters: WalkParameters) -> None:
+        """Begin without a touch."""
+        self._parameters = parameters
+        self._hips = _joints(robot, 'hip_pitch', 'hip_roll')
+        self._shoulders = _joints(robot, 'shoulder', 'shoulder_roll')
+        self._last: Sensed | None = None
+        self._outside_nm: Array = np.zeros(len(robot.body.joints))
+
+    def rest(self) -> None:
+        """Forget what was felt: nobody asks for a while."""
+        self._last = None
+        self._outside_nm[:] = 0.0
+
+    def update(self, sensed: Sensed) -> Touch:
+        """Return what the limbs feel now."""
+        last, self._last = self._last, sensed
+        passed_s = sensed.time_s - last.time_s if last else 0.0
+        if last is None or not 0.0 < passed_s <= self._parameters.touch_gap_s:
+            return NOTHING
+        share = -math.expm1(-self._parameters.touch_rate_1_s * passed_s)
+        self._outside_nm += share * (_outside(last, sensed, passed_s) - self._outside_nm)
+        ahead = cmath.rect(1.0, sensed.attitude.yaw_rad)
+        legs = [self._moment(*joints, ahead) for joints in self._hips]
+        arms = [self._moment(*joints, ahead) for joints in self._shoulders]
+        return Touch((legs[0], legs[1]), (arms[0], arms[1]))
+
+    def _moment(self, pitch: int, roll: int, ahead: Point) -> Point:
+        """Return the moment of a horizontal force below a joint, in the direction of the force."""
+        outside_nm = self._outside_nm
+        return complex(-outside_nm[pitch], outside_nm[roll]) * ahead
+
+
+def _outside(last: Sensed, now: Sensed, passed_s: float) -> Array:
+    """Return the mean efforts (n,) between two moments that come from outside."""
+    state = now.state
+    turned = state.base_angular_velocity_rad_s - last.state.base_angular_velocity_rad_s
+    base = np.concatenate([now.acceleration_m_s2, turned / passed_s])
+    gained = state.velocities_rad_s - last.state.velocities_rad_s
+    _, needed_nm = state.required(base, gained / passed_s)
+    outside: Array = needed_nm - (last.efforts_nm + now.efforts_nm) / 2
+    return outside
+
+
+def _joints(robot: WalkingRobot, pitch: str, roll: str) -> Sequence[tuple[int, int]]:
+    """Return the places of two joints, left and right, among all."""
+    return [(robot.index(f'{side}_{pitch}'), robot.index(f'{side}_{roll}')) for side in NAMES]

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The poses of goals of navigation, and how a goal ended."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+from typing import Any
+
+from action_msgs.msg import GoalStatus
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Twist
+
+Place = tuple[float, float, float]
+"""A pose in a plane: x (m), y (m), yaw (rad)."""
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """How a goal ended: its status, what the navigator says, and where the robot truly is."""
+
+    status: int
+    """A constant of `action_msgs/GoalStatus`."""
+    error_code: int
+    error_msg: str
+    distance_m: float
+    """From where the robot truly is to the goal."""
+    turn_rad: float
+    """From where it truly faces to how it was to face, without a sign."""
+    took_s: float
+    """In simulated time."""
+    recoveries: int
+    touched: frozenset[str] = frozenset()
+    """What other than the ground the robot has touched on the way, where there is physics."""
+
+    @property
+    def is_reached(self) -> bool:
+        """Whether the navigator says that the goal was reached."""
+        return bool(self.status == GoalStatus.STATUS_SUCCEEDED)
+
+
+def is_zero(velocity: Twist) -> bool:
+    """Tell whether a velocity is none."""
+    linear, angular = velocity.linear, velocity.angular
+    return not any((linear.x, linear.y, angular.z))
+
+
+def stamped(place: Place) -> PoseStamped:
+    """Return a pose in the map, without a time."""
+    message = PoseStamped()
+    message.header.frame_id = 'map'
+    _fill_pose(message.pose, place)
+    return message
+
+
+def initial_pose(
+    place: Place, position_m2: float, heading_rad2: float
+) -> PoseWithCovarianceStamped:
+    """
+    Return what tells the localisation where the robot is.
+
+    Parameters
+    ----------
+    place
+        Where, in the map.
+    position_m2, heading_rad2
+        How sure that is: the variances of x and y, and of the yaw.
+
+    """
+    message = PoseWithCovarianceStamped()
+    message.header.frame_id = 'map'
+    _fill_pose(message.pose.pose, place)
+    message.pose.covariance[[0, 7, 35]] = position_m2, position_m2, heading_rad2
+    return message
+
+
+def _fill_pose(pose: Any, place: Place) -> None:
+    pose.position.x, pose.position.y = map(float, place[:2])
+    pose.orientation.z, pose.orientation.w = math.sin(place[2] / 2), math.cos(place[2] / 2)

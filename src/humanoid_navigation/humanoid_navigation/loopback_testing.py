@@ -1,0 +1,257 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Nav2 beside the loopback simulator, a robot without physics; for tests and trials."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+import math
+from pathlib import Path
+import re
+from typing import Any
+
+from ament_index_python.packages import get_package_share_directory
+from geometry_msgs.msg import PoseWithCovarianceStamped, Twist
+from humanoid_common.qos import COMMAND, SENSOR, STATE
+from humanoid_common.testing.launching import running_launch_file
+from humanoid_common.testing.processes import running_program, RunningProgram
+from humanoid_common.testing.ros import RosSandbox
+from humanoid_navigation.arrival import Arrival, initial_pose, is_zero, Place, stamped
+from lifecycle_msgs.srv import GetState
+from nav2_msgs.action import NavigateToPose
+from nav_msgs.msg import Odometry
+from rclpy.action import ActionClient
+from rclpy.client import Client
+from rclpy.node import Node
+from rclpy.task import Future
+from rclpy.time import Time
+from rosgraph_msgs.msg import Clock
+from tf2_ros import Buffer, TransformException, TransformListener
+
+PATIENCE_S = 90.0
+"""How long, on the computer's clock, something may take that should come at once."""
+TICK_S = 0.05
+"""By how much simulated time goes on at once."""
+TELLINGS, TELLING_S, SETTLE_S = 5, 3.0, 1.0
+"""A scan from where it was before can mislead the localisation at first."""
+SETTLED_M, SETTLED_RAD = 0.15, 0.15
+CONTAINER = re.compile(r'\[(component_container)-\d+\]: process started with pid \[(\d+)\]')
+
+
+class LoopbackRobot:
+    """
+    A robot in the loopback simulator, which Nav2 sends somewhere.
+
+    Parameters
+    ----------
+    ros
+        Where the nodes of the test are.
+
+    """
+
+    def __init__(self, ros: RosSandbox) -> None:
+        self._ros = ros
+        self.node = ros.start(lambda **options: Node('traveller', **options))
+        self.now_s = 0.0
+        """Simulated time."""
+        self.commands: list[tuple[float, Twist]] = []
+        """What the robot was told, and when in simulated time."""
+        self._odometry: complex | None = None
+        self._odometry_rad = 0.0
+        self._placed: tuple[complex, float, complex, float] = (0j, 0.0, 0j, 0.0)
+        self._recoveries = 0
+        self._buffer = Buffer()
+        self._listener = TransformListener(self._buffer, self.node)
+        self._initial_pose = self.node.create_publisher(
+            PoseWithCovarianceStamped, 'initialpose', STATE
+        )
+        self.node.create_subscription(Clock, '/clock', self._take_clock, SENSOR)
+        self.node.create_subscription(Odometry, 'odom', self._take_odometry, STATE)
+        self.node.create_subscription(Twist, 'cmd_vel', self._take_command, COMMAND)
+        self._clients: dict[str, Client] = {}
+        self.navigate = ActionClient(self.node, NavigateToPose, 'navigate_to_pose')
+
+    @property
+    def place(self) -> Place:
+        """Where the robot truly is in the map."""
+        begin, begin_rad, odometry, odometry_rad = self._placed
+        moved = ((self._odometry or 0j) - odometry) * _turned(begin_rad - odometry_rad)
+        yaw_rad = begin_rad + self._odometry_rad - odometry_rad
+        position = begin + moved
+        return position.real, position.imag, math.remainder(yaw_rad, math.tau)
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether the newest command is not zero."""
+        return bool(self.commands) and not is_zero(self.commands[-1][1])
+
+    def wait_until(self, predicate: Any, timeout_s: float = PATIENCE_S, what: str = '') -> None:
+        """Wait for something, as long as so many seconds of the computer's clock."""
+        self._ros.wait_until(predicate, timeout_s, what or 'the condition')
+
+    def wait(self, duration_s: float) -> None:
+        """Let simulated time pass."""
+        end_s = self.now_s + duration_s
+        self.wait_until(lambda: self.now_s >= end_s, PATIENCE_S + duration_s, 'simulated time')
+
+    def answer(self, future: Future) -> Any:
+        """Wait for what a server answers."""
+        self.wait_until(future.done, PATIENCE_S, 'an answer')
+        return future.result()
+
+    def call(self, kind: Any, name: str, request: Any) -> Any:
+        """
+        Call a service that may be called twice, and return its response.
+
+        Parameters
+        ----------
+        kind, name, request
+            The type and name of the service, and what is asked; again if no answer comes.
+
+        """
+        if name not in self._clients:
+            client = self._clients[name] = self.node.create_client(kind, name)
+            self.wait_until(client.service_is_ready, what=f"the service '{name}'")
+            # A server drops its answer to a client that it has not discovered yet.
+            self.wait(SETTLE_S)
+        first = self._clients[name].call_async(request)
+        try:
+            self.wait_until(first.done, PATIENCE_S / 3.0)
+        except AssertionError:
+            # An answer is lost if the server's middleware has lost sight of the client.
+            return self.answer(self._clients[name].call_async(request))
+        return first.result()
+
+    def wait_for_active(self, *names: str) -> None:
+        """Wait until nodes with a lifecycle are active."""
+        for name in names or ('amcl', 'bt_navigator', 'waypoint_follower'):
+            self.wait_until(lambda name=name: self.state_of(name) == 'active', what=name)
+
+    def state_of(self, name: str) -> str:
+        """Return the state of a node with a lifecycle."""
+        client = self.node.create_client(GetState, f'{name}/get_state')
+        self.wait_until(client.service_is_ready, what=f"the node '{name}'")
+        future = client.call_async(GetState.Request())
+        try:
+            self.wait_until(future.done, 2.0)
+        except AssertionError:
+            return 'unknown'  # it has gone meanwhile
+        finally:
+            self.node.destroy_client(client)
+        return str(future.result().current_state.label)
+
+    def put(self, place: Place) -> None:
+        """Put the robot somewhere, and tell that to the localisation, as RViz does."""
+        self.wait_until(lambda: self._initial_pose.get_subscription_count() >= 2)
+        self.wait_until(lambda: self._odometry is not None, what='odometry')
+        for _ in range(TELLINGS):
+            self._tell(place)
+            end_s = self.now_s + TELLING_S
+            self.wait_until(
+                lambda end_s=end_s: self._is_localised or self.now_s > end_s, what='time'
+            )
+            self.wait(SETTLE_S)
+            if self._is_localised:
+                return
+        raise AssertionError(f'The robot does not believe to be at {place}.')
+
+    def _tell(self, place: Place) -> None:
+        odometry, odometry_rad = self._odometry or 0j, self._odometry_rad
+        self._placed = complex(*place[:2]), place[2], odometry, odometry_rad
+        self._initial_pose.publish(initial_pose(place, 0.02, 0.01))
+
+    def send(self, goal: Place, client: ActionClient | None = None, **fields: Any) -> Any:
+        """Send a goal in the map; return its handle."""
+        message = NavigateToPose.Goal(pose=stamped(goal), **fields)
+        return self.send_goal(client or self.navigate, message)
+
+    def send_goal(self, client: ActionClient, goal: Any) -> Any:
+        """Send a goal of an action; return its handle."""
+        self.wait_until(client.server_is_ready, what='an action')
+        self._recoveries = 0
+        handle = self.answer(client.send_goal_async(goal, self._take_feedback))
+        assert handle.accepted, 'The goal was rejected.'
+        handle.end, handle.begin_s = handle.get_result_async(), self.now_s
+        return handle
+
+    def finish(self, handle: Any, goal: Place, timeout_s: float = 300.0) -> Arrival:
+        """Wait for the end of a goal."""
+        self.wait_until(handle.end.done, timeout_s, 'the end of the goal')
+        answer, place = handle.end.result(), self.place
+        return Arrival(
+            answer.status,
+            answer.result.error_code,
+            answer.result.error_msg,
+            math.dist(place[:2], goal[:2]),
+            abs(math.remainder(place[2] - goal[2], math.tau)),
+            self.now_s - handle.begin_s,
+            self._recoveries,
+        )
+
+    def go(self, goal: Place, timeout_s: float = 300.0) -> Arrival:
+        """Go somewhere, and return how that ended."""
+        return self.finish(self.send(goal), goal, timeout_s)
+
+    @property
+    def _is_localised(self) -> bool:
+        """Whether the transforms say that the robot is where it truly is."""
+        try:
+            found = self._buffer.lookup_transform('map', 'base_footprint', Time()).transform
+        except TransformException:
+            return False
+        x_m, y_m, yaw_rad = self.place
+        turn = 2 * math.atan2(found.rotation.z, found.rotation.w) - yaw_rad
+        away_m = math.hypot(found.translation.x - x_m, found.translation.y - y_m)
+        return bool(away_m < SETTLED_M and abs(math.remainder(turn, math.tau)) < SETTLED_RAD)
+
+    def _take_clock(self, message: Clock) -> None:
+        self.now_s = message.clock.sec + message.clock.nanosec * 1e-9
+
+    def _take_odometry(self, message: Odometry) -> None:
+        pose = message.pose.pose
+        self._odometry = complex(pose.position.x, pose.position.y)
+        self._odometry_rad = 2 * math.atan2(pose.orientation.z, pose.orientation.w)
+
+    def _take_command(self, message: Twist) -> None:
+        self.commands.append((self.now_s, message))
+
+    def _take_feedback(self, message: Any) -> None:
+        self._recoveries = getattr(message.feedback, 'number_of_recoveries', 0)
+
+
+@contextmanager
+def loopback_simulator(speed: float = 1.0) -> Iterator[RunningProgram]:
+    """Run the simulator, whose time passes `speed` times as fast as the computer's."""
+    settings = {
+        'speed': speed,
+        'update_duration': TICK_S,
+        'base_frame_id': 'base_footprint',
+        'scan_frame_id': 'laser',
+        'publish_map_odom_tf': False,  # amcl does
+    }
+    command = ['ros2', 'run', 'nav2_loopback_sim', 'loopback_simulator', '--ros-args']
+    for name, value in settings.items():
+        command += ['-p', f'{name}:={value}']
+    with running_program(command) as program:
+        yield program
+
+
+@contextmanager
+def running_navigation(*arguments: str) -> Iterator[RunningProgram]:
+    """Launch Nav2 in the apartment, with further arguments in the form `name:=value`."""
+    with running_launch_file(
+        Path(get_package_share_directory('humanoid_navigation')) / 'launch/navigation.launch.py',
+        'map:=apartment',
+        'use_sim_time:=True',
+        *arguments,
+    ) as program:
+        yield program
+
+
+def container_pid(program: RunningProgram) -> int:
+    """Return the number of the newest process that has all nodes of Nav2."""
+    return int(CONTAINER.findall(program.output)[-1][1])
+
+
+def _turned(angle_rad: float) -> complex:
+    return complex(math.cos(angle_rad), math.sin(angle_rad))

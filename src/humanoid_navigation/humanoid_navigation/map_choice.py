@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The map that belongs to a scene, for launch files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchContext, Substitution
+from launch.substitutions import LaunchConfiguration, SubstitutionFailure
+from launch.utilities import perform_substitutions
+
+
+class MapChoice(Substitution):
+    """
+    Stands for the path of a map: the one that was asked for, or else that of the scene.
+
+    Parameters
+    ----------
+    given
+        What was asked for: a path, the name of a map of this package, or nothing.
+    scene
+        The name of the simulated scene, or nothing.
+
+    """
+
+    def __init__(self, given: LaunchConfiguration, scene: LaunchConfiguration) -> None:
+        super().__init__()
+        self._given, self._scene = given, scene
+
+    def describe(self) -> str:
+        """Return a short description for people."""
+        return f'MapChoice({self._given.describe()}, {self._scene.describe()})'
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the path; SubstitutionFailure says which maps there are."""
+        folder = Path(get_package_share_directory('humanoid_navigation')) / 'maps'
+        given = perform_substitutions(context, [self._given])
+        name = given or perform_substitutions(context, [self._scene])
+        for path in (Path(given).expanduser(), folder / f'{name}.yaml'):
+            if name and path.is_file():
+                return str(path.absolute())
+        stems = sorted(path.stem for path in folder.glob('*.yaml'))
+        known = ', '.join(stem for stem in stems if not stem.endswith('_mask'))
+        what = f"There is no map '{given}'" if given else f"There is no map of the scene '{name}'"
+        raise SubstitutionFailure(
+            f'{what}. Give the path of one, as map:=/path/to/map.yaml, the name of one of this '
+            f'package ({known}), or make one with slam:=True.'
+        )
+
+
+def map_choice(**_: Any) -> MapChoice:
+    """Return the map for the arguments `map` and `scene` of a launch."""
+    return MapChoice(LaunchConfiguration('map'), LaunchConfiguration('scene', default=''))

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""End goals of navigation when the robot falls or is stopped: the node `navigation_guard`."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+from action_msgs.srv import CancelGoal
+from humanoid_common.inhibition import Inhibition
+from humanoid_common.qos import LATCHED
+from humanoid_common.running import run_node
+from rclpy.node import Node
+from std_msgs.msg import String
+
+ACTIONS = ('navigate_to_pose', 'navigate_through_poses', 'follow_waypoints')
+
+
+class NavigationGuard(Node):
+    """
+    Says on `navigation_inhibit` why the robot cannot go anywhere, or nothing, and ends goals.
+
+    A navigator that listens to that topic aborts its goals with the reason. Those of one that
+    does not, as the genuine Nav2, are canceled.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__('navigation_guard', **options)
+        self._inhibition = Inhibition()
+        self._said: str | None = None
+        self._publisher = self.create_publisher(String, 'navigation_inhibit', LATCHED)
+        self._cancels = [
+            self.create_client(CancelGoal, f'{action}/_action/cancel_goal') for action in ACTIONS
+        ]
+        self.create_subscription(String, 'walking_state', self._tell_walking_state, LATCHED)
+        self.create_subscription(String, 'stop_state', self._tell_stop_state, LATCHED)
+        self._say()
+
+    def _tell_walking_state(self, message: String) -> None:
+        self._inhibition.tell_walking_state(message.data)
+        self._say()
+
+    def _tell_stop_state(self, message: String) -> None:
+        self._inhibition.tell_stop_state(message.data)
+        self._say()
+
+    def _say(self) -> None:
+        """Publish the reason if it is new, and end the goals that run."""
+        reason = self._inhibition.reason
+        if reason == self._said:
+            return
+        if reason:
+            self.get_logger().warning(f'Goals of navigation are ended. {reason}')
+        elif self._said:
+            self.get_logger().info('Goals of navigation are possible again.')
+        self._said = reason
+        self._publisher.publish(String(data=reason))
+        if reason and self._publisher.get_subscription_count() == 0:
+            for client in self._cancels:
+                if client.service_is_ready():
+                    client.call_async(CancelGoal.Request())  # without an id: all goals
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node."""
+    return run_node(NavigationGuard, args)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Find remembered things by class, colour, place or id."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from humanoid_common.naming import did_you_mean, shortened
+from humanoid_perception.detection import COLOURS
+from humanoid_perception.places import Places
+from humanoid_perception.remembered import RememberedThing
+
+__all__ = ['Question', 'QuestionError', 'find', 'place_of']
+
+
+class QuestionError(Exception):
+    """A question asks for something that nobody knows; the text says what was meant."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked for; what is empty fits all."""
+
+    class_id: str = ''
+    colour: str = ''
+    place: str = ''
+    object_id: str = ''
+
+
+def place_of(thing: RememberedThing, places: Places) -> tuple[str, str]:
+    """Return the surface on which a thing stands and the room in which it is; empty if none."""
+    x, y, z = (float(each) for each in thing.position_m)
+    bottom = z - 0.5 * float(thing.size_m[2])
+    return places.surface_at(x, y, bottom), places.room_at(x, y)
+
+
+def find(
+    question: Question,
+    things: Sequence[RememberedThing],
+    places: Places,
+    classes: Iterable[str] = (),
+) -> list[RememberedThing]:
+    """
+    Return the things that fit a question, the ones seen most recently first.
+
+    Parameters
+    ----------
+    question
+        What is asked for.
+    things, places
+        What is remembered, and the named places.
+    classes
+        The classes that there can be, beside those of the things; without any, all can be.
+
+    Raises
+    ------
+    QuestionError
+        It names a class, a colour, a place or an id that there cannot be.
+
+    """
+    known = {*classes, *(thing.class_id for thing in things)}
+    if list(classes):
+        _check(question.class_id, known, 'class')
+    _check(question.colour, COLOURS, 'colour')
+    if question.place and not places.names:
+        raise QuestionError(
+            f"The place '{shortened(question.place)}' is not known, as no places are. Give "
+            'object_memory a file of named places: places_file.'
+        )
+    _check(question.place, places.names, 'place')
+    _check(question.object_id, [thing.object_id for thing in things], 'remembered thing')
+    found = [thing for thing in things if _fits(question, thing, places)]
+    return sorted(found, key=lambda thing: -thing.last_seen_s)
+
+
+def _fits(question: Question, thing: RememberedThing, places: Places) -> bool:
+    pairs = (
+        (question.class_id, (thing.class_id,)),
+        (question.colour, (thing.colour,)),
+        (question.object_id, (thing.object_id,)),
+        (question.place, place_of(thing, places) if question.place else ()),
+    )
+    return all(not asked or asked in given for asked, given in pairs)
+
+
+def _check(name: str, known: Iterable[str], what: str) -> None:
+    """Refuse a name that is not known."""
+    names = sorted(known)
+    if not name or name in names:
+        return
+    hint = did_you_mean(name, names) or (
+        f'There are: {", ".join(names)}.' if names else 'There is none yet.'
+    )
+    raise QuestionError(f"No {what} is called '{shortened(name)}'. {hint}")

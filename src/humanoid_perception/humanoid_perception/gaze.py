@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the robot looks: the node `gaze` with the actions `look_at` and `scan_room`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+import sys
+from typing import Any
+
+from control_msgs.action import PointHead
+from geometry_msgs.msg import Twist
+from humanoid_common.inhibition import Inhibition
+from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.parameters import parameter
+from humanoid_common.qos import COMMAND, LATCHED, SENSOR
+from humanoid_common.running import run_node
+from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
+from humanoid_interfaces.action import ScanRoom
+from humanoid_perception.head import Head
+from humanoid_perception.room_scan import RoomScan
+from humanoid_perception.scanning import FieldOfView
+import numpy as np
+from rclpy.node import Node
+from sensor_msgs.msg import CameraInfo
+from std_msgs.msg import String
+from tf2_ros import TransformException
+
+__all__ = ['Gaze', 'GazeParameters', 'main']
+
+_LATE_S = 5.0
+"""How much longer than planned a motion of the head may take."""
+_NEWS_RAD = 0.015
+"""A target that moved by less is still looked at."""
+
+
+@dataclass(frozen=True)
+class GazeParameters:
+    """The parameters of the node."""
+
+    joints: tuple[str, ...] = parameter(
+        ('head_yaw', 'head_pitch'), 'The joints of the neck, from the body on.', read_only=True
+    )
+    controller: str = parameter(
+        'head_controller', 'The trajectory controller of these joints.', read_only=True
+    )
+    odom_frame: str = parameter('odom', 'The frame in which the body turns.')
+    camera_frame: str = parameter(
+        'camera_optical_frame', 'What looks at a point if a goal names nothing.'
+    )
+    max_velocity: float = parameter(
+        1.5, 'How fast the joints turn (rad/s).', at_least=0.05, at_most=12.0
+    )
+    tolerance_rad: float = parameter(
+        0.05, 'How exactly it has to look at a point (rad).', at_least=0.001, at_most=1.0
+    )
+    scan_up_rad: float = parameter(
+        0.15, 'Up to which elevation a room is looked at (rad).', at_least=-1.0, at_most=1.5
+    )
+    scan_down_rad: float = parameter(
+        0.85, 'Down to which depression a room is looked at (rad).', at_least=-1.0, at_most=1.5
+    )
+    looks_per_view: int = parameter(
+        4, 'How many pictures are waited for at each stop of a scan.', at_least=1, at_most=100
+    )
+    turn_rate_rad_s: float = parameter(
+        0.5, 'How fast the body turns in a scan (rad/s).', at_least=0.05, at_most=2.0
+    )
+    turn_with: str = parameter(
+        'auto',
+        'What turns the body: spin of Nav2, which looks out for obstacles, or cmd_vel.',
+        choices=('auto', 'spin', 'cmd_vel'),
+    )
+
+
+class Gaze(Node):
+    """
+    Turns the head towards points, and lets it look around.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__('gaze', **options)
+        self.parameters = NodeParameters(self, GazeParameters)
+        told = self.parameters.current
+        self._inhibition = Inhibition()
+        self.head = Head(self, told.joints, told.controller)
+        self.velocities = self.create_publisher(Twist, 'cmd_vel', COMMAND)
+        self.goals = SingleGoal(self, lambda: self._inhibition.reason)
+        self._scan = RoomScan(self)
+        self.goals.offer(PointHead, 'look_at', self._look_at, _unsound)
+        self.goals.offer(ScanRoom, 'scan_room', self._scan.work)
+        for topic, take in (
+            ('walking_state', self._inhibition.tell_walking_state),
+            ('stop_state', self._inhibition.tell_stop_state),
+        ):
+            self.create_subscription(
+                String, topic, lambda message, tell=take: tell(message.data), LATCHED
+            )
+
+    def now_s(self) -> float:
+        """Return the time of the node in s."""
+        return float(self.get_clock().now().nanoseconds) * 1e-9
+
+    async def field_of_view(self, goal: RunningGoal) -> FieldOfView:
+        """Return what the camera sees; abort if no camera says it."""
+        infos: list[CameraInfo] = []
+        subscription = self.create_subscription(
+            CameraInfo, 'camera/camera_info', infos.append, SENSOR
+        )
+        try:
+            for _ in range(100):
+                if infos:
+                    break
+                await goal.tick()
+            else:
+                raise GoalAborted('NO_CAMERA', "No camera publishes 'camera/camera_info'.")
+        finally:
+            self.destroy_subscription(subscription)
+        info = infos[0]
+        try:
+            return FieldOfView.of(
+                info.width, info.height, info.k[0], info.k[4], info.k[2], info.k[5]
+            )
+        except ValueError as error:
+            raise GoalAborted('NO_CAMERA', str(error)) from error
+
+    async def _look_at(self, goal: RunningGoal) -> None:
+        with self.head.listening():
+            try:
+                await self._track(goal)
+            except BaseException:
+                self.head.stop()
+                raise
+
+    async def _track(self, goal: RunningGoal) -> None:
+        """Turn the head to where the target is now, until it is looked at."""
+        request, told, head = goal.request, self.parameters.current, self.head
+        await head.wait(goal)
+        frame, source = request.pointing_frame or told.camera_frame, request.target.header.frame_id
+        tip = await head.known(goal, head.chain.tip_frame, frame)
+        await head.known(goal, head.chain.base_frame, source)
+        axis = _vector(request.pointing_axis)
+        axis = axis / np.linalg.norm(axis) if axis.any() else np.array([0.0, 0.0, 1.0])
+        point = np.append(_vector(request.target.point), 1.0)
+        at_least_s = request.min_duration.sec + request.min_duration.nanosec * 1e-9
+        fastest = min(request.max_velocity or told.max_velocity, told.max_velocity)
+        begin_s, sent, end_s, ticks = self.now_s(), None, math.inf, 0
+        while True:
+            now_s = self.now_s()
+            begin_s = min(begin_s, now_s)  # a simulation that begins anew
+            try:
+                target = (head.pose(head.chain.base_frame, source) @ point)[:3]
+                angles = head.angles_rad()
+            except TransformException as error:
+                raise GoalAborted('NO_TRANSFORM', f'The target is lost: {error}') from None
+            error_rad = head.chain.error_rad(angles, target, tip, axis)
+            goal.publish_feedback(PointHead.Feedback(pointing_angle_error=error_rad))
+            is_over = now_s - begin_s >= at_least_s
+            if is_over and error_rad <= told.tolerance_rad:
+                return
+            if ticks % 4 == 0:
+                start = angles if sent is None else sent.angles_rad
+                aim = head.chain.aim(target, tip, axis, start)
+                if sent is None or np.abs(aim.angles_rad - sent.angles_rad).max() > _NEWS_RAD:
+                    first_s = at_least_s if sent is None else 0.0
+                    duration_s = head.duration_s(aim.angles_rad, fastest, first_s)
+                    head.send(aim.angles_rad, duration_s)
+                    end_s, sent = now_s + duration_s + _LATE_S, aim
+            assert sent is not None
+            has_arrived = head.has_arrived()
+            if is_over and has_arrived and sent.error_rad > told.tolerance_rad:
+                raise GoalAborted(
+                    'UNKNOWN',
+                    'The head cannot turn so far: it looks as near as it can, '
+                    f'{math.degrees(error_rad):.0f} degrees beside the target. Turn the body '
+                    'towards it first.',
+                )
+            if now_s > max(end_s, begin_s + at_least_s + _LATE_S):
+                raise GoalAborted(
+                    'HEAD_FAILED',
+                    f'The head does not come closer than {error_rad:.2f} rad to the target.',
+                )
+            ticks += 1
+            await goal.tick()
+
+
+def _vector(message: Any) -> Any:
+    return np.array([message.x, message.y, message.z])
+
+
+def _unsound(request: PointHead.Goal) -> str:
+    """Return why a goal makes no sense; nothing if it does."""
+    numbers = (*_vector(request.target.point), *_vector(request.pointing_axis))
+    if not all(map(math.isfinite, (*numbers, request.max_velocity))):
+        return 'It has a number that is not finite.'
+    if request.max_velocity < 0.0:
+        return 'max_velocity is negative. Give rad/s, or 0 for the usual one.'
+    if not request.target.header.frame_id:
+        return 'The target has no frame_id. Give the frame of the point, as map.'
+    return ''
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node."""
+    return run_node(Gaze, args)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

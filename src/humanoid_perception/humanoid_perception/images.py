@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Pictures and depth of `sensor_msgs/Image` as arrays, and back, without a copy where possible."""
+
+from __future__ import annotations
+
+from array import array
+from typing import Any, Protocol
+
+from humanoid_perception.detection import Color, Depth
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ['ImageError', 'color_of', 'data_of', 'depth_of']
+
+_COLORS = {'rgb8': (0, 1, 2), 'bgr8': (2, 1, 0), 'rgba8': (0, 1, 2), 'bgra8': (2, 1, 0)}
+_CHANNELS = {'rgb8': 3, 'bgr8': 3, 'rgba8': 4, 'bgra8': 4, 'mono8': 1, '8UC1': 1, '8UC3': 3}
+_DEPTHS = {'32FC1': ('f4', 1.0), '16UC1': ('u2', 0.001), 'mono16': ('u2', 0.001)}
+
+
+class ImageError(Exception):
+    """An image message cannot be used; the text says why, and what to do."""
+
+
+class ImageMessage(Protocol):
+    """The fields of a `sensor_msgs/Image`."""
+
+    height: int
+    width: int
+    encoding: str
+    is_bigendian: Any
+    step: int
+    data: Any
+
+
+def color_of(image: ImageMessage) -> Color:
+    """
+    Return the picture of a message, (height, width, 3) red, green, blue.
+
+    Grey pictures get three equal channels. The array may be that of the message: do not write.
+
+    Raises
+    ------
+    ImageError
+        If its encoding is no picture with 8 bits, or its sizes do not fit its data.
+
+    """
+    channels = _CHANNELS.get(image.encoding)
+    if channels is None:
+        raise ImageError(
+            f"Pictures come in the encoding '{image.encoding}', but the detector needs one of "
+            f'{", ".join(_CHANNELS)}. Have the camera publish one of these, or convert them.'
+        )
+    pixels = _rows(image, np.dtype(np.uint8), channels)
+    if channels == 1:
+        return np.repeat(pixels, 3, axis=2)
+    order = _COLORS.get(image.encoding, (2, 1, 0))  # OpenCV's 8UC3 is blue, green, red
+    return pixels[..., :3] if order == (0, 1, 2) and channels == 3 else pixels[..., list(order)]
+
+
+def depth_of(image: ImageMessage) -> Depth:
+    """
+    Return the depth of a message in m, (height, width).
+
+    As REP 118 has it: `32FC1` in m, `16UC1` in mm, where 0 means nothing. NaN is where nothing was
+    measured, infinity where nothing is within the range of the camera.
+
+    Raises
+    ------
+    ImageError
+        If its encoding is no depth, or its sizes do not fit its data.
+
+    """
+    if image.encoding not in _DEPTHS:
+        raise ImageError(
+            f"The depth comes in the encoding '{image.encoding}', but 32FC1 (m) or 16UC1 (mm) "
+            'is needed (REP 118). Have the camera publish one of these.'
+        )
+    kind, scale = _DEPTHS[image.encoding]
+    dtype = np.dtype(('>' if image.is_bigendian else '<') + kind)
+    depth = _rows(image, dtype, 1)[..., 0].astype(np.float32)
+    if scale != 1.0:
+        depth *= np.float32(scale)
+    depth[~(depth > 0.0)] = np.nan
+    return depth
+
+
+def data_of(pixels: npt.NDArray[Any]) -> array[int]:
+    """Return an array as the `data` of a message, which takes no other kind as it is."""
+    data = array('B')
+    data.frombytes(np.ascontiguousarray(pixels).view(np.uint8).data.cast('B'))
+    return data
+
+
+def _rows(image: ImageMessage, dtype: np.dtype[Any], channels: int) -> npt.NDArray[Any]:
+    """Return the pixels (height, width, channels), without the padding of the rows."""
+    row_bytes = image.width * channels * dtype.itemsize
+    needed = image.step * (image.height - 1) + row_bytes
+    if image.width < 1 or image.height < 1 or image.step < row_bytes:
+        raise ImageError(
+            f'An image of {image.width} x {image.height} pixels in {image.encoding} needs rows of '
+            f'{row_bytes} bytes, but step is {image.step}. The driver of the camera is wrong.'
+        )
+    if len(image.data) < needed:
+        raise ImageError(
+            f'An image of {image.width} x {image.height} pixels in {image.encoding} needs '
+            f'{needed} bytes, but has {len(image.data)}. The driver of the camera is wrong.'
+        )
+    data = np.frombuffer(image.data, np.uint8, needed)
+    strides = (image.step, channels * dtype.itemsize, dtype.itemsize)
+    shape = (image.height, image.width, channels)
+    rows: npt.NDArray[Any] = np.ndarray(shape, dtype, data.data, 0, strides)
+    return rows

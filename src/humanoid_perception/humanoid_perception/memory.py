@@ -1,0 +1,390 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is where: detections become things that are remembered, and forgotten when they go."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+import math
+
+from humanoid_perception.association import assign
+from humanoid_perception.remembered import Pose2, RememberedThing, Sighting, sighting_noise
+from humanoid_perception.visibility import corners_of, Evidence, evidence_at, View
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ['MemorySettings', 'ObjectMemory', 'shift_between']
+
+Array = npt.NDArray[np.float64]
+
+_GATE = 16.0
+"""The greatest cost of a pair: the chi-square of three coordinates at 99.9 %."""
+_LOSS = {Evidence.EMPTY: 0.8, Evidence.UNKNOWN: 0.35, Evidence.SOMETHING: 0.05}
+"""How much the log odds of a thing lose by a look that should have detected it."""
+_TENTATIVE_LOSS = 4.0
+"""How many times as much, as long as it is not believed."""
+_START, _BORN, _FORGOTTEN = -1.0, 0.8, -1.0
+"""Log odds before the first sighting, to be believed, and below which it is so no longer."""
+_TENTATIVE_S = 30.0
+"""How long what is not believed yet is kept without being seen."""
+_LOST_S = 600.0
+"""How long the id of a thing that is gone is kept for it."""
+_CALM_RAD_S = 0.5
+"""A camera that turns faster says nothing of what it does not see."""
+_JUMP_M, _JUMP_RAD = 0.15, 0.10
+"""What the frame of the odometry moves at once that is more than a correction of drift."""
+_FAR_M = 2.0
+"""No detection is so far from its thing."""
+
+
+@dataclass(frozen=True)
+class MemorySettings:
+    """
+    How much is believed and kept.
+
+    Attributes
+    ----------
+    birth_sightings
+        In how many looks a thing has to be detected before it is believed.
+    max_range_m
+        How far away a thing may be that has to be detected if it is there.
+    min_size_px
+        How small in the picture such a thing may be.
+    drift_m_s
+        The standard deviation by which positions become less sure in a second, as the square root
+        of time.
+    max_things
+        How many things are kept; beyond that, those that are believed least are dropped.
+    follows_jumps
+        Whether things move along when the localisation finds out that it was wrong. Where it
+        jumps because the robot was carried, they must not.
+
+    """
+
+    birth_sightings: int = 3
+    max_range_m: float = 3.0
+    min_size_px: float = 8.0
+    drift_m_s: float = 0.003
+    max_things: int = 300
+    follows_jumps: bool = True
+
+
+@dataclass(frozen=True)
+class _Lost:
+    """A thing that was forgotten."""
+
+    object_id: str
+    class_id: str
+    colour: str
+    time_s: float
+
+
+class ObjectMemory:
+    """
+    Remembers things: give it each look of the camera with its detections.
+
+    Parameters
+    ----------
+    settings
+        How much is believed and kept.
+
+    Notes
+    -----
+    Detections and things are paired so that the sum of squared Mahalanobis distances, with a
+    penalty for another class, colour or size, is least. A thing is believed by its log odds, which
+    sightings raise by their score, and looks lower that should have detected it and did not.
+
+    """
+
+    def __init__(self, settings: MemorySettings = MemorySettings()) -> None:
+        self.settings = settings
+        self._all: list[RememberedThing] = []
+        self._lost: list[_Lost] = []
+        self._counts: dict[str, int] = {}
+        self._time_s = -math.inf
+        self._anchor: Pose2 | None = None
+
+    @property
+    def things(self) -> list[RememberedThing]:
+        """Return the things that are believed, the one known longest first."""
+        return [thing for thing in self._all if thing.object_id]
+
+    @property
+    def tentative_count(self) -> int:
+        """Return how many things are not believed yet."""
+        return sum(not thing.object_id for thing in self._all)
+
+    def clear(self) -> None:
+        """Forget everything, also the numbers of ids."""
+        self._all, self._lost, self._counts = [], [], {}
+        self._time_s, self._anchor = -math.inf, None
+
+    def move_all(self, shift: Pose2) -> None:
+        """Express everything in another frame, in which the present one has the pose `shift`."""
+        for thing in self._all:
+            thing.move_by(shift)
+            thing.anchor = _composed(shift, thing.anchor)
+        if self._anchor is not None:
+            self._anchor = _composed(shift, self._anchor)
+
+    def look(
+        self, view: View, sightings: Iterable[Sighting], anchor: Pose2 = (0.0, 0.0, 0.0)
+    ) -> None:
+        """
+        Take a look of the camera into account.
+
+        Parameters
+        ----------
+        view
+            From where it looked, and what depths it measured.
+        sightings
+            What was detected in it, in the same frame; what is not sound is left out.
+        anchor
+            Where the odometry's frame is in that of the memory. Where it jumps, what was seen
+            before under the same anchor moves along.
+
+        """
+        self._correct(anchor, view)
+        passed_s = min(max(view.time_s - self._time_s, 0.0), 60.0)
+        self._time_s = view.time_s
+        for thing in self._all:
+            thing.drift(passed_s, self.settings.drift_m_s**2, 0.3)
+        sound = [sighting for sighting in sightings if sighting.is_sound]
+        seen = self._recognise(view, sound)
+        self._miss(view, seen)
+        self._merge(seen)
+        self._give_ids()
+        self._forget()
+
+    def _correct(self, anchor: Pose2, view: View) -> None:
+        """Move what was seen under an anchor that has turned out to be wrong."""
+        old, self._anchor = self._anchor, anchor
+        if old is None or old == anchor or not self.settings.follows_jumps:
+            return
+        shift = shift_between(old, anchor)
+        if not _is_jump(shift, view.position_m):
+            return
+        for thing in self._all:
+            if not _is_jump(shift_between(thing.anchor, old), thing.position_m):
+                thing.move_by(shift)
+                thing.anchor = anchor
+
+    def _recognise(self, view: View, sightings: Sequence[Sighting]) -> list[RememberedThing]:
+        """Pair detections and things; return the things that were seen, new ones too."""
+        noises = [
+            sighting_noise(each.position_m, view.position_m, view.turn_rad_s) for each in sightings
+        ]
+        partner = dict(assign(self._costs(sightings, noises), _GATE))
+        seen = []
+        for row, (sighting, noise) in enumerate(zip(sightings, noises, strict=True)):
+            gain = _gain(sighting.score)
+            if row in partner:
+                thing = self._all[partner[row]]
+                thing.take(sighting, noise, view.time_s)
+                thing.believe(0.5 * gain if sighting.is_cut else gain)
+            elif sighting.is_cut:
+                continue
+            else:
+                thing = RememberedThing.of(sighting, noise, view.time_s, _START + gain)
+                self._all.append(thing)
+            assert self._anchor is not None
+            thing.anchor = self._anchor
+            seen.append(thing)
+        return seen
+
+    def _costs(self, sightings: Sequence[Sighting], noises_m2: Sequence[Array]) -> Array:
+        """Return what pairs of detections and things cost; (detections, things)."""
+        costs = np.full((len(sightings), len(self._all)), np.inf)
+        if not costs.size:
+            return costs
+        places = np.array([thing.position_m for thing in self._all])
+        for row, (sighting, noise) in enumerate(zip(sightings, noises_m2, strict=True)):
+            away_m = np.linalg.norm(places - sighting.position_m, axis=1)
+            for column in np.flatnonzero(away_m < _FAR_M):
+                costs[row, column] = _cost(self._all[column], sighting, noise)
+        return costs
+
+    def _miss(self, view: View, seen: Sequence[RememberedThing]) -> None:
+        """Believe less in what should have been detected."""
+        if view.turn_rad_s > _CALM_RAD_S:
+            return
+        seen_ids = {id(thing) for thing in seen}
+        for thing in self._all:
+            if id(thing) in seen_ids:
+                continue
+            evidence = evidence_at(
+                view,
+                thing.position_m,
+                thing.size_m,
+                thing.yaw_rad,
+                sigma_m=thing.sigma_m,
+                max_range_m=self.settings.max_range_m,
+                min_size_px=self.settings.min_size_px,
+            )
+            if evidence is Evidence.UNKNOWN and self._is_behind_another(view, thing):
+                continue
+            if evidence is not Evidence.NONE:
+                thing.missed += 1
+                thing.empty += evidence is Evidence.EMPTY
+                loss = _LOSS[evidence] * (1.0 if thing.object_id else _TENTATIVE_LOSS)
+                thing.believe(-loss)
+
+    def _is_behind_another(self, view: View, thing: RememberedThing) -> bool:
+        """Whether another thing is before the middle of one."""
+        pixel, depth = view.project(thing.position_m[None])
+        for other in self.things:
+            if other is thing:
+                continue
+            corners, depths = view.project(
+                corners_of(other.position_m, other.size_m, other.yaw_rad)
+            )
+            covers = (corners.min(axis=0) <= pixel[0]) & (pixel[0] <= corners.max(axis=0))
+            if covers.all() and 0.05 < depths.max() < depth[0]:
+                return True
+        return False
+
+    def _merge(self, seen: Sequence[RememberedThing]) -> None:
+        """Make one of two things that are where only one can be."""
+        seen_ids = {id(thing) for thing in seen}
+        for thing in seen:
+            for other in list(self._all):
+                if other is thing or not any(thing is each for each in self._all):
+                    continue
+                are_both_seen = id(other) in seen_ids
+                if are_both_seen and other.class_id == thing.class_id:
+                    continue
+                if _is_same(thing, other):
+                    kept, dropped = _older_first(thing, other)
+                    kept.absorb(dropped)
+                    self._all = [each for each in self._all if each is not dropped]
+
+    def _give_ids(self) -> None:
+        """Believe in what was seen often enough."""
+        for thing in list(self._all):
+            enough = thing.sightings >= self.settings.birth_sightings
+            if not thing.object_id and enough and thing.log_odds >= _BORN:
+                thing.object_id = self._old_id(thing) or self._new_id(thing)
+
+    def _old_id(self, thing: RememberedThing) -> str:
+        """Return the id of such a thing that is gone from where it was; empty without one."""
+        kind = thing.class_id, thing.colour
+        for other in self.things:
+            if (other.class_id, other.colour) == kind and _has_moved(other, thing):
+                self._all = [each for each in self._all if each is not other]
+                return other.object_id
+        for lost in reversed(self._lost):
+            if (lost.class_id, lost.colour) == kind and self._time_s - lost.time_s < _LOST_S:
+                self._lost.remove(lost)
+                return lost.object_id
+        return ''
+
+    def _new_id(self, thing: RememberedThing) -> str:
+        stem = '_'.join(filter(None, (thing.colour, thing.class_id))).replace(' ', '_')
+        self._counts[stem] = self._counts.get(stem, 0) + 1
+        return f'{stem}_{self._counts[stem]}'
+
+    def _forget(self) -> None:
+        """Drop what is not believed any more, and what is too much."""
+        kept = []
+        for thing in self._all:
+            is_stale = not thing.object_id and self._time_s - thing.last_seen_s > _TENTATIVE_S
+            if thing.log_odds > _FORGOTTEN - (0.0 if thing.object_id else 1.0) and not is_stale:
+                kept.append(thing)
+            elif thing.object_id:
+                self._lost.append(
+                    _Lost(thing.object_id, thing.class_id, thing.colour, self._time_s)
+                )
+        if len(kept) > self.settings.max_things:
+            ranked = sorted(
+                kept, key=lambda each: (bool(each.object_id), each.log_odds, each.last_seen_s)
+            )
+            count = len(kept) - self.settings.max_things
+            dropped = {id(each) for each in ranked[:count]}
+            kept = [each for each in kept if id(each) not in dropped]
+        del self._lost[: -self.settings.max_things]
+        self._all = kept
+
+
+def shift_between(old: Pose2, new: Pose2) -> Pose2:
+    """Return the motion that takes what hangs on an old pose of a frame to the new one."""
+    yaw = math.remainder(new[2] - old[2], math.tau)
+    c, s = math.cos(yaw), math.sin(yaw)
+    return new[0] - c * old[0] + s * old[1], new[1] - s * old[0] - c * old[1], yaw
+
+
+def _composed(outer: Pose2, inner: Pose2) -> Pose2:
+    """Return a pose that is given in a frame which has a pose itself."""
+    c, s = math.cos(outer[2]), math.sin(outer[2])
+    return (
+        outer[0] + c * inner[0] - s * inner[1],
+        outer[1] + s * inner[0] + c * inner[1],
+        math.remainder(outer[2] + inner[2], math.tau),
+    )
+
+
+def _gain(score: float) -> float:
+    """
+    Return by how much a sighting raises the log odds of its thing.
+
+    Detectors are right about things of a high score, and often wrong about those of a low one,
+    again and again at the same place.
+    """
+    return min(max(2.5 * (score - 0.45), 0.05), 1.4)
+
+
+def _is_jump(shift: Pose2, at_m: Array) -> bool:
+    """Whether a motion is more than a correction of drift, at a point (3,)."""
+    x, y, yaw = shift
+    c, s = math.cos(yaw), math.sin(yaw)
+    dx = c * at_m[0] - s * at_m[1] + x - at_m[0]
+    dy = s * at_m[0] + c * at_m[1] + y - at_m[1]
+    return math.hypot(dx, dy) > _JUMP_M or abs(yaw) > _JUMP_RAD
+
+
+def _cost(thing: RememberedThing, sighting: Sighting, noise_m2: Array) -> float:
+    """Return what it costs to take a detection for a thing; infinite if it cannot be that."""
+    distance_m = float(np.linalg.norm(sighting.position_m - thing.position_m))
+    reach_m = 0.5 * float(max(thing.size_m.max(), sighting.size_m.max()))
+    share = thing.classes.share(sighting.class_id)
+    near_m = reach_m + (0.6 if share > 0.1 else 0.08)
+    if distance_m > near_m:
+        return math.inf
+    if sighting.is_cut:
+        # Its middle is that of the part in the picture.
+        noise_m2 = noise_m2 + reach_m**2 * np.eye(3)
+        size_term = 0.0
+    else:
+        ratio = math.log(float(sighting.size_m.max() / thing.size_m.max()))
+        size_term = min(2.0 * ratio * ratio, 3.0)
+    cost = thing.distance2(sighting, noise_m2) + 4.0 * (1.0 - share) + size_term
+    if sighting.colour and thing.colours.best:
+        cost += 3.0 * (1.0 - thing.colours.share(sighting.colour))
+    return cost
+
+
+def _is_same(thing: RememberedThing, other: RememberedThing) -> bool:
+    """Whether two things are closer than two things can be."""
+    distance_m = float(np.linalg.norm(thing.position_m - other.position_m))
+    limit_m = 0.5 * float(min(thing.size_m.max(), other.size_m.max()))
+    if thing.class_id == other.class_id and (
+        thing.colour == other.colour or not thing.colour or not other.colour
+    ):
+        limit_m += min(2.0 * max(thing.sigma_m, other.sigma_m), 0.15)
+    return distance_m < limit_m
+
+
+def _has_moved(old: RememberedThing, new: RememberedThing) -> bool:
+    """Whether a thing that is not where it was may well be a new one of its kind."""
+    if old.empty >= 2:
+        return True
+    distance_m = float(np.linalg.norm(old.position_m - new.position_m))
+    is_close = distance_m < 2.0 * float(max(old.size_m.max(), new.size_m.max()))
+    return is_close and old.missed >= 2
+
+
+def _older_first(
+    thing: RememberedThing, other: RememberedThing
+) -> tuple[RememberedThing, RememberedThing]:
+    """Return two things so that the one to keep is first: the believed one that is seen more."""
+    ranked = sorted((thing, other), key=lambda each: (not each.object_id, -each.sightings))
+    return ranked[0], ranked[1]

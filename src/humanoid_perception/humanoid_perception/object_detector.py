@@ -1,0 +1,415 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Detect objects in the pictures of a camera: the node `object_detector`."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass, replace
+import math
+from pathlib import Path
+import sys
+import time
+from typing import Any
+
+from ament_index_python.packages import get_package_share_directory
+from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.parameters import parameter
+from humanoid_common.qos import SENSOR, STATE
+from humanoid_common.running import ending, run_node
+from humanoid_perception.colour_backend import ColourDetector
+from humanoid_perception.colours import colour_name
+from humanoid_perception.detection import Color, Depth, Detection, Detector
+from humanoid_perception.detection_conversions import (
+    annotated,
+    detections_2d,
+    detections_3d,
+    header_of,
+)
+from humanoid_perception.frames import Frame, FramePairs, stamp_in
+from humanoid_perception.images import color_of, depth_of, ImageError
+from humanoid_perception.lifting import (
+    camera_of,
+    CameraInfoError,
+    lift,
+    PinholeCamera,
+    Surface,
+    surface_of,
+    UPRIGHT,
+)
+from humanoid_perception.markers import markers_of
+from humanoid_perception.memory_conversions import pose_of
+from humanoid_perception.onnx_backend import OnnxDetector
+from humanoid_perception.yolo import AUTO, LAYOUTS
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.serialization import deserialize_message
+from rclpy.subscription import Subscription
+from rclpy.time import Time
+from sensor_msgs.msg import CameraInfo, Image
+from std_msgs.msg import Header
+from std_srvs.srv import SetBool
+from tf2_ros import Buffer, TransformException, TransformListener
+from vision_msgs.msg import Detection2DArray, Detection3DArray
+from visualization_msgs.msg import MarkerArray
+
+__all__ = ['DetectorParameters', 'ObjectDetector', 'main', 'make_detector']
+
+ONNX, COLOUR = 'onnx', 'colour'
+RELIABLE, BEST_EFFORT = 'reliable', 'best_effort'
+DEFAULT_MODEL = 'apartment_things.onnx'
+_LOOK_S = 0.05
+_TRANSFORM_WAIT_S = 0.5
+_QUIET_S = 10.0
+_SILENCE_S = 5.0
+"""After how long without any picture that is said."""
+
+
+@dataclass(frozen=True)
+class DetectorParameters:
+    """The parameters of the node."""
+
+    backend: str = parameter(
+        ONNX,
+        'What detects: a YOLO network (onnx), or colours and shapes without a network (colour).',
+        choices=(ONNX, COLOUR),
+        read_only=True,
+    )
+    model_path: str = parameter(
+        '', 'The ONNX file of a YOLO network; empty for the one of this package.', read_only=True
+    )
+    labels_file: str = parameter(
+        '',
+        'Names of classes, one a line or YAML; empty for those that the model names.',
+        read_only=True,
+    )
+    layout: str = parameter(
+        AUTO, 'The layout of the output of the network.', choices=LAYOUTS, read_only=True
+    )
+    input_size: int = parameter(
+        0,
+        'The longer edge of what the network gets, for networks that take any size; 0 for the '
+        'size that the model names (pixels).',
+        at_least=0,
+        at_most=4096,
+        read_only=True,
+    )
+    num_threads: int = parameter(
+        1, 'How many threads the network computes with.', at_least=1, at_most=64, read_only=True
+    )
+    confidence: float = parameter(
+        0.5, 'The least score of a detection.', at_least=0.001, at_most=1.0
+    )
+    iou: float = parameter(
+        0.5,
+        'The most by which two detections of a class overlap, as intersection over union.',
+        at_least=0.0,
+        at_most=1.0,
+    )
+    max_rate_hz: float = parameter(
+        5.0,
+        'How many pictures are looked at in a second, by their stamps.',
+        at_least=0.01,
+        at_most=1000.0,
+    )
+    max_depth_offset_s: float = parameter(
+        0.02,
+        'How far the stamp of depth may be from that of its picture (s).',
+        at_least=0.0,
+        at_most=1.0,
+    )
+    target_frame: str = parameter(
+        'odom',
+        'The frame of detections in space, whose z axis points up; empty for that of the camera.',
+    )
+    image_reliability: str = parameter(
+        AUTO,
+        'How pictures are subscribed to; auto begins with reliable, and takes what is offered.',
+        choices=(AUTO, RELIABLE, BEST_EFFORT),
+        read_only=True,
+    )
+
+
+def make_detector(told: DetectorParameters) -> Detector:
+    """Return the detector that parameters ask for; raise DetectorError if it cannot be used."""
+    if told.backend == COLOUR:
+        return ColourDetector()
+    share = Path(get_package_share_directory('humanoid_perception'))
+    path = str(Path(told.model_path).expanduser()) if told.model_path else ''
+    return OnnxDetector(
+        path or str(share / 'models' / DEFAULT_MODEL),
+        told.labels_file,
+        told.layout,
+        told.input_size,
+        told.num_threads,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Seen:
+    """Detections whose place in the target frame is not known yet."""
+
+    received_s: float
+    header: Header
+    camera: PinholeCamera
+    found: list[tuple[Detection, Surface]]
+
+
+class ObjectDetector(Node):
+    """
+    Turns pictures and depth into `detections`, `detections_3d` and pictures with boxes.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    Raises
+    ------
+    DetectorError
+        If the detector that the parameters ask for cannot be used.
+
+    """
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__('object_detector', **options)
+        self._told = NodeParameters(self, DetectorParameters, self._change)
+        told = self._told.current
+        self._detector = make_detector(told)
+        self._pairs = FramePairs(1.0 / told.max_rate_hz, told.max_depth_offset_s)
+        self._seen: deque[_Seen] = deque(maxlen=5)
+        self._camera: CameraInfo | None = None
+        self._camera_bytes = b''
+        self._said: dict[str, float] = {}
+        self._reliability = BEST_EFFORT if told.image_reliability == BEST_EFFORT else RELIABLE
+        self._buffer = Buffer()
+        self._listener = TransformListener(self._buffer, self)
+        self._2d = self.create_publisher(Detection2DArray, 'detections', STATE)
+        self._3d = self.create_publisher(Detection3DArray, 'detections_3d', STATE)
+        self._markers = self.create_publisher(MarkerArray, 'detections/markers', STATE)
+        self._image = self.create_publisher(Image, 'detections/image', STATE)
+        self._subscriptions_in: list[Subscription] = []
+        self._since_s = self._watched_s = time.monotonic()
+        self._has_pictures = self._has_said_flat = False
+        self._subscribe()
+        self.create_service(SetBool, '~/enable', self._enable)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(_LOOK_S, ending(self, self._look), clock=steady)
+        self.get_logger().info(f'Detects objects with {self._detector.title}.')
+
+    def _change(self, told: DetectorParameters) -> None:
+        self._pairs.period_s = 1.0 / told.max_rate_hz
+        self._pairs.max_offset_s = told.max_depth_offset_s
+
+    # What comes in
+
+    def _subscribe(self) -> None:
+        """Subscribe to the camera."""
+        quality = QoSProfile(
+            depth=1,
+            reliability=ReliabilityPolicy.RELIABLE
+            if self._reliability == RELIABLE
+            else ReliabilityPolicy.BEST_EFFORT,
+        )
+        take_color, take_depth = ending(self, self._take_color), ending(self, self._take_depth)
+        self._subscriptions_in = [
+            self.create_subscription(
+                CameraInfo, 'camera/camera_info', self._take_camera, SENSOR, raw=True
+            ),
+            self.create_subscription(Image, 'camera/image_raw', take_color, quality, raw=True),
+            self.create_subscription(
+                Image, 'camera/depth/image_raw', take_depth, quality, raw=True
+            ),
+        ]
+        self._since_s = time.monotonic()
+
+    def _unsubscribe(self) -> None:
+        for subscription in self._subscriptions_in:
+            self.destroy_subscription(subscription)
+        self._subscriptions_in = []
+        self._pairs.clear()
+        self._seen.clear()
+
+    def _enable(self, request: Any, response: Any) -> Any:
+        """Start or stop to detect; while stopped, the camera is not even subscribed to."""
+        if request.data and not self._subscriptions_in:
+            self._subscribe()
+        elif not request.data:
+            self._unsubscribe()
+        response.success = True
+        response.message = 'Detects objects.' if request.data else 'Does not detect objects.'
+        return response
+
+    def _take_camera(self, data: bytes) -> None:
+        """Take what the camera is like; it seldom changes, apart from the stamp."""
+        if data[12:] != self._camera_bytes:
+            self._camera_bytes = data[12:]
+            self._camera = deserialize_message(data, CameraInfo)
+
+    def _take_color(self, data: bytes) -> None:
+        self._has_pictures = True
+        self._pairs.add_color(stamp_in(data), data, time.monotonic())
+        self._look()
+
+    def _take_depth(self, data: bytes) -> None:
+        self._pairs.add_depth(stamp_in(data), data, time.monotonic())
+        self._look()
+
+    # What is done with it
+
+    def _look(self) -> None:
+        """Look at a picture, if there is one, and place what was seen before."""
+        if not self._subscriptions_in:
+            return
+        if not self._has_pictures:
+            self._watch()
+        frame = self._pairs.take(time.monotonic())
+        if frame is not None:
+            self._detect(frame)
+        self._place()
+
+    def _watch(self) -> None:
+        """Find out why no pictures come."""
+        now_s = time.monotonic()
+        if now_s - self._watched_s < 1.0:
+            return
+        self._watched_s = now_s
+        topic = self.resolve_topic_name('camera/image_raw')
+        offered = [
+            each.qos_profile.reliability for each in self.get_publishers_info_by_topic(topic)
+        ]
+        if self._reliability == RELIABLE and ReliabilityPolicy.BEST_EFFORT in offered:
+            if self._told.current.image_reliability == AUTO:
+                self._reliability = BEST_EFFORT
+                self._unsubscribe()
+                self._subscribe()
+            else:
+                self._warn(
+                    f"Pictures on '{topic}' are offered as best effort, so none of them arrives. "
+                    "Set the parameter 'image_reliability' to 'auto' or 'best_effort'."
+                )
+        elif now_s - self._since_s > _SILENCE_S and not offered:
+            self._since_s = math.inf
+            self.get_logger().warning(
+                f"Nobody publishes pictures on '{topic}'. Start the camera, or remap "
+                "'camera/image_raw' to its topic."
+            )
+
+    def _detect(self, frame: Frame) -> None:
+        """Detect what is in a picture, and publish it."""
+        image = deserialize_message(frame.color, Image)
+        try:
+            color = color_of(image)
+        except ImageError as error:
+            self._warn(str(error))
+            return
+        depth_m, camera = self._depth_of(frame, color)
+        told = self._told.current
+        focal_px = camera.fx_px if camera else 0.0
+        found = self._detector.detect(color, depth_m, focal_px, told.confidence, told.iou)
+        surfaces = [
+            surface_of(each.box_px, depth_m, camera) if camera and depth_m is not None else None
+            for each in found
+        ]
+        found = [_coloured(each, color, surface) for each, surface in zip(found, surfaces)]
+        self._2d.publish(detections_2d(image.header, found))
+        if self._image.get_subscription_count() > 0:
+            self._image.publish(annotated(image.header, color, found))
+        if camera and depth_m is not None:
+            placed = [(each, surface) for each, surface in zip(found, surfaces) if surface]
+            self._seen.append(_Seen(time.monotonic(), image.header, camera, placed))
+
+    def _depth_of(self, frame: Frame, color: Color) -> tuple[Depth | None, PinholeCamera | None]:
+        """Return the depth of a picture and its camera, if both are there and right."""
+        if frame.depth is None:
+            self._say_flat()
+            return None, None
+        self._has_said_flat = False
+        info = self._camera
+        if info is None:  # the first one may be on its way
+            if time.monotonic() > self._since_s + _SILENCE_S:
+                self._warn("Detections are in 2-D only, as nothing comes on 'camera/camera_info'.")
+            return None, None
+        try:
+            depth_m = depth_of(deserialize_message(frame.depth, Image))
+            camera = camera_of(info.k, info.width, info.height, (color.shape[0], color.shape[1]))
+        except (ImageError, CameraInfoError) as error:
+            self._warn(f'Detections are in 2-D only. {error}')
+            return None, None
+        if depth_m.shape != color.shape[:2]:
+            self._warn(
+                f'Detections are in 2-D only. The depth has {depth_m.shape[1]} x '
+                f'{depth_m.shape[0]} pixels, but the picture {color.shape[1]} x {color.shape[0]}. '
+                'Have the camera register its depth to the picture.'
+            )
+            return None, None
+        return depth_m, camera
+
+    def _say_flat(self) -> None:
+        """Say once that there is no depth."""
+        if not self._has_said_flat:
+            self._has_said_flat = True
+            topic = self.resolve_topic_name('camera/depth/image_raw')
+            self.get_logger().info(
+                f"Detections are in 2-D only, as no depth comes on '{topic}' with the stamps of "
+                'the pictures.'
+            )
+
+    def _place(self) -> None:
+        """Publish in space what was seen, as soon as it is known where the camera was."""
+        while self._seen:
+            seen = self._seen[0]
+            try:
+                self._publish_3d(seen)
+            except TransformException as error:
+                if time.monotonic() - seen.received_s < _TRANSFORM_WAIT_S:
+                    return
+                self._warn(
+                    f"Detections are in 2-D only, as it is not known where '"
+                    f"{seen.header.frame_id}' was in '{self._told.current.target_frame}': {error}"
+                )
+            self._seen.popleft()
+
+    def _publish_3d(self, seen: _Seen) -> None:
+        """Publish boxes in the target frame; raise TransformException if that is not known."""
+        target = self._told.current.target_frame
+        rotation, translation_m, back = UPRIGHT, None, UPRIGHT.T
+        if target:
+            transform = self._buffer.lookup_transform(
+                target, seen.header.frame_id, Time.from_msg(seen.header.stamp)
+            )
+            translation_m, rotation = pose_of(transform.transform)
+            back = None
+        boxes = [
+            (each, lift(each.class_id, surface, seen.camera, rotation, translation_m))
+            for each, surface in seen.found
+        ]
+        header = header_of(seen.header, target or seen.header.frame_id)
+        message = detections_3d(header, boxes, back)
+        self._3d.publish(message)
+        if self._markers.get_subscription_count() > 0:
+            self._markers.publish(markers_of(message))
+
+    def _warn(self, text: str) -> None:
+        """Log a warning, the same one not again for a while."""
+        kind, now_s = text[:60], time.monotonic()
+        if now_s - self._said.get(kind, -math.inf) > _QUIET_S:
+            self._said[kind] = now_s
+            self.get_logger().warning(text)
+
+
+def _coloured(detection: Detection, color: Color, surface: Surface | None) -> Detection:
+    """Return a detection with the name of its colour."""
+    if detection.colour:
+        return detection
+    name, share = colour_name(color, detection.box_px, surface.mask if surface else None)
+    return replace(detection, colour=name, colour_share=share)
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node."""
+    return run_node(ObjectDetector, args)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

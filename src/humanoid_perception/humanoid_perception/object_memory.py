@@ -1,0 +1,366 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Remember what is where: the node `object_memory`."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+import math
+import struct
+import sys
+import time
+from typing import Any
+
+from humanoid_common.errors import NodeStartError
+from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.parameters import parameter
+from humanoid_common.qos import LATCHED, SENSOR, STATE
+from humanoid_common.running import run_node
+from humanoid_interfaces.srv import FindObjects
+from humanoid_perception.finding import find, Question, QuestionError
+from humanoid_perception.images import depth_of, ImageError
+from humanoid_perception.markers import markers_of
+from humanoid_perception.memory import MemorySettings, ObjectMemory
+from humanoid_perception.memory_conversions import (
+    detections_of,
+    planar_of,
+    pose_of,
+    remembered_object,
+    sighting_of,
+    time_of,
+)
+from humanoid_perception.places import load_places, Places, places_path, PlacesError
+from humanoid_perception.remembered import Pose2, RememberedThing
+from humanoid_perception.visibility import View
+import numpy as np
+import numpy.typing as npt
+from rclpy.clock import Clock, ClockType
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.serialization import deserialize_message
+from rclpy.time import Time
+from sensor_msgs.msg import CameraInfo, Image
+from std_msgs.msg import Header
+from std_srvs.srv import Trigger
+from tf2_ros import Buffer, TransformException, TransformListener
+from vision_msgs.msg import Detection3DArray
+from visualization_msgs.msg import MarkerArray
+
+__all__ = ['MemoryParameters', 'ObjectMemoryNode', 'main']
+
+Array = npt.NDArray[np.float64]
+_CLASSES = (
+    *('mug', 'bottle', 'can', 'bowl', 'ball', 'apple', 'orange', 'box', 'cube', 'book'),
+    'person',
+)
+_WAIT_S = 1.0
+"""How long a transform is waited for that belongs to detections."""
+_BACK_S = 0.5
+"""Stamps that go back further mean that the simulation was reset."""
+_BEFORE = Duration(seconds=0.1)
+"""Over which time the turn of the camera is measured."""
+_KEPT_DEPTHS = 8
+_QUIET_S = 10.0
+
+
+@dataclass(frozen=True)
+class MemoryParameters:
+    """The parameters of the node."""
+
+    map_frame: str = parameter('map', 'The frame in which things are remembered, if it exists.')
+    odom_frame: str = parameter('odom', 'The frame in which they are remembered otherwise.')
+    places_file: str = parameter(
+        '',
+        'The named places: a YAML file, or the name of one of this package (apartment).',
+        read_only=True,
+    )
+    classes: tuple[str, ...] = parameter(
+        _CLASSES, 'What the detector can name; a question for another class is refused.'
+    )
+    birth_sightings: int = parameter(
+        3, 'In how many pictures a thing has to be detected.', at_least=1, at_most=100
+    )
+    max_range_m: float = parameter(
+        3.0, 'How far away things are that have to be detected (m).', at_least=0.1, at_most=50.0
+    )
+    min_size_px: float = parameter(
+        8.0, 'How small they may be in the picture (pixels).', at_least=1.0, at_most=1000.0
+    )
+    max_things: int = parameter(300, 'How many are kept.', at_least=1, at_most=10_000)
+    follows_jumps: bool = parameter(
+        True, 'Whether things move along when the localisation corrects itself by a jump.'
+    )
+    publish_rate_hz: float = parameter(
+        2.0, 'How often changes are published at most (Hz).', at_least=0.1, at_most=20.0,
+        read_only=True,
+    )  # fmt: skip
+
+
+class ObjectMemoryNode(Node):
+    """
+    Turns `detections_3d` into things with ids: `objects`, `objects/markers`, `find_objects`.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__('object_memory', **options)
+        self._parameters = NodeParameters(self, MemoryParameters, self._change)
+        told = self._parameters.current
+        self._memory = ObjectMemory(_settings(told))
+        self._places = self._load_places(told.places_file)
+        self._frame = ''
+        self._anchor: Pose2 = (0.0, 0.0, 0.0)
+        self._stamp_s = -math.inf
+        self._pending: deque[tuple[float, Any]] = deque(maxlen=10)
+        self._camera: CameraInfo | None = None
+        self._camera_bytes = b''
+        self._depths: dict[bytes, bytes] = {}
+        self._said: dict[str, float] = {}
+        self._published: dict[str, tuple[Any, ...]] | None = None
+        self._buffer = Buffer()
+        self._listener = TransformListener(self._buffer, self)
+        self._objects = self.create_publisher(Detection3DArray, 'objects', LATCHED)
+        self._markers = self.create_publisher(MarkerArray, 'objects/markers', LATCHED)
+        self.create_subscription(Detection3DArray, 'detections_3d', self._take, STATE)
+        self.create_subscription(
+            CameraInfo, 'camera/camera_info', self._take_camera, SENSOR, raw=True
+        )
+        self.create_subscription(
+            Image, 'camera/depth/image_raw', self._take_depth, SENSOR, raw=True
+        )
+        self.create_service(FindObjects, 'find_objects', self._find)
+        self.create_service(Trigger, '~/forget', self._forget)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(1.0 / told.publish_rate_hz, self._publish, clock=steady)
+
+    def _load_places(self, given: str) -> Places:
+        try:
+            path = places_path(given)
+            return load_places(path) if path else Places()
+        except PlacesError as error:
+            raise NodeStartError(f'object_memory cannot start. {error}') from error
+
+    def _change(self, told: MemoryParameters) -> None:
+        self._memory.settings = _settings(told)
+
+    def _take_camera(self, data: bytes) -> None:
+        """Take what the camera is like; it seldom changes, apart from the stamp."""
+        if data[12:] != self._camera_bytes:
+            self._camera_bytes = data[12:]
+            self._camera = deserialize_message(data, CameraInfo)
+
+    def _take_depth(self, data: bytes) -> None:
+        """Keep a depth image as it came, until detections of its time have come."""
+        self._depths[data[4:12]] = data
+        while len(self._depths) > _KEPT_DEPTHS:
+            del self._depths[next(iter(self._depths))]
+
+    def _take(self, message: Detection3DArray) -> None:
+        stamp_s = _seconds(message.header.stamp)
+        if stamp_s < self._stamp_s - _BACK_S:
+            self.get_logger().info('Time went back: everything that was seen is forgotten.')
+            self._clear()
+        if stamp_s > self._stamp_s:
+            self._stamp_s = stamp_s
+            self._pending.append((time.monotonic(), message))
+        self._work()
+
+    def _clear(self) -> None:
+        self._memory.clear()
+        self._pending.clear()
+        self._depths.clear()
+        self._stamp_s = -math.inf
+
+    def _work(self) -> None:
+        """Take the detections into account whose transforms have come."""
+        while self._pending:
+            received_s, message = self._pending[0]
+            try:
+                self._look(message)
+            except TransformException as error:
+                if time.monotonic() - received_s < _WAIT_S:
+                    return
+                self._warn(
+                    f"Detections in the frame '{message.header.frame_id}' are left out, as it is "
+                    f'not known where that is: {error}'
+                )
+            self._pending.popleft()
+
+    def _look(self, message: Detection3DArray) -> None:
+        """Take the detections of one picture into account."""
+        told, stamp = self._parameters.current, Time.from_msg(message.header.stamp)
+        position, rotation = self._pose(told.odom_frame, message.header.frame_id, stamp)
+        view = self._view(told.odom_frame, message.header.stamp, stamp)
+        if view is None:
+            self._warn(
+                'Detections are left out, as no camera/camera_info has come: without it, nobody '
+                'knows what should be visible.'
+            )
+            return
+        self._choose_frame(told)
+        sightings = [
+            sighting_of(each, *_placed(self._anchor, position, rotation))
+            for each in message.detections
+        ]
+        self._memory.look(
+            _seen_from(self._anchor, view), [each for each in sightings if each], self._anchor
+        )
+
+    def _choose_frame(self, told: MemoryParameters) -> None:
+        """Remember in the map if there is one; express what is known in it when it appears."""
+        try:
+            found = self._buffer.lookup_transform(told.map_frame, told.odom_frame, Time())
+        except TransformException:
+            self._frame = self._frame or told.odom_frame
+            return
+        self._anchor = planar_of(found.transform)
+        if self._frame == told.odom_frame and self._frame != told.map_frame:
+            self._memory.move_all(self._anchor)
+        self._frame = told.map_frame
+
+    def _pose(self, frame: str, child: str, stamp: Time) -> tuple[Array, Array]:
+        if frame == child:
+            return np.zeros(3), np.eye(3)
+        return pose_of(self._buffer.lookup_transform(frame, child, stamp).transform)
+
+    def _view(self, frame: str, key: Any, stamp: Time) -> View | None:
+        """Return from where a picture was taken, with its depths; None without camera_info."""
+        camera = self._camera
+        if camera is None or not camera.width or not camera.k[0] > 0.0 or not camera.k[4] > 0.0:
+            return None
+        position, rotation = self._pose(frame, camera.header.frame_id, stamp)
+        turn_rad_s = 0.0
+        try:
+            _, before = self._pose(frame, camera.header.frame_id, stamp - _BEFORE)
+            cosine = (float(np.trace(before.T @ rotation)) - 1.0) / 2.0
+            turn_rad_s = math.acos(max(-1.0, min(1.0, cosine))) / (_BEFORE.nanoseconds * 1e-9)
+        except (TransformException, ValueError):
+            pass
+        return View(
+            stamp.nanoseconds * 1e-9,
+            position,
+            rotation,
+            camera.width,
+            camera.height,
+            camera.k[0],
+            camera.k[4],
+            camera.k[2],
+            camera.k[5],
+            self._depth_at(key),
+            turn_rad_s,
+        )
+
+    def _depth_at(self, stamp: Any) -> npt.NDArray[np.float32] | None:
+        """Return the depth image with a stamp, if it came."""
+        for order in '<>':
+            data = self._depths.get(struct.pack(f'{order}iI', stamp.sec, stamp.nanosec))
+            if data is not None:
+                try:
+                    return depth_of(deserialize_message(data, Image))
+                except ImageError as error:
+                    self._warn(f'What is hidden is not known. {error}')
+        return None
+
+    def _publish(self) -> None:
+        """Publish what is remembered, if it has changed."""
+        self._work()
+        if not self._frame:
+            return
+        things = self._memory.things
+        now = {thing.object_id: _looks(thing) for thing in things}
+        if self._published is not None and not _has_changed(self._published, now):
+            return
+        self._published = now
+        header = self._header()
+        message = detections_of(header, things)
+        self._objects.publish(message)
+        self._markers.publish(markers_of(message))
+
+    def _header(self) -> Header:
+        header = Header(frame_id=self._frame or self._parameters.current.odom_frame)
+        header.stamp = time_of(self._stamp_s if math.isfinite(self._stamp_s) else 0.0)
+        return header
+
+    def _find(self, request: Any, response: Any) -> Any:
+        question = Question(request.class_id, request.colour, request.place, request.id)
+        response.header = self._header()
+        classes = self._parameters.current.classes
+        try:
+            found = find(question, self._memory.things, self._places, classes)
+        except QuestionError as error:
+            response.success, response.message = False, str(error)
+            return response
+        response.objects = [remembered_object(thing, self._places) for thing in found]
+        response.success = True
+        response.message = '' if found else 'Nothing of that kind is remembered.'
+        return response
+
+    def _forget(self, _: Any, response: Any) -> Any:
+        count = len(self._memory.things)
+        self._memory.clear()
+        response.success, response.message = True, f'{count} things are forgotten.'
+        return response
+
+    def _warn(self, text: str) -> None:
+        """Log a warning, the same one not again for a while."""
+        kind, now_s = text[:40], time.monotonic()
+        if now_s - self._said.get(kind, -math.inf) > _QUIET_S:
+            self._said[kind] = now_s
+            self.get_logger().warning(text)
+
+
+def _settings(told: MemoryParameters) -> MemorySettings:
+    return MemorySettings(
+        birth_sightings=told.birth_sightings,
+        max_range_m=told.max_range_m,
+        min_size_px=told.min_size_px,
+        max_things=told.max_things,
+        follows_jumps=told.follows_jumps,
+    )
+
+
+def _seconds(stamp: Any) -> float:
+    return float(stamp.sec) + float(stamp.nanosec) * 1e-9
+
+
+def _placed(anchor: Pose2, position: Array, rotation: Array) -> tuple[Array, Array]:
+    """Return a pose in the odometry's frame as one in that of the memory."""
+    c, s = math.cos(anchor[2]), math.sin(anchor[2])
+    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    return turn @ position + np.array([anchor[0], anchor[1], 0.0]), turn @ rotation
+
+
+def _seen_from(anchor: Pose2, view: View) -> View:
+    position, rotation = _placed(anchor, view.position_m, view.rotation)
+    return View(**{**view.__dict__, 'position_m': position, 'rotation': rotation})
+
+
+def _looks(thing: RememberedThing) -> tuple[Any, ...]:
+    """Return what is published of a thing."""
+    return thing.class_id, thing.colour, thing.position_m.copy(), thing.size_m.copy()
+
+
+def _has_changed(old: dict[str, tuple[Any, ...]], new: dict[str, tuple[Any, ...]]) -> bool:
+    """Whether a thing is new, gone, has another name, or is elsewhere by more than noise."""
+    if old.keys() != new.keys():
+        return True
+    return any(
+        old[name][:2] != looks[:2]
+        or np.abs(old[name][2] - looks[2]).max() > 0.015
+        or np.abs(old[name][3] - looks[3]).max() > 0.02
+        for name, looks in new.items()
+    )
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node."""
+    return run_node(ObjectMemoryNode, args)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

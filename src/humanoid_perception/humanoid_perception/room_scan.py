@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Look around: sweeps of the head, and turns of the body between them."""
+
+from __future__ import annotations
+
+import math
+import struct
+from typing import Any, TYPE_CHECKING
+
+from action_msgs.msg import GoalStatus
+from builtin_interfaces.msg import Duration
+from geometry_msgs.msg import Twist
+from humanoid_common.qos import STATE
+from humanoid_common.single_goal import GoalAborted, RunningGoal
+from humanoid_interfaces.action import ScanRoom
+from humanoid_interfaces.srv import FindObjects
+from humanoid_perception.scanning import Coverage, FieldOfView, head_sweep, stances
+from nav2_msgs.action import Spin
+import numpy as np
+from rclpy.action import ActionClient
+from tf2_ros import TransformException
+from vision_msgs.msg import Detection3DArray
+
+if TYPE_CHECKING:
+    from humanoid_perception.gaze import Gaze
+
+__all__ = ['RoomScan']
+
+_LATE_S = 5.0
+_SETTLED_S = 0.3
+"""After a motion, the camera still shakes for so long."""
+_BLIND_S = 0.3
+"""How long each stop lasts where nobody detects anything."""
+_LOOK_S = 3.0
+"""How long detections are waited for at each stop."""
+_STUCK_S = 5.0
+_SLOWEST_RAD_S = 0.2
+_THERE_RAD = 0.08
+_ANSWER_S = 2.0
+
+
+class RoomScan:
+    """
+    The work of `scan_room`.
+
+    Parameters
+    ----------
+    gaze
+        The node, with its head and its parameters.
+
+    """
+
+    def __init__(self, gaze: Gaze) -> None:
+        self._gaze = gaze
+        self._find = gaze.create_client(FindObjects, 'find_objects')
+        self._spin = ActionClient(gaze, Spin, 'spin')
+        self._looks_s: list[float] = []
+        self._end_s = math.inf
+
+    async def work(self, goal: RunningGoal) -> None:
+        """Look around; the result says how much was seen, also if that was not all."""
+        begin_s = self._gaze.now_s()
+        allowed = goal.request.time_allowance
+        allowed_s = allowed.sec + allowed.nanosec * 1e-9
+        self._end_s = begin_s + allowed_s if allowed_s > 0.0 else math.inf
+        detections = self._gaze.create_subscription(
+            Detection3DArray, 'detections_3d', self._take, STATE, raw=True
+        )
+        try:
+            with self._gaze.head.listening():
+                await self._sweeps(goal)
+        finally:
+            self._gaze.destroy_subscription(detections)
+            self._gaze.head.stop()
+            goal.result.seen = await self._ids_since(begin_s)
+
+    def _take(self, data: bytes) -> None:
+        """Take note of the time of a picture in which things were looked for."""
+        order = '<' if data[1] else '>'
+        seconds, nanoseconds = struct.unpack_from(f'{order}iI', data, 4)
+        self._looks_s.append(seconds + nanoseconds * 1e-9)
+
+    async def _sweeps(self, goal: RunningGoal) -> None:
+        gaze, told = self._gaze, self._gaze.parameters.current
+        await gaze.head.wait(goal)
+        chain = gaze.head.chain
+        field = await gaze.field_of_view(goal)
+        tip = await gaze.head.known(goal, chain.tip_frame, told.camera_frame)
+        base = await gaze.head.known(goal, told.odom_frame, chain.base_frame)
+        up_rad, down_rad = told.scan_up_rad, told.scan_down_rad
+        views = head_sweep(field, chain.lower_rad, chain.upper_rad, up_rad, down_rad)
+        coverage = Coverage(up_rad, down_rad)
+        coverage.want_only([(base @ chain.pose(view) @ tip)[:3, :3] for view in views], field)
+        turns = []
+        if goal.request.turn_body:
+            coverage = Coverage(up_rad, min(down_rad, chain.upper_rad[1] + field.down_rad))
+            turns = stances(field, chain.lower_rad[0], chain.upper_rad[0])
+        for turn_rad in (0.0, *turns):
+            if turn_rad:
+                await self._move(goal, np.array([0.0, views[0][1]]))
+                await self._turn(goal, turn_rad)
+            for view in views:
+                await self._move(goal, np.array(view))
+                await self._look(goal, coverage, field)
+        await self._move(goal, np.zeros(2))
+
+    async def _move(self, goal: RunningGoal, angles_rad: Any) -> None:
+        """Turn the head somewhere, and wait until it is there."""
+        head, gaze = self._gaze.head, self._gaze
+        duration_s = head.duration_s(angles_rad, gaze.parameters.current.max_velocity)
+        head.send(angles_rad, duration_s)
+        late_s = gaze.now_s() + duration_s + _LATE_S
+        while not head.has_arrived():
+            if gaze.now_s() > late_s:
+                raise GoalAborted('HEAD_FAILED', 'The head does not come to where it shall look.')
+            await self._tick(goal)
+
+    async def _tick(self, goal: RunningGoal) -> None:
+        await goal.tick()
+        if self._gaze.now_s() > self._end_s:
+            raise GoalAborted('TIMEOUT', 'The look around took longer than its time allowance.')
+
+    async def _sleep(self, goal: RunningGoal, duration_s: float) -> None:
+        end_s = self._gaze.now_s() + duration_s
+        while self._gaze.now_s() < end_s <= self._gaze.now_s() + duration_s + 1.0:
+            await self._tick(goal)
+
+    async def _look(self, goal: RunningGoal, coverage: Coverage, field: FieldOfView) -> None:
+        """Hold still until pictures were looked at; take note of what was to be seen."""
+        gaze, told = self._gaze, self._gaze.parameters.current
+        await self._sleep(goal, _SETTLED_S)
+        since_s = gaze.now_s()
+        self._looks_s.clear()
+        is_blind = gaze.count_publishers('detections_3d') == 0
+        until_s = since_s + (_BLIND_S if is_blind else _LOOK_S)
+        while since_s <= gaze.now_s() < until_s:
+            if sum(each >= since_s for each in self._looks_s) >= told.looks_per_view:
+                break
+            await self._tick(goal)
+        try:
+            camera = gaze.head.pose(told.odom_frame, told.camera_frame)
+        except TransformException as error:
+            raise GoalAborted('NO_TRANSFORM', f'The camera is lost: {error}') from None
+        coverage.see(camera[:3, :3], field)
+        goal.result.coverage = coverage.share
+        goal.publish_feedback(ScanRoom.Feedback(coverage=coverage.share))
+
+    async def _turn(self, goal: RunningGoal, turn_rad: float) -> None:
+        """Turn the body on the spot."""
+        choice = self._gaze.parameters.current.turn_with
+        if choice == 'spin' or (choice == 'auto' and self._spin.server_is_ready()):
+            await self._turn_with_spin(goal, turn_rad)
+        else:
+            await self._turn_with_velocities(goal, turn_rad)
+        await self._sleep(goal, 2.0 * _SETTLED_S)
+
+    async def _turn_with_spin(self, goal: RunningGoal, turn_rad: float) -> None:
+        """Let Nav2 turn the body, which looks out for obstacles."""
+        if not self._spin.server_is_ready():
+            raise GoalAborted('BODY_FAILED', "The action 'spin' is not there. Start navigation.")
+        limit_s = 4.0 * turn_rad / self._gaze.parameters.current.turn_rate_rad_s + _LATE_S
+        request = Spin.Goal(target_yaw=turn_rad, time_allowance=Duration(sec=math.ceil(limit_s)))
+        sent = self._spin.send_goal_async(request)
+        handle = await goal.answer(sent, _LATE_S, 'BODY_FAILED', "'spin' does not answer.")
+        if not handle.accepted:
+            raise GoalAborted('BODY_FAILED', "'spin' rejected the turn of the body.")
+        end = handle.get_result_async()
+        try:
+            while not end.done():
+                await self._tick(goal)
+        except BaseException:
+            handle.cancel_goal_async()
+            raise
+        if end.result().status != GoalStatus.STATUS_SUCCEEDED:
+            reason = getattr(end.result().result, 'error_msg', '')
+            raise GoalAborted('BODY_FAILED', reason or "'spin' could not turn the body.")
+
+    async def _turn_with_velocities(self, goal: RunningGoal, turn_rad: float) -> None:
+        """Turn the body by cmd_vel until the odometry says that it has turned so far."""
+        gaze, told = self._gaze, self._gaze.parameters.current
+        before = self._heading()
+        turned, best, best_s = 0.0, 0.0, gaze.now_s()
+        try:
+            while turned < turn_rad - _THERE_RAD:
+                rate = min(told.turn_rate_rad_s, max(turn_rad - turned, _SLOWEST_RAD_S))
+                velocity = Twist()
+                velocity.angular.z = rate
+                gaze.velocities.publish(velocity)
+                await self._tick(goal)
+                now, now_s = self._heading(), gaze.now_s()
+                turned += math.remainder(now - before, math.tau)
+                before = now
+                if turned > best + 0.05 or now_s < best_s:
+                    best, best_s = max(turned, best), now_s
+                if now_s - best_s > _STUCK_S:
+                    raise GoalAborted(
+                        'BODY_FAILED',
+                        f'The body does not turn: {turned:.2f} of {turn_rad:.2f} rad. Something '
+                        'may be in its way, or cmd_vel has another publisher.',
+                    )
+        finally:
+            gaze.velocities.publish(Twist())
+
+    def _heading(self) -> float:
+        told = self._gaze.parameters.current
+        try:
+            pose = self._gaze.head.pose(told.odom_frame, self._gaze.head.chain.base_frame)
+        except TransformException as error:
+            raise GoalAborted('NO_TRANSFORM', f'The body is lost: {error}') from None
+        return math.atan2(pose[1, 0], pose[0, 0])
+
+    async def _ids_since(self, begin_s: float) -> list[str]:
+        """Return the ids of what was seen since then, if somebody remembers."""
+        if not self._find.service_is_ready():
+            return []
+        answer = self._find.call_async(FindObjects.Request())
+        for _ in range(round(_ANSWER_S * 20)):
+            if answer.done():
+                return [
+                    each.id
+                    for each in answer.result().objects
+                    if each.last_seen.sec + each.last_seen.nanosec * 1e-9 >= begin_s
+                ]
+            await self._gaze.goals.tick()
+        return []

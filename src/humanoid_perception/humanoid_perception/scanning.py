@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which poses of the head let a camera see all around, and what has been seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ['Coverage', 'FieldOfView', 'head_sweep', 'stances']
+
+Array = npt.NDArray[np.float64]
+_CELL_RAD = math.radians(5.0)
+_OVERLAP = 0.85
+"""Which part of the field of view of a look is new at most, so that nothing is only ever cut."""
+
+
+@dataclass(frozen=True)
+class FieldOfView:
+    """What a camera sees around its optical axis, in rad; half angles, by its matrix."""
+
+    left_rad: float
+    right_rad: float
+    up_rad: float
+    down_rad: float
+
+    @classmethod
+    def of(
+        cls, width: int, height: int, fx: float, fy: float, cx: float, cy: float
+    ) -> FieldOfView:
+        """
+        Return that of a camera_info; pixels.
+
+        Raises
+        ------
+        ValueError
+            It has no size or no focal length.
+
+        """
+        if not (width > 0 and height > 0 and 0.0 < fx < math.inf and 0.0 < fy < math.inf):
+            raise ValueError('The camera_info has no size or no focal length.')
+        return cls(
+            math.atan(cx / fx),
+            math.atan((width - cx) / fx),
+            math.atan(cy / fy),
+            math.atan((height - cy) / fy),
+        )
+
+    @property
+    def width_rad(self) -> float:
+        """From left to right."""
+        return self.left_rad + self.right_rad
+
+    @property
+    def height_rad(self) -> float:
+        """From above to below."""
+        return self.up_rad + self.down_rad
+
+    def contains(self, directions: Array) -> npt.NDArray[np.bool_]:
+        """Return which directions (N, 3) of the optical frame are in the picture."""
+        x, y, z = directions.T
+        ahead = z > 1e-6
+        safe = np.where(ahead, z, 1.0)
+        return np.asarray(
+            ahead
+            & (x / safe >= -math.tan(self.left_rad))
+            & (x / safe <= math.tan(self.right_rad))
+            & (y / safe >= -math.tan(self.up_rad))
+            & (y / safe <= math.tan(self.down_rad))
+        )
+
+
+def head_sweep(
+    field: FieldOfView,
+    lower_rad: Sequence[float] | Array,
+    upper_rad: Sequence[float] | Array,
+    up_rad: float,
+    down_rad: float,
+) -> list[tuple[float, float]]:
+    """
+    Plan yaws and pitches of a head that see all that it can, row by row, to and fro.
+
+    Parameters
+    ----------
+    field
+        What the camera sees.
+    lower_rad, upper_rad
+        The limits of yaw and pitch; looking down is positive.
+    up_rad, down_rad
+        Up to which elevation above, and down to which below the horizon all is to be seen.
+
+    Returns
+    -------
+    list of tuple
+        Yaw and pitch, in rad.
+
+    """
+    pitches = _spread(
+        max(-up_rad + field.up_rad, lower_rad[1]),
+        min(down_rad - field.down_rad, upper_rad[1]),
+        field.height_rad,
+    )
+    yaws = _spread(lower_rad[0], upper_rad[0], field.width_rad)
+    return [
+        (yaw, pitch)
+        for number, pitch in enumerate(pitches)
+        for yaw in (reversed(yaws) if number % 2 else yaws)
+    ]
+
+
+def _spread(low: float, high: float, field_rad: float) -> list[float]:
+    """Return evenly spaced angles, so that fields of view overlap."""
+    if high <= low:
+        return [0.5 * (low + high)]
+    count = math.ceil((high - low) / (_OVERLAP * field_rad)) + 1
+    return [float(each) for each in np.linspace(low, high, count)]
+
+
+def stances(field: FieldOfView, lower_rad: float, upper_rad: float) -> list[float]:
+    """
+    Plan by how much the body turns between sweeps of its head to see all around.
+
+    Parameters
+    ----------
+    field
+        What the camera sees.
+    lower_rad, upper_rad
+        The limits of the head's yaw.
+
+    Returns
+    -------
+    list of float
+        A turn in rad before each further sweep.
+
+    """
+    reach_rad = (upper_rad - lower_rad) + _OVERLAP * field.width_rad
+    count = max(math.ceil(math.tau / reach_rad), 1)
+    return [math.tau / count] * (count - 1)
+
+
+class Coverage:
+    """
+    Which directions have been seen, of those that are wanted.
+
+    Parameters
+    ----------
+    up_rad, down_rad
+        From which elevation below the horizon to which above.
+
+    """
+
+    def __init__(self, up_rad: float, down_rad: float) -> None:
+        rows = max(math.ceil((up_rad + down_rad) / _CELL_RAD), 1)
+        columns = math.ceil(math.tau / _CELL_RAD)
+        elevations = -down_rad + (np.arange(rows) + 0.5) * (up_rad + down_rad) / rows
+        azimuths = (np.arange(columns) + 0.5) * math.tau / columns
+        azimuth, elevation = (each.ravel() for each in np.meshgrid(azimuths, elevations))
+        self._directions = np.stack(
+            [
+                np.cos(elevation) * np.cos(azimuth),
+                np.cos(elevation) * np.sin(azimuth),
+                np.sin(elevation),
+            ],
+            axis=1,
+        )
+        self._weights = np.cos(elevation)
+        self._wanted = np.ones(len(azimuth), dtype=bool)
+        self._seen = np.zeros(len(azimuth), dtype=bool)
+
+    def want_only(self, rotations: Sequence[Array], field: FieldOfView) -> None:
+        """Want only what some looks see; rotations (3, 3) of the optical frame."""
+        wanted = np.zeros_like(self._wanted)
+        for rotation in rotations:
+            wanted |= field.contains(self._directions @ rotation)
+        self._wanted = wanted
+
+    def see(self, rotation: Array, field: FieldOfView) -> None:
+        """Take note of a look; its rotation (3, 3) is that of the optical frame."""
+        self._seen |= field.contains(self._directions @ rotation)
+
+    @property
+    def share(self) -> float:
+        """Return the part of the wanted directions that was seen, by solid angle, from 0 to 1."""
+        total = float(self._weights[self._wanted].sum())
+        seen = float(self._weights[self._wanted & self._seen].sum())
+        return seen / total if total else 0.0

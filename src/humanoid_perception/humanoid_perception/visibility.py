@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether a camera that looks at a remembered thing should see it, and what it sees there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import enum
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ['Evidence', 'View', 'evidence_at']
+
+Array = npt.NDArray[np.float64]
+DepthImage = npt.NDArray[np.float32]
+
+_SAMPLES = 12
+"""How many pixels of a window are looked at along each of its sides, at most."""
+_FOOT = 0.3
+"""The lower part of a box that is left out, since what carries the thing begins there."""
+_BORDER_PX = 3.0
+"""How far from the border of the picture a box has to be to be expected."""
+_MARGIN_M = 0.03
+"""How much nearer than a box something has to be to hide it."""
+
+
+class Evidence(enum.Enum):
+    """What a look says of a thing that was not detected in it."""
+
+    NONE = 'none'
+    """Nothing: it is out of the picture, too far, too small there, or hidden."""
+    UNKNOWN = 'unknown'
+    """It should be in the picture; without depth, nothing more is known."""
+    SOMETHING = 'something'
+    """There is something where it was."""
+    EMPTY = 'empty'
+    """There is nothing where it was: one sees what is behind."""
+
+
+@dataclass(frozen=True)
+class View:
+    """
+    A look of a camera, in the frame of the memory.
+
+    Attributes
+    ----------
+    time_s
+        When.
+    position_m
+        Where the camera is; (3,).
+    rotation
+        Of its optical frame (z ahead, x right, y down) in the frame of the memory; (3, 3).
+    width_px, height_px, fx_px, fy_px, cx_px, cy_px
+        The camera's picture and matrix.
+    depth_m
+        The depth image, along the optical axis, not finite or zero where nothing is known; may be
+        of another size than the picture, and may be missing.
+    turn_rad_s
+        How fast the camera turns, which makes its pose less sure.
+
+    """
+
+    time_s: float
+    position_m: Array
+    rotation: Array
+    width_px: int
+    height_px: int
+    fx_px: float
+    fy_px: float
+    cx_px: float
+    cy_px: float
+    depth_m: DepthImage | None = None
+    turn_rad_s: float = 0.0
+
+    def in_camera(self, points_m: Array) -> Array:
+        """Return points (N, 3) of the memory's frame in the optical frame."""
+        return np.asarray((points_m - self.position_m) @ self.rotation)
+
+    def project(self, points_m: Array) -> tuple[Array, Array]:
+        """Return pixels (N, 2) of points (N, 3) of the memory's frame, and their depths (N,)."""
+        x, y, depth = self.in_camera(points_m).T
+        ahead = np.maximum(depth, 1e-6)
+        columns = self.fx_px * x / ahead + self.cx_px
+        rows = self.fy_px * y / ahead + self.cy_px
+        return np.stack([columns, rows], axis=1), depth
+
+    def range_to(self, point_m: Array) -> float:
+        """Return the distance of a point (3,) from the camera in m."""
+        return float(np.linalg.norm(point_m - self.position_m))
+
+
+def corners_of(position_m: Array, size_m: Array, yaw_rad: float) -> Array:
+    """Return the corners (8, 3) of an upright box."""
+    signs = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
+    return np.asarray(position_m + (0.5 * signs * size_m) @ _turn(yaw_rad).T)
+
+
+def _turn(yaw_rad: float) -> Array:
+    c, s = math.cos(yaw_rad), math.sin(yaw_rad)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def evidence_at(
+    view: View,
+    position_m: Array,
+    size_m: Array,
+    yaw_rad: float = 0.0,
+    *,
+    sigma_m: float = 0.02,
+    max_range_m: float = 3.5,
+    min_size_px: float = 8.0,
+) -> Evidence:
+    """
+    Judge what a look that did not detect a thing says about it.
+
+    Parameters
+    ----------
+    view
+        The look.
+    position_m, size_m, yaw_rad
+        The upright box of the thing, in the frame of the view; (3,), (3,).
+    sigma_m
+        How unsure its position is.
+    max_range_m, min_size_px
+        How far away, and how small in the picture, a thing may be that has to be detected.
+
+    Returns
+    -------
+    Evidence
+        With depth, points that lie within the box, grown by the uncertainty, tell that something
+        is there; its lowest part does not count, as the table would be in it.
+
+    """
+    if view.range_to(position_m) > max_range_m:
+        return Evidence.NONE
+    pixels, depths = view.project(corners_of(position_m, size_m, yaw_rad))
+    if depths.min() < 0.05:
+        return Evidence.NONE
+    low, high = pixels.min(axis=0), pixels.max(axis=0)
+    border = np.array([view.width_px, view.height_px]) - 1.0 - _BORDER_PX
+    if (low < _BORDER_PX).any() or (high > border).any() or (high - low).min() < min_size_px:
+        return Evidence.NONE
+    if view.depth_m is None:
+        return Evidence.UNKNOWN
+    return _measured(view, position_m, size_m, yaw_rad, sigma_m, low, high)
+
+
+def _measured(
+    view: View,
+    position_m: Array,
+    size_m: Array,
+    yaw_rad: float,
+    sigma_m: float,
+    low_px: Array,
+    high_px: Array,
+) -> Evidence:
+    """Judge by the depths within the rectangle of a box in the picture."""
+    columns = np.linspace(low_px[0], high_px[0], min(_SAMPLES, int(high_px[0] - low_px[0]) + 1))
+    rows = np.linspace(low_px[1], high_px[1], min(_SAMPLES, int(high_px[1] - low_px[1]) + 1))
+    rays, depths = _rays(view, columns, rows)
+    is_measured = np.isfinite(depths) & (depths > 0.0)
+    points = (view.position_m + rays * np.where(is_measured, depths, 0.0)[:, None]) - position_m
+    inside = points @ _turn(yaw_rad)
+    half = 0.5 * size_m
+    grown = half + _MARGIN_M + sigma_m
+    above = inside[:, 2] > half[2] * (2.0 * _FOOT - 1.0)
+    is_there = is_measured & above & (np.abs(inside) <= grown).all(axis=1)
+    forward = view.rotation[:, 2]
+    reach = float((np.abs(forward) @ np.maximum(half, 0.0)) + _MARGIN_M + sigma_m)
+    distance = float(forward @ (position_m - view.position_m))
+    is_hidden = is_measured & (depths < distance - reach)
+    count = len(depths)
+    if is_there.sum() >= 0.12 * count:
+        return Evidence.SOMETHING
+    # Where no depth is measured, nothing may be near, or the camera may be blind.
+    is_unknown = ~is_measured & ~np.isposinf(depths)
+    if is_hidden.sum() + is_unknown.sum() > 0.3 * count:
+        return Evidence.NONE
+    return Evidence.EMPTY
+
+
+def _rays(view: View, columns: Array, rows: Array) -> tuple[Array, Array]:
+    """Return rays (N, 3) of depth 1 through pixels, in the memory's frame, and depths (N,)."""
+    assert view.depth_m is not None
+    u, v = (each.ravel() for each in np.meshgrid(columns, rows))
+    height, width = view.depth_m.shape
+    at = (
+        np.clip((v * height / view.height_px).round().astype(int), 0, height - 1),
+        np.clip((u * width / view.width_px).round().astype(int), 0, width - 1),
+    )
+    x, y = (u - view.cx_px) / view.fx_px, (v - view.cy_px) / view.fy_px
+    rays = np.stack([x, y, np.ones_like(x)], axis=1) @ view.rotation.T
+    return rays, view.depth_m[at].astype(float)

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Test named places: what stands on what, and in which room."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from humanoid_perception.places import load_places, Places, PlacesError, Room, Surface
+import numpy as np
+import pytest
+
+SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+PLACES = Places(
+    'map',
+    (Surface('table', SQUARE, 0.7), Surface('board', SQUARE, 0.3), Surface('floor', SQUARE, 0.0)),
+    (Room('den', ((-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0))),),
+)
+APARTMENT = Path(__file__).parents[1] / 'config' / 'places_apartment.yaml'
+
+
+@pytest.mark.parametrize(
+    ('at', 'name'),
+    [
+        ((0.5, 0.5, 0.7), 'table'),
+        ((0.5, 0.5, 0.75), 'table'),
+        ((0.5, 0.5, 0.66), 'table'),
+        ((1.06, 0.5, 0.7), 'table'),
+        ((1.06, 1.06, 0.7), ''),
+        ((0.5, 0.5, 0.9), ''),
+        ((0.5, 0.5, 0.34), 'board'),
+        ((3.0, 0.5, 0.7), ''),
+        ((float('nan'), 0.5, 0.7), ''),
+    ],
+)
+def test_a_thing_stands_on_the_surface_below_it(at: tuple[float, float, float], name: str) -> None:
+    """A little beside or above it is on it, too; far above is not."""
+    assert PLACES.surface_at(*at) == name
+
+
+def test_rooms_are_where_they_are() -> None:
+    """Outside of all there is none."""
+    assert PLACES.room_at(0.0, 0.0) == 'den'
+    assert PLACES.room_at(2.5, 0.0) == ''
+    assert Places().room_at(0.0, 0.0) == ''
+
+
+def test_a_point_is_in_a_concave_outline_where_it_seems_to_be() -> None:
+    """An L has a corner that is not part of it."""
+    corner = ((0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0))
+    places = Places('map', (), (Room('l', corner),))
+    random = np.random.default_rng(1)
+    for x, y in random.uniform(-0.5, 2.5, (500, 2)):
+        inside = 0.0 < x < 2.0 and 0.0 < y < 2.0 and not (x > 1.0 and y > 1.0)
+        assert (places.room_at(x, y) == 'l') == inside
+
+
+def test_the_apartment_has_what_people_name() -> None:
+    """Where its things are at home."""
+    places = load_places(APARTMENT)
+    assert places.frame == 'map'
+    assert {'kitchen_table', 'kitchen_counter', 'sideboard', 'kitchen', 'hall'} <= set(
+        places.names
+    )
+    assert places.surface_at(-0.15, 2.1, 0.71) == 'kitchen_table'
+    assert places.room_at(-0.15, 2.1) == 'kitchen'
+
+
+@pytest.mark.parametrize(
+    ('text', 'part'),
+    [
+        ('surfaces: {a: 1}', 'list'),
+        ('surfaces: [{name: a, outline: [[0, 0], [1, 0], [1, 1]]}]', "'height'"),
+        ('surfaces: [{name: a, hight: 1}]', "Did you mean 'height'?"),
+        ('rooms: [{name: a, outline: [[0, 0], [1, 0]]}]', 'three or more corners'),
+        ('rooms: [{name: a, outline: [[0, 0], [1, 0], [1, .nan]]}]', 'number of metres'),
+        ('rooms: [{name: 3, outline: [[0, 0], [1, 0], [1, 1]]}]', 'text'),
+        ('room: []', "Did you mean 'rooms'?"),
+        ('frame: 3', 'frame'),
+        ('- 3', 'table'),
+        ('{', 'cannot be read'),
+        (
+            'rooms: [{name: a, outline: [[0, 0], [1, 0], [1, 1]]}, '
+            '{name: a, outline: [[0, 0], [1, 0], [1, 1]]}]',
+            "two places are called 'a'",
+        ),
+    ],
+)
+def test_a_mistake_in_the_file_is_named(tmp_path: Path, text: str, part: str) -> None:
+    """With the file, and what was meant."""
+    path = tmp_path / 'places.yaml'
+    path.write_text(text)
+    with pytest.raises(PlacesError, match='places.yaml') as error:
+        load_places(path)
+    assert part in str(error.value)
+
+
+def test_an_empty_file_of_places_is_no_table(tmp_path: Path) -> None:
+    """Nothing was saved: that is said."""
+    path = tmp_path / 'places.yaml'
+    path.write_text('')
+    with pytest.raises(PlacesError, match='table'):
+        load_places(path)
+
+
+def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
+    """As a sentence."""
+    with pytest.raises(PlacesError, match='cannot be read'):
+        load_places(tmp_path / 'nothing.yaml')

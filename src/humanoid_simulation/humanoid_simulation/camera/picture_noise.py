@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Noise of colour and depth pictures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from humanoid_simulation.camera.painter import Color, Depth
+import numpy as np
+
+
+@dataclass(frozen=True)
+class PictureNoise:
+    """How far pixels are off: standard deviations, of each pixel by itself."""
+
+    color: float = 0.0
+    """Of red, green and blue, in steps of 255."""
+    depth_1_m: float = 0.0
+    """Of the depth in metres at a distance of 1 m. It grows with the square of the distance, as
+    that of cameras which triangulate (stereo or structured light) does."""
+    seed: int = 0
+
+
+class PictureNoiseSource:
+    """Adds noise to pictures, each time another."""
+
+    def __init__(self, noise: PictureNoise) -> None:
+        """Begin with the first numbers of the seed."""
+        self._noise = noise
+        self._random = np.random.default_rng(noise.seed)
+
+    def spoil(self, color: Color | None, depth: Depth | None) -> None:
+        """Add noise in place to the pictures that are given; where nothing is seen, none."""
+        if color is not None and self._noise.color > 0.0:
+            errors = self._random.standard_normal(color.shape, np.float32) * self._noise.color
+            color[:] = np.clip(np.rint(color + errors), 0, 255)
+        if depth is not None and self._noise.depth_1_m > 0.0:
+            errors = self._random.standard_normal(depth.shape, np.float32) * self._noise.depth_1_m
+            seen = np.isfinite(depth)
+            depth[seen] = np.maximum(depth[seen] + errors[seen] * depth[seen] ** 2, 0.0)

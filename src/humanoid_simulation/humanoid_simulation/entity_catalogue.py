@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the entities of a world are, and how to find them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import IntEnum
+import re
+
+from humanoid_control.backends import Array
+from humanoid_simulation.backend import MujocoBackend
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.rotations import rotated
+import numpy as np
+
+PERSON = 'person'
+
+
+class Category(IntEnum):
+    """What kind of thing an entity is, numbered as in simulation_interfaces/EntityCategory."""
+
+    UNKNOWN = 0
+    OBJECT = 1
+    ROBOT = 2
+    HUMAN = 3
+    DYNAMIC_OBJECT = 4
+    STATIC_OBJECT = 5
+
+
+@dataclass(frozen=True)
+class Description:
+    """What an entity is."""
+
+    category: Category
+    text: str = ''
+    tags: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """A part of the world: all within a distance of a box, which may be a point."""
+
+    low_m: Array
+    high_m: Array
+    margin_m: float = 0.0
+
+    def meets(self, low_m: Array, high_m: Array) -> bool:
+        """Tell whether another box along the axes of the world reaches into the region."""
+        gaps = np.maximum(np.maximum(self.low_m - high_m, low_m - self.high_m), 0.0)
+        return bool(gaps @ gaps <= self.margin_m**2)
+
+
+@dataclass(frozen=True)
+class Tags:
+    """Which tags are wanted; none: they do not matter."""
+
+    tags: tuple[str, ...] = ()
+    all_of_them: bool = False
+    """Whether one of them is not enough."""
+
+    def match(self, tags: Sequence[str]) -> bool:
+        """Tell whether something with tags is wanted."""
+        found = [tag in tags for tag in self.tags]
+        return not found or (all(found) if self.all_of_them else any(found))
+
+
+@dataclass(frozen=True)
+class Search:
+    """Which entities are wanted: those to which all of it applies that is not empty."""
+
+    pattern: str = ''
+    """A regular expression for the whole name."""
+    categories: tuple[int, ...] = ()
+    tags: Tags = field(default_factory=Tags)
+    region: Region | None = field(default=None, compare=False)
+
+
+class EntityCatalogue:
+    """Describes the entities of a world; who knows better can change what is said of one."""
+
+    def __init__(self, backend: MujocoBackend) -> None:
+        """Take the world."""
+        self._backend = backend
+        self._changed: dict[str, Description] = {}
+
+    def describe(self, entity: str) -> Description:
+        """Return what an entity is."""
+        if entity in self._changed:
+            return self._changed[entity]
+        scene = self._backend.scene
+        thing = next((thing for thing in scene.things if thing.name == entity), None)
+        if thing is None:
+            return Description(Category.ROBOT, 'a humanoid robot', ('robot', 'humanoid'))
+        words = [word for word in (thing.colour, thing.kind or thing.shape) if word]
+        if thing.kind == PERSON:
+            category = Category.HUMAN
+        else:
+            category = Category.STATIC_OBJECT if thing.is_fixed else Category.DYNAMIC_OBJECT
+        state = self._backend.entity_state(entity)
+        room = scene.room_at(float(state.position_m[0]), float(state.position_m[1]))
+        where = f', in the {room.name.replace("_", " ")}' if room else ''
+        article = 'an' if words[0][0] in 'aeiou' else 'a'
+        tags = (*words, room.name) if room else tuple(words)
+        return Description(category, f'{article} {" ".join(words)}{where}', tags)
+
+    def change(self, entity: str, description: Description) -> None:
+        """Say something else of an entity from now on."""
+        self._changed[entity] = description
+
+    def forget(self, entities: Sequence[str] | None = None) -> None:
+        """Say of some entities, by default all, what is known of them by themselves."""
+        for entity in list(self._changed) if entities is None else entities:
+            self._changed.pop(entity, None)
+
+    def found(self, search: Search) -> list[str]:
+        """Return the names of what is searched for; raise SimulationError for a wrong pattern."""
+        try:
+            pattern = re.compile(search.pattern) if search.pattern else None
+        except re.error as error:
+            raise SimulationError(
+                f"The filter '{search.pattern}' is no regular expression: {error}. All that begin "
+                "with 'red' are 'red.*'."
+            ) from error
+        return [
+            entity
+            for entity in self._backend.entities
+            if (pattern is None or pattern.fullmatch(entity)) and self._fits(entity, search)
+        ]
+
+    def _fits(self, entity: str, search: Search) -> bool:
+        """Tell whether an entity is what is searched for, whatever its name."""
+        if search.region is not None and not search.region.meets(*self._world_box(entity)):
+            return False
+        description = self.describe(entity)
+        if search.categories and not _is_one_of(description.category, search.categories):
+            return False
+        return search.tags.match(description.tags)
+
+    def _world_box(self, entity: str) -> tuple[Array, Array]:
+        """Return two corners, (3,), of the box around an entity along the axes of the world."""
+        low_m, high_m = self._backend.entity_box(entity)
+        state = self._backend.entity_state(entity)
+        middle_m, half_m = (low_m + high_m) / 2.0, (high_m - low_m) / 2.0
+        axes = np.array([rotated(axis, state.orientation) for axis in np.eye(3)])
+        centre_m, reach_m = state.position_m + middle_m @ axes, half_m @ np.abs(axes)
+        return centre_m - reach_m, centre_m + reach_m
+
+
+def _is_one_of(category: Category, wanted: Sequence[int]) -> bool:
+    """Tell whether a category is wanted: an object may be one that moves, or one that does not."""
+    is_object = category in (Category.DYNAMIC_OBJECT, Category.STATIC_OBJECT)
+    return category in wanted or (is_object and Category.OBJECT in wanted)

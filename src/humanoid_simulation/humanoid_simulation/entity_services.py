@@ -1,0 +1,316 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The services of `simulation_interfaces` about entities: robots, and things of the scene."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+import re
+from typing import Any
+
+from geometry_msgs.msg import Vector3
+from humanoid_control.dynamics.rotations import from_quaternion, to_rpy
+from humanoid_control.hosting.topics.filling import fill_quaternion, fill_stamp, fill_vector
+from humanoid_simulation.backend import EntityState, MujocoBackend
+from humanoid_simulation.backend.entities import check_bounds
+from humanoid_simulation.conversions import entity_state, vector
+from humanoid_simulation.entity_catalogue import (
+    Category,
+    Description,
+    Region,
+    Search,
+    Tags,
+)
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.rotations import from_rpy, product, rotated
+from humanoid_simulation.scene import Scene
+from humanoid_simulation.scene.resources import spawnables, thing_from
+from humanoid_simulation.scene.scene import FLOOR, WORLD
+from humanoid_simulation.service_results import answering, Refusal, refusing, refusing_resource
+from humanoid_simulation.simulated_world import SimulatedWorld
+import numpy as np
+from rclpy.node import Node
+from simulation_interfaces.msg import (
+    Bounds,
+    EntityFilters,
+    EntityInfo,
+    NamedPose,
+    Resource,
+    Result,
+    Spawnable,
+    TagsFilter,
+)
+from simulation_interfaces.msg import EntityState as EntityStateMessage
+from simulation_interfaces.srv import (
+    DeleteEntity,
+    GetEntities,
+    GetEntitiesStates,
+    GetEntityBounds,
+    GetEntityInfo,
+    GetEntityState,
+    GetNamedPoseBounds,
+    GetNamedPoses,
+    GetSpawnables,
+    SetEntityInfo,
+    SetEntityState,
+    SpawnEntity,
+)
+
+MOST_THINGS = 1000
+"""In a scene: each one costs time in every step, and when another one comes or goes."""
+_NAME = re.compile(r'[A-Za-z0-9_][A-Za-z0-9_. -]*')
+_NAMESPACE = re.compile(r'/?([A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*)?')
+
+
+class EntityServices:
+    """Find entities, tell of them, put them somewhere, make and delete them."""
+
+    def __init__(self, node: Node, world: SimulatedWorld) -> None:
+        """Offer the services below the name of the node."""
+        self._world, self._catalogue = world, world.catalogue
+        for kind, name, do in (
+            (GetEntities, 'get_entities', self._find),
+            (GetEntitiesStates, 'get_entities_states', self._tell_states),
+            (GetEntityState, 'get_entity_state', self._tell_state),
+            (GetEntityInfo, 'get_entity_info', self._tell_info),
+            (GetEntityBounds, 'get_entity_bounds', self._tell_bounds),
+            (GetNamedPoses, 'get_named_poses', self._tell_places),
+            (GetNamedPoseBounds, 'get_named_pose_bounds', self._tell_place_bounds),
+            (GetSpawnables, 'get_spawnables', self._tell_spawnables),
+            (SetEntityState, 'set_entity_state', self._put),
+            (SetEntityInfo, 'set_entity_info', self._set_info),
+            (SpawnEntity, 'spawn_entity', self._spawn),
+            (DeleteEntity, 'delete_entity', self._delete),
+        ):
+            node.create_service(kind, f'~/{name}', answering(do))
+
+    @property
+    def _backend(self) -> MujocoBackend:
+        return self._world.backend
+
+    def _find(self, request: GetEntities.Request, response: GetEntities.Response) -> None:
+        """Name the entities that a filter lets through."""
+        response.entities = self._catalogue.found(_search(request.filters))
+
+    def _tell_states(
+        self, request: GetEntitiesStates.Request, response: GetEntitiesStates.Response
+    ) -> None:
+        """Tell where the entities are that a filter lets through."""
+        response.entities = self._catalogue.found(_search(request.filters))
+        response.states = [self._state(entity) for entity in response.entities]
+
+    def _tell_state(self, request: GetEntityState.Request, response: Any) -> None:
+        """Tell where an entity is."""
+        response.state = self._state(self._entity(request.entity))
+
+    def _tell_info(self, request: GetEntityInfo.Request, response: Any) -> None:
+        """Tell what an entity is."""
+        description = self._catalogue.describe(self._entity(request.entity))
+        info = EntityInfo(description=description.text, tags=list(description.tags))
+        info.category.category = int(description.category)
+        response.info = info
+
+    def _set_info(self, request: SetEntityInfo.Request, _: Any) -> None:
+        """Say something else of an entity from now on."""
+        entity, info = self._entity(request.entity), request.info
+        if info.category.category not in list(Category):
+            raise SimulationError(
+                f'There is no category {info.category.category}. Give one of EntityCategory.'
+            )
+        category = Category(info.category.category)
+        self._catalogue.change(entity, Description(category, info.description, tuple(info.tags)))
+
+    def _tell_bounds(self, request: GetEntityBounds.Request, response: Any) -> None:
+        """Tell how much room an entity takes, in its axes."""
+        response.bounds = _box(*self._backend.entity_box(self._entity(request.entity)))
+
+    def _tell_places(self, request: GetNamedPoses.Request, response: Any) -> None:
+        """Tell the places that the scene names: where to stand."""
+        for place in self._backend.scene.places:
+            surface = place.surface.name if place.surface else ''
+            tags = [tag for tag in (place.room, surface) if tag]
+            if not _tags(request.tags).match(tags):
+                continue
+            words = f'where one reaches {surface}' if surface else 'where one can stand'
+            pose = NamedPose(name=place.name, description=words, tags=tags)
+            pose.pose.position.x, pose.pose.position.y = place.x_m, place.y_m
+            fill_quaternion(pose.pose.orientation, from_rpy(0.0, 0.0, place.yaw_rad))
+            response.poses.append(pose)
+
+    def _tell_place_bounds(self, request: GetNamedPoseBounds.Request, _: Any) -> None:
+        """Refuse: a place is where to stand, not room for something."""
+        with refusing(Result.RESULT_NOT_FOUND):
+            self._backend.scene.place(request.name)
+        raise Refusal(
+            Result.RESULT_FEATURE_UNSUPPORTED,
+            'Places have no bounds here: they are poses to stand in. The room that a thing takes '
+            'is told by get_entity_bounds.',
+        )
+
+    def _tell_spawnables(self, _: Any, response: GetSpawnables.Response) -> None:
+        """Tell the classes of things that can be made; files are not looked for."""
+        for uri, description, thing in spawnables():
+            half_m = np.array(thing.box_m) / 2.0
+            response.spawnables.append(
+                Spawnable(
+                    entity_resource=Resource(uri=uri),
+                    description=description,
+                    spawn_bounds=_box(-half_m, half_m),
+                )
+            )
+
+    def _put(self, request: SetEntityState.Request, _: Any) -> None:
+        """Put an entity somewhere; what it is fixed to does not let it go."""
+        entity = self._entity(request.entity)
+        self._world.refuse_after_failure()
+        with refusing(SetEntityState.Response.INVALID_POSE):
+            self._backend.set_entity_state(entity, self._in_world(request.state))
+
+    def _spawn(self, request: SpawnEntity.Request, response: SpawnEntity.Response) -> None:
+        """Make a thing."""
+        name = self._new_name(request)
+        if not _NAMESPACE.fullmatch(request.entity_namespace):
+            raise Refusal(
+                SpawnEntity.Response.NAMESPACE_INVALID,
+                f"'{request.entity_namespace}' is no namespace. Things have no topics: leave it "
+                'empty.',
+            )
+        resource, scene = request.entity_resource, self._backend.scene
+        if len(scene.things) >= MOST_THINGS:
+            raise SimulationError(f'The scene has {MOST_THINGS} things already. Delete some.')
+        initial = request.initial_pose
+        with refusing(SpawnEntity.Response.INVALID_POSE):
+            state = self._in_world(EntityStateMessage(header=initial.header, pose=initial.pose))
+            check_bounds(state)
+        with refusing_resource(SpawnEntity.Response):
+            thing = thing_from(resource.uri, resource.resource_string, name)
+        x_m, y_m, z_m = state.position_m.tolist()
+        rpy_rad = to_rpy(from_quaternion(state.orientation))
+        placed = replace(thing, name=name, position_m=(x_m, y_m, z_m), orientation_rpy_rad=rpy_rad)
+        self._world.change_scene(replace(scene, things=(*scene.things, placed)))
+        response.entity_name = name
+
+    def _delete(self, request: DeleteEntity.Request, _: Any) -> None:
+        """Take a thing out of the world."""
+        entity, scene = self._entity(request.entity), self._backend.scene
+        things = tuple(thing for thing in scene.things if thing.name != entity)
+        if len(things) == len(scene.things):
+            raise SimulationError(
+                f"'{entity}' is a robot, and robots stay: the parameter robots of the simulator "
+                'says which ones there are.'
+            )
+        self._world.change_scene(_without(scene, entity, things))
+        self._catalogue.forget([entity])
+
+    def _entity(self, name: str) -> str:
+        """Return the entity that is meant, or raise Refusal."""
+        with refusing(Result.RESULT_NOT_FOUND):
+            return self._backend.entity(name)
+
+    def _state(self, entity: str) -> EntityStateMessage:
+        """Return the message of the state of an entity."""
+        state, message = self._backend.entity_state(entity), EntityStateMessage()
+        message.header.frame_id = WORLD
+        fill_stamp(message.header.stamp, self._backend.time_s)
+        fill_vector(message.pose.position, state.position_m)
+        fill_quaternion(message.pose.orientation, state.orientation)
+        fill_vector(message.twist.linear, state.linear_velocity_m_s)
+        fill_vector(message.twist.angular, state.angular_velocity_rad_s)
+        fill_vector(message.acceleration.linear, state.linear_acceleration_m_s2)
+        fill_vector(message.acceleration.angular, state.angular_acceleration_rad_s2)
+        return message
+
+    def _in_world(self, message: EntityStateMessage) -> EntityState:
+        """Return a state that is given in a frame: the world, or an entity as it is now."""
+        state, frame = entity_state(message), message.header.frame_id
+        if frame in ('', WORLD):
+            return state
+        outer = self._backend.entity_state(frame)
+        turn = outer.orientation
+        return EntityState(
+            outer.position_m + rotated(state.position_m, turn),
+            product(turn, state.orientation),
+            rotated(state.linear_velocity_m_s, turn),
+            rotated(state.angular_velocity_rad_s, turn),
+        )
+
+    def _new_name(self, request: SpawnEntity.Request) -> str:
+        """Return the name of what is to be made."""
+        name, taken = request.name, {*self._backend.entities, FLOOR, WORLD}
+        if not name and request.allow_renaming:
+            words = re.findall(r'\w+', request.entity_resource.uri.rpartition('/')[2])
+            name = '_'.join(words) or 'thing'
+        if not _NAME.fullmatch(name):
+            raise Refusal(
+                SpawnEntity.Response.NAME_INVALID,
+                f"An entity cannot be called '{name}'. Give a name of letters, digits and '_', or "
+                'allow_renaming.',
+            )
+        if name in taken and not request.allow_renaming:
+            raise Refusal(
+                SpawnEntity.Response.NAME_NOT_UNIQUE,
+                f"There is a '{name}' already. Give another name, or allow_renaming.",
+            )
+        numbered = (f'{name}_{number}' for number in range(2, len(taken) + 3))
+        return name if name not in taken else next(each for each in numbered if each not in taken)
+
+
+def _without(scene: Scene, entity: str, things: tuple[Any, ...]) -> Scene:
+    """Return a scene without an entity, its surfaces, and what places say of these."""
+    gone = {
+        surface.name
+        for surface in scene.surfaces
+        if surface.name == entity or surface.name.startswith(f'{entity}/')
+    }
+    places = tuple(
+        replace(place, surface=None) if place.surface and place.surface.name in gone else place
+        for place in scene.places
+    )
+    surfaces = tuple(surface for surface in scene.surfaces if surface.name not in gone)
+    return replace(scene, things=things, places=places, surfaces=surfaces)
+
+
+def _search(filters: EntityFilters) -> Search:
+    """Return what is searched for."""
+    return Search(
+        filters.filter,
+        tuple(category.category for category in filters.categories),
+        _tags(filters.tags),
+        _region(filters.bounds),
+    )
+
+
+def _region(bounds: Bounds) -> Region | None:
+    """Return a part of the world; None is all of it."""
+    if bounds.type == Bounds.TYPE_EMPTY:
+        return None
+    points = [vector(point) for point in bounds.points]
+    if not np.isfinite(points).all():
+        raise SimulationError('The bounds have a number that is not finite.')
+    if bounds.type == Bounds.TYPE_BOX and len(points) == 2 and (points[0] <= points[1]).all():
+        return Region(points[0], points[1])
+    if bounds.type == Bounds.TYPE_SPHERE and len(points) == 2 and points[1][0] >= 0.0:
+        return Region(points[0], points[0], float(points[1][0]))
+    if bounds.type == Bounds.TYPE_CONVEX_HULL:
+        raise Refusal(
+            Result.RESULT_FEATURE_UNSUPPORTED,
+            'Entities cannot be searched for in a convex hull here. Give a box or a sphere.',
+        )
+    raise SimulationError(
+        'The bounds mean nothing. Give a box by its lower and its upper corner, or a sphere by '
+        'its middle and (radius, 0, 0).'
+    )
+
+
+def _box(low_m: Any, high_m: Any) -> Bounds:
+    """Return the message of a box."""
+    bounds = Bounds(type=Bounds.TYPE_BOX)
+    for corner_m in (low_m, high_m):
+        point = Vector3()
+        fill_vector(point, corner_m)
+        bounds.points.append(point)
+    return bounds
+
+
+def _tags(wanted: TagsFilter) -> Tags:
+    """Return which tags are wanted."""
+    return Tags(tuple(wanted.tags), wanted.filter_mode == TagsFilter.FILTER_MODE_ALL)

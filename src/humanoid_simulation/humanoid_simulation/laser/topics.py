@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The laser scanners of all robots of a world, on ROS topics."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from humanoid_common.qos import SENSOR
+from humanoid_control.hosting.every import Every
+from humanoid_control.hosting.topics.filling import fill_stamp, topic
+from humanoid_simulation.laser.parameters import LaserParameters
+from humanoid_simulation.laser.scanner import LaserScanner, Ranges, ScanNoise
+import mujoco
+import numpy as np
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from sensor_msgs.msg import LaserScan
+
+FRAME = 'laser'
+"""The frame of the scanner, without the prefix of the robot."""
+
+
+@dataclass(eq=False)
+class _Scanner:
+    """A scanner, and where it says what it measured."""
+
+    core: LaserScanner
+    message: LaserScan
+    ranges_m: Ranges
+    publisher: Publisher
+
+
+class ScanTopics:
+    """
+    The topic `scan` of each robot, at a rate in simulated time, while somebody subscribes.
+
+    Sweeps show the state at the time of their stamp, in a copy of it: physics is not touched.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        links: Mapping[str, str],
+        model: mujoco.MjModel,
+        settings: LaserParameters,
+        prefix: str = '',
+        noise: ScanNoise = ScanNoise(),
+    ) -> None:
+        """
+        Announce the topics; raise SimulationError if the model has not the links.
+
+        Parameters
+        ----------
+        node
+            The node that publishes.
+        links
+            The name of the scanner's link in the model, by the namespace of its robot relative to
+            the node: '' for a robot alone.
+        model
+            The compiled world.
+        settings
+            The pattern of the rays, and the rate.
+        prefix
+            What the names of frames begin with.
+        noise
+            How far ranges are off.
+
+        """
+        self._model, self._data = model, mujoco.MjData(model)
+        pattern = settings.scan_pattern
+
+        def cores(model: mujoco.MjModel) -> list[LaserScanner]:
+            return [
+                LaserScanner(model, link, pattern, noise, number)
+                for number, link in enumerate(links.values())
+            ]
+
+        self._make_cores = cores
+        self._scanners = [
+            _scanner(node, robot, core, prefix) for robot, core in zip(links, cores(model))
+        ]
+        self.change(settings)
+
+    def change_model(self, model: mujoco.MjModel) -> None:
+        """Measure another world from now on."""
+        self._model, self._data = model, mujoco.MjData(model)
+        for scanner, core in zip(self._scanners, self._make_cores(model)):
+            scanner.core = core
+
+    def change(self, settings: LaserParameters) -> None:
+        """Publish at another rate."""
+        self._due = Every(settings.scan_rate_hz)
+        for scanner in self._scanners:
+            rate_hz = settings.scan_rate_hz
+            scanner.message.scan_time = 1.0 / rate_hz if rate_hz > 0.0 else 0.0
+
+    def tell(self, time_s: float, data: mujoco.MjData) -> None:
+        """Publish what the scanners measure in a state, if it is time."""
+        if not self._due.is_due(time_s):
+            return
+        wanted = [each for each in self._scanners if each.publisher.get_subscription_count()]
+        if wanted:
+            self._data.qpos[:] = data.qpos
+            mujoco.mj_kinematics(self._model, self._data)
+        for scanner in wanted:
+            fill_stamp(scanner.message.header.stamp, time_s)
+            scanner.ranges_m[:] = scanner.core.sweep(self._data, round(time_s * 1e9))
+            scanner.publisher.publish(scanner.message)
+
+
+def _scanner(node: Node, robot: str, core: LaserScanner, prefix: str) -> _Scanner:
+    """Announce the topic of a scanner."""
+    pattern = core.pattern
+    message = LaserScan(
+        angle_min=pattern.angle_min_rad,
+        angle_max=pattern.angle_max_rad,
+        angle_increment=pattern.angle_increment_rad,
+        range_min=pattern.range_min_m,
+        range_max=pattern.range_max_m,
+        ranges=[0.0] * pattern.rays,
+    )
+    message.header.frame_id = f'{prefix}{FRAME}'
+    ranges_m = np.frombuffer(message.ranges, dtype=np.float32)
+    publisher = node.create_publisher(LaserScan, topic(robot, 'scan'), SENSOR)
+    return _Scanner(core, message, ranges_m, publisher)

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cut walls at a height, so that one sees into the rooms."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+import math
+
+from humanoid_simulation.scene.furniture import HANGING
+from humanoid_simulation.scene.parts import Part
+from humanoid_simulation.scene.scene import Thing, WALL
+from humanoid_simulation.scene.walls import CEILING
+
+
+def parts_below(thing: Thing, height_m: float) -> tuple[Part, ...]:
+    """
+    Return the parts of a thing that are shown if walls are cut at a height.
+
+    What hangs on walls and ceilings above that height is left out; furniture is never cut.
+    """
+    shown = tuple(part for part in thing.parts if part.is_shown)
+    if thing.kind == WALL:
+        cut = (_cut(part, height_m - thing.position_m[2]) for part in shown)
+        return tuple(part for part in cut if part is not None)
+    if thing.kind in (CEILING, *HANGING):
+        top_m = thing.position_m[2] + max(part.position_m[2] for part in shown)
+        return shown if top_m <= height_m else ()
+    return shown
+
+
+def _cut(part: Part, height_m: float) -> Part | None:
+    """Return the lower piece of an upright box; None if there is none."""
+    # What is papered on a wall is a board on its edge: see `walls`.
+    upright = 1 if math.isclose(part.orientation_rpy_rad[0], math.pi / 2.0) else 2
+    size, (x_m, y_m, z_m) = list(part.size_m), part.position_m
+    if part.shape != 'box':
+        return part if z_m <= height_m else None
+    low_m = z_m - size[upright] / 2.0
+    top_m = min(z_m + size[upright] / 2.0, height_m)
+    if top_m - low_m < 1e-3:
+        return None
+    size[upright] = top_m - low_m
+    return replace(part, size_m=tuple(size), position_m=(x_m, y_m, (low_m + top_m) / 2.0))

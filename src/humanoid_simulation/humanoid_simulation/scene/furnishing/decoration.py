@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What makes a home: lamps, plants, rugs, pictures, windows, and people."""
+
+from __future__ import annotations
+
+from humanoid_simulation.scene.furnishing.shapes import (
+    box,
+    DARK,
+    darker,
+    lighter,
+    mesh,
+    Parts,
+    rod,
+    STEEL,
+    WHITE,
+    WOOD,
+)
+from humanoid_simulation.scene.parts import Finish, Part, Vector
+
+_SKIN = (0.87, 0.68, 0.55)
+
+
+def plant(size: Vector, rgb: Vector) -> Parts:
+    """Return a pot with leaves."""
+    length, _, height = size
+    radius = length / 2
+    pot = 0.3 * height
+    leaves = [
+        Part('sphere', (0.62 * radius,), at, colour_rgba=(*rgb, 1.0), collides=False)
+        for at in (
+            (0.3 * radius, 0.2 * radius, 0.62 * height),
+            (-0.3 * radius, 0.25 * radius, 0.7 * height),
+            (0.0, -0.4 * radius, 0.66 * height),
+            (0.05 * radius, 0.0, 0.86 * height),
+        )
+    ]
+    return [
+        rod(0.7 * radius, pot, (0, 0, pot / 2), (0.6, 0.33, 0.22)),
+        rod(0.12 * radius, 0.4 * height, (0, 0, pot + 0.2 * height), WOOD),
+        *leaves,
+    ]
+
+
+def lamp(size: Vector, rgb: Vector) -> Parts:
+    """Return a lamp that stands: a foot, a pole and a shade."""
+    length, width, height = size
+    shade = min(0.3, 0.4 * height)
+    return [
+        rod(0.4 * length, 0.02, (0, 0, 0.01), DARK),
+        rod(0.012, height - shade, (0, 0, (height - shade) / 2), STEEL),
+        mesh('shade', (length, width, shade), (0, 0, height - shade / 2), rgb, shine=0.5),
+    ]
+
+
+def ceiling_lamp(size: Vector, rgb: Vector) -> Parts:
+    """Return a lamp that hangs down from where it is placed."""
+    length, width, height = size
+    shade = 0.6 * height
+    return [
+        rod(0.008, height - shade, (0, 0, -(height - shade) / 2), DARK, hits=False),
+        mesh('shade', (length, width, shade), (0, 0, shade / 2 - height), rgb, shine=0.6),
+    ]
+
+
+def rug(size: Vector, rgb: Vector) -> Parts:
+    """Return a rug, which is seen only: nobody trips over it."""
+    finish = Finish('stripes', rgb, darker(rgb, 0.8), 0.25)
+    border = (size[0] + 0.1, size[1] + 0.1, 0.003)
+    top = Part('box', size, (0, 0, 0.004), colour_rgba=(*rgb, 1.0), collides=False, finish=finish)
+    return [box(border, (0, 0, 0.0025), darker(rgb, 0.6), hits=False), top]
+
+
+def picture(size: Vector, rgb: Vector) -> Parts:
+    """Return a picture in a frame, which is seen only, to hang on a wall."""
+    length, width, height = size
+    blot = (0.004, 0.35 * width, 0.35 * height)
+    return [
+        box((length, width, height), (0, 0, 0), darker(WOOD, 0.7), hits=False),
+        box((0.004, width - 0.06, height - 0.06), (length / 2, 0, 0), rgb, hits=False),
+        box(blot, (length / 2 + 0.002, -0.15 * width, 0.1 * height), lighter(rgb), hits=False),
+        box(blot, (length / 2 + 0.003, 0.12 * width, -0.12 * height), darker(rgb), hits=False),
+    ]
+
+
+def window(size: Vector, rgb: Vector) -> Parts:
+    """Return a window, which is seen only, to hang on a wall."""
+    length, width, height = size
+    panes = [
+        Part(
+            'box',
+            (0.004, width / 2 - 0.07, height - 0.1),
+            (length / 2, side * (width / 4 - 0.005), 0.0),
+            colour_rgba=(*rgb, 1.0),
+            collides=False,
+            shine=0.4,
+        )
+        for side in (-1, 1)
+    ]
+    return [box((length, width, height), (0, 0, 0), WHITE, hits=False), *panes]
+
+
+def person(size: Vector, rgb: Vector) -> Parts:
+    """Return the figure of a standing person, in a shirt of a colour."""
+    _, width, height = size
+    trousers = (0.22, 0.24, 0.33)
+    hip, shoulder = 0.48 * height, 0.82 * height
+    legs = [rod(0.075, hip, (0, side * 0.09, hip / 2), trousers) for side in (-1, 1)]
+    shoes = [box((0.26, 0.1, 0.08), (0.04, side * 0.09, 0.04), DARK) for side in (-1, 1)]
+    arms = [
+        rod(0.045, 0.36 * height, (0, side * (width / 2 - 0.05), 0.64 * height), rgb)
+        for side in (-1, 1)
+    ]
+    hands = [
+        Part('sphere', (0.05,), (0, side * (width / 2 - 0.05), 0.44 * height),
+             colour_rgba=(*_SKIN, 1.0))
+        for side in (-1, 1)
+    ]  # fmt: skip
+    trunk = shoulder - hip
+    return [
+        *legs,
+        *shoes,
+        *arms,
+        *hands,
+        Part(
+            'box', (0.2, width - 0.2, trunk), (0, 0, hip + trunk / 2), colour_rgba=(*rgb, 1.0),
+            is_shown=False,
+        ),
+        mesh('trunk', (0.24, width - 0.16, trunk + 0.04), (0, 0, hip + trunk / 2), rgb),
+        rod(0.05, 0.08, (0, 0, shoulder + 0.03), _SKIN),
+        Part('sphere', (0.105,), (0, 0, height - 0.11), colour_rgba=(*_SKIN, 1.0)),
+        Part(
+            'sphere', (0.108,), (-0.022, 0, height - 0.088), colour_rgba=(0.25, 0.17, 0.1, 1.0),
+            collides=False,
+        ),
+    ]  # fmt: skip

@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Draw the map of a scene that a perfect mapper would have drawn.
+
+Every part of what is fixed is taken for convex: its section with a layer of heights is a convex
+polygon, and a cell is occupied if the polygon and the cell overlap (separating axes). What is seen
+but does not collide, such as leaves, counts too, unless it is thinner than a cell: a scanner sees
+it, and paper on a wall makes that no thicker.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
+import math
+
+from humanoid_control.dynamics.rotations import from_rpy
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.scene.meshes import triangles_of
+from humanoid_simulation.scene.outlines import Point
+from humanoid_simulation.scene.parts import MESH, Part
+from humanoid_simulation.scene.scene import Scene, Thing
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Cells = NDArray[np.int8]
+UNKNOWN, FREE, OCCUPIED = -1, 0, 100
+"""As in `nav_msgs/msg/OccupancyGrid`."""
+_MOST_CELLS = 25_000_000
+_ROUND = 24
+_TOUCH_M = 1e-6
+"""Cells that only touch a solid are free of it."""
+
+
+@dataclass(frozen=True)
+class Layer:
+    """The heights between which what is solid is drawn."""
+
+    low_m: float = 0.1
+    high_m: float = 1.4
+
+    def __post_init__(self) -> None:
+        """Refuse a layer that is upside down."""
+        if not (math.isfinite(self.low_m) and self.low_m <= self.high_m < 100.0):
+            raise SimulationError(
+                f'There is nothing between {self.low_m:g} and {self.high_m:g} m. Give the lower '
+                'height first; both may be the same, for the map of one height.'
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class OccupancyMap:
+    """Cells (rows, columns), from the smaller coordinates to the larger ones."""
+
+    cells: Cells
+    resolution_m: float
+    origin_m: Point
+    """The corner of the first cell."""
+
+    def at(self, x_m: float, y_m: float) -> int:
+        """Return the value of the cell in which a point is; UNKNOWN outside of the map."""
+        column = math.floor((x_m - self.origin_m[0]) / self.resolution_m)
+        row = math.floor((y_m - self.origin_m[1]) / self.resolution_m)
+        rows, columns = self.cells.shape
+        inside = 0 <= row < rows and 0 <= column < columns
+        return int(self.cells[row, column]) if inside else UNKNOWN
+
+
+def occupancy_of(
+    scene: Scene,
+    layer: Layer = Layer(),
+    resolution_m: float = 0.05,
+    start_m: Point = (0.0, 0.0),
+    margin_m: float = 1.0,
+) -> OccupancyMap:
+    """
+    Return the map of a scene.
+
+    What is fixed within the layer is occupied, with its inside; what a mapper that
+    begins at `start_m` reaches without leaving the map is free; all else is unknown.
+
+    :param margin_m: how far the map goes beyond what is drawn, and round the start
+    """
+    if not 0.005 <= resolution_m <= 1.0:
+        raise SimulationError(f'Cells cannot have edges of {resolution_m:g} m. Give 0.005 to 1 m.')
+    sections = [
+        section
+        for thing in scene.things
+        if thing.is_fixed
+        for part in thing.parts
+        if (part.collides or (part.is_shown and min(part.box_m) >= resolution_m))
+        and len(section := section_of(thing, part, layer)) > 0
+    ]
+    cells, origin_m = _empty(sections, resolution_m, start_m, margin_m)
+    for section in sections:
+        _fill(cells, (section - origin_m) / resolution_m, _TOUCH_M / resolution_m)
+    start = (np.array(start_m) - origin_m) / resolution_m
+    row, column = int(start[1]), int(start[0])
+    if cells[row, column] == OCCUPIED:
+        raise SimulationError(
+            f'The mapper cannot begin at {start_m[0]:g}, {start_m[1]:g}: something solid is there.'
+        )
+    _flood(cells, row, column)
+    return OccupancyMap(cells, resolution_m, (float(origin_m[0]), float(origin_m[1])))
+
+
+def section_of(thing: Thing, part: Part, layer: Layer) -> Array:
+    """Return the corners, (n, 2), of the part of a layer that a solid part takes; n may be 0."""
+    corners = _corners(part) @ from_rpy(*part.orientation_rpy_rad).T + part.position_m
+    corners = corners @ from_rpy(*thing.orientation_rpy_rad).T + thing.position_m
+    heights = corners[:, 2]
+    if heights.max() <= layer.low_m or heights.min() >= layer.high_m:
+        return np.zeros((0, 2))
+    within = (heights >= layer.low_m) & (heights <= layer.high_m)
+    points = [corners[within, :2]]
+    for height_m in (layer.low_m, layer.high_m):
+        points.append(_crossings(corners, height_m))
+    return _hull(np.vstack(points))
+
+
+def _crossings(corners: Array, height_m: float) -> Array:
+    """
+    Return where lines between corners cross a height, (n, 2).
+
+    Lines through the inside of the body only add points inside of the section.
+    """
+    above = corners[corners[:, 2] > height_m]
+    below = corners[corners[:, 2] < height_m]
+    if not (len(above) and len(below)):
+        return np.zeros((0, 2))
+    rise = above[:, None, 2] - below[None, :, 2]
+    share = ((height_m - below[None, :, 2]) / rise)[..., None]
+    crossings = below[None, :, :2] + share * (above[:, None, :2] - below[None, :, :2])
+    return np.asarray(crossings.reshape(-1, 2))
+
+
+def _corners(part: Part) -> Array:
+    """Return points whose hull is the part, in its own axes; round ones are finely faceted."""
+    if part.shape == 'box':
+        unit = [[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]
+        return np.array(unit) * part.size_m
+    if part.shape == MESH:
+        corners = triangles_of(part.mesh).reshape(-1, 3).astype(np.float64)
+        return np.asarray(np.unique(corners, axis=0) * part.size_m)
+    turns = 2.0 * np.pi * np.arange(_ROUND) / _ROUND
+    circle = np.column_stack([np.cos(turns), np.sin(turns)]) * part.size_m[0]
+    if part.shape == 'cylinder':
+        ends = (-part.size_m[1] / 2.0, part.size_m[1] / 2.0)
+        return np.vstack([np.column_stack([circle, np.full(_ROUND, end)]) for end in ends])
+    tilts = np.linspace(-np.pi / 2.0, np.pi / 2.0, _ROUND // 2 + 1)
+    rings = [
+        np.column_stack(
+            [circle * math.cos(tilt), np.full(_ROUND, part.size_m[0] * math.sin(tilt))]
+        )
+        for tilt in tilts
+    ]
+    return np.vstack(rings)
+
+
+def _hull(points: Array) -> Array:
+    """Return the corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    ordered = sorted({(round(float(x), 9), round(float(y), 9)) for x, y in points})
+    if len(ordered) < 3:
+        return np.zeros((0, 2))
+
+    def half(candidates: list[Point]) -> list[Point]:
+        chain: list[Point] = []
+        for point in candidates:
+            while len(chain) > 1 and _turn(chain[-2], chain[-1], point) <= 1e-12:
+                chain.pop()
+            chain.append(point)
+        return chain[:-1]
+
+    hull = half(ordered) + half(ordered[::-1])
+    return np.array(hull) if len(hull) > 2 else np.zeros((0, 2))
+
+
+def _turn(a: Point, b: Point, c: Point) -> float:
+    """Return twice the area of a triangle, above zero if it turns to the left."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def _empty(
+    sections: list[Array], resolution_m: float, start_m: Point, margin_m: float
+) -> tuple[Cells, Array]:
+    """Return unknown cells round all sections and the start, and the corner of the first."""
+    points = np.vstack([np.array([start_m]), *sections])
+    low = np.floor((points.min(axis=0) - margin_m) / resolution_m + 1e-6)
+    high = np.ceil((points.max(axis=0) + margin_m) / resolution_m - 1e-6)
+    columns, rows = (int(count) for count in high - low)
+    if rows * columns > _MOST_CELLS:
+        raise SimulationError(
+            f'The map would have {rows} times {columns} cells. Give larger cells.'
+        )
+    return np.full((rows, columns), UNKNOWN, dtype=np.int8), low * resolution_m
+
+
+def _fill(cells: Cells, polygon: Array, slack: float) -> None:
+    """Mark the cells that overlap a convex polygon, which is given in cells."""
+    rows, columns = cells.shape
+    low = np.clip(np.floor(polygon.min(axis=0) + slack).astype(int), 0, (columns, rows))
+    high = np.clip(np.ceil(polygon.max(axis=0) - slack).astype(int), 0, (columns, rows))
+    xs, ys = np.meshgrid(np.arange(low[0], high[0]) + 0.5, np.arange(low[1], high[1]) + 0.5)
+    overlaps = np.ones(xs.shape, dtype=bool)
+    for start, end in _sides(polygon):
+        normal = np.array([end[1] - start[1], start[0] - end[0]])
+        normal /= np.hypot(*normal)
+        reach = np.abs(normal).sum() / 2.0 - slack
+        overlaps &= (xs - start[0]) * normal[0] + (ys - start[1]) * normal[1] < reach
+    (left, bottom), (right, top) = low, high
+    cells[bottom:top, left:right][overlaps] = OCCUPIED
+
+
+def _sides(polygon: Array) -> Iterator[tuple[Array, Array]]:
+    """Yield the sides of a polygon."""
+    yield from zip(polygon, np.roll(polygon, -1, axis=0))
+
+
+def _flood(cells: Cells, row: int, column: int) -> None:
+    """Make all unknown cells free that are reached from one, side by side."""
+    rows, columns = cells.shape
+    cells[row, column] = FREE
+    waiting = deque([(row, column)])
+    while waiting:
+        row, column = waiting.popleft()
+        for next_row, next_column in (
+            (row + 1, column),
+            (row - 1, column),
+            (row, column + 1),
+            (row, column - 1),
+        ):
+            inside = 0 <= next_row < rows and 0 <= next_column < columns
+            if inside and cells[next_row, next_column] == UNKNOWN:
+                cells[next_row, next_column] = FREE
+                waiting.append((next_row, next_column))

@@ -1,0 +1,304 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Worlds and things that are named by a URI, or given as a text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TypeVar
+from urllib.parse import unquote, urlsplit
+
+from humanoid_control.dynamics.rotations import to_rpy
+from humanoid_description.checks.structure import STRUCTURE
+from humanoid_description.errors import DescriptionError
+from humanoid_description.kinematics import poses
+from humanoid_description.loading import load_robot
+from humanoid_description.robot import Array, Shape
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.files import installed_scenes, SCENE_SUFFIXES
+from humanoid_simulation.scene.colours import COLOURS
+from humanoid_simulation.scene.home_reading import colour_in
+from humanoid_simulation.scene.loading import load_scene, scene_of, thing_in
+from humanoid_simulation.scene.objects import CLASSES, Graspable, thing_of
+from humanoid_simulation.scene.parts import MESH, Part
+from humanoid_simulation.scene.scene import COMPOSED, Scene, Thing
+from humanoid_simulation.tables import load_table, Table, table_of
+import numpy as np
+
+THING_FORMATS = ('urdf', 'yaml')
+GIVEN_TEXT = 'resource_string'
+"""What error messages call a text that came without a file."""
+_URDF_SUFFIXES = ('.urdf', '.xml')
+
+T = TypeVar('T')
+
+
+class ResourceError(SimulationError):
+    """What was to be loaded cannot be; `problem` is a constant of LoadWorld and SpawnEntity."""
+
+    def __init__(self, problem: str, sentence: str) -> None:
+        """Take the constant's name, and what to tell people."""
+        super().__init__(sentence)
+        self.problem = problem
+
+
+@dataclass(frozen=True)
+class World:
+    """A scene that can be loaded."""
+
+    name: str
+    uri: str
+    description: str
+
+
+def installed_worlds() -> list[World]:
+    """Return the worlds that are installed."""
+    return [_world(path, name) for name, path in installed_scenes().items()]
+
+
+def world_at(uri: str) -> World:
+    """Return what is known of a world that can be loaded; or raise ResourceError."""
+    return _world(_scene_file(uri), uri)
+
+
+def worlds_in(source: str) -> list[World]:
+    """Return the worlds of a folder, a path or `file://` URI; or raise ResourceError."""
+    folder = _path_of(source)
+    try:
+        paths = sorted(path for path in folder.iterdir() if path.suffix in SCENE_SUFFIXES)
+        return [_world(path, str(path)) for path in paths]
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise ResourceError(
+            'NO_RESOURCE', f"The source '{source}' cannot be read: {reason}. Give a folder."
+        ) from error
+
+
+def world_of(uri: str, text: str) -> tuple[World, Scene]:
+    """
+    Load a world.
+
+    Parameters
+    ----------
+    uri
+        The name of an installed one, or the path or URI of a scene file.
+    text
+        The content of a scene file; it counts if the URI is empty.
+
+    Raises
+    ------
+    ResourceError
+        If there is no such world, or a mistake in it.
+
+    """
+    if not uri:
+        return World('world', '', ''), _parsed(lambda: scene_of(_table(text), 'world'))
+    path = _scene_file(uri)
+    scene = _parsed(lambda: load_scene(str(path)))
+    return _world(path, uri), scene
+
+
+def spawnables() -> list[tuple[str, str, Thing]]:
+    """Return the classes of things: a URI for each, a description, and a thing of it."""
+    return [
+        (kind, f"a {kind}; 'red {kind}' and other colours as well", thing_from(kind, '', kind))
+        for kind in CLASSES
+    ]
+
+
+def thing_from(uri: str, text: str, name: str) -> Thing:
+    """
+    Return a thing at the origin.
+
+    Parameters
+    ----------
+    uri
+        A class, perhaps with a colour before it ('red mug'), or the path or URI of a URDF or of a
+        YAML file with what a scene file says of one thing.
+    text
+        The content of such a file; it counts if the URI is empty.
+    name
+        What the thing is to be called.
+
+    Raises
+    ------
+    ResourceError
+        If there is nothing of that sort, or a mistake in it.
+
+    """
+    colour, _, kind = uri.strip().rpartition(' ')
+    if kind in CLASSES and (not colour or colour in COLOURS):
+        return _of_class(name, kind, colour)
+    if uri:
+        path = _file(uri, (*_URDF_SUFFIXES, *SCENE_SUFFIXES), _known_things())
+        if path.suffix in SCENE_SUFFIXES:
+            return _parsed(lambda: _described(load_table(path), name))
+        return _rigid(_read(path), str(path), name)
+    if text.lstrip().startswith('<'):
+        return _rigid(text, GIVEN_TEXT, name)
+    return _parsed(lambda: _described(_table(text), name))
+
+
+def _known_things() -> str:
+    """Say what a thing can be made from."""
+    return f"a class of things ({', '.join(CLASSES)}), perhaps with a colour as in 'red mug'"
+
+
+def _of_class(name: str, kind: str, colour: str = '') -> Thing:
+    """Return a thing of a class."""
+    colour = colour or CLASSES[kind].colour
+    graspable = Graspable(name, kind, colour, COLOURS[colour], (0.0, 0.0, 0.0))
+    return replace(thing_of(graspable), position_m=(0.0, 0.0, 0.0))
+
+
+def _described(table: Table, name: str) -> Thing:
+    """Return the thing of a table: an object of a class, or one of a shape."""
+    if not table.has('class') or table.has('shape'):
+        return thing_in(table, name, (0.0, 0.0, 0.0))
+    table.allow('name', 'class', 'colour', 'size')
+    kind = table.choice('class', tuple(CLASSES))
+    default = CLASSES[kind].colour
+    colour, rgb = colour_in(table, 'colour', COLOURS[default])
+    size = table.vector('size', 3) if table.has('size') else None
+    graspable = Graspable(name, kind, colour, rgb, (0.0, 0.0, 0.0), size_m=size)
+    return replace(table.checked(lambda: thing_of(graspable)), position_m=(0.0, 0.0, 0.0))
+
+
+def _rigid(urdf: str, source: str, name: str) -> Thing:
+    """Return the one rigid body that a URDF without moving joints describes."""
+    try:
+        robot = load_robot(urdf, source)
+    except DescriptionError as error:
+        raise ResourceError('RESOURCE_PARSE_ERROR', str(error)) from error
+    defects = [defect for check in STRUCTURE for defect in check(robot).defects]
+    if defects:
+        raise ResourceError('RESOURCE_PARSE_ERROR', f'{source}: {defects[0]}')
+    moving = [joint.name for joint in robot.joints if joint.kind != 'fixed']
+    if moving:
+        raise ResourceError(
+            'UNSUPPORTED_FORMAT',
+            f"{source} has the joint '{moving[0]}', which moves. Only rigid things can be made "
+            'here; robots come with the parameter robots of the simulator.',
+        )
+    link_poses = poses(robot)
+    solid = [(link, shape) for link in robot.links for shape in link.collisions]
+    seen = [(link, shape) for link in robot.links for shape in link.visuals]
+    parts = [
+        _part(shape, link_poses[link.name] @ shape.pose, source, collides, is_shown)
+        for shapes, collides, is_shown in ((solid, True, not seen), (seen, not solid, True))
+        for link, shape in shapes
+    ]
+    if not parts:
+        raise ResourceError(
+            'RESOURCE_PARSE_ERROR', f'{source} describes nothing that has a shape.'
+        )
+    mass_kg = sum(link.body.mass_kg for link in robot.links if link.body is not None)
+    corners = np.array([[part.position_m[axis] for axis in range(3)] for part in parts])
+    halves = np.array([max(part.box_m) / 2.0 for part in parts])[:, None]
+    size_m = np.max(np.abs(corners) + halves, axis=0) * 2.0
+    return _parsed(
+        lambda: Thing(
+            name, COMPOSED, tuple(size_m.tolist()), mass_kg=mass_kg, details=tuple(parts)
+        )
+    )
+
+
+def _part(shape: Shape, pose: Array, source: str, collides: bool, is_shown: bool) -> Part:
+    """Return a part of a thing, in its axes."""
+    if shape.kind == MESH:
+        raise ResourceError(
+            'UNSUPPORTED_ASSETS',
+            f'{source} has a mesh. Make it of boxes, cylinders and spheres.',
+        )
+    x_m, y_m, z_m = pose[:3, 3].tolist()
+    return _parsed(
+        lambda: Part(
+            shape.kind,
+            shape.size_m,
+            (x_m, y_m, z_m),
+            to_rpy(pose[:3, :3]),
+            collides=collides,
+            is_shown=is_shown,
+        )
+    )
+
+
+def _scene_file(uri: str) -> Path:
+    """Return the file of a world: an installed one by its name, or that of a URI."""
+    installed = installed_scenes()
+    return installed.get(uri) or _file(uri, SCENE_SUFFIXES, f'a world: {", ".join(installed)}')
+
+
+def _world(path: Path, uri: str) -> World:
+    """Return what is known of a scene file: the comment at its top tells what it is."""
+    words: list[str] = []
+    with open(path, encoding='utf-8') as stream:
+        for line in stream:
+            comment = line.strip('# \n')
+            if not line.startswith('#') or not comment:
+                break
+            words.append(comment)
+    return World(path.stem, uri, ' '.join(words))
+
+
+def _table(text: str) -> Table:
+    """Read a text that came without a file."""
+    if not text.strip():
+        raise ResourceError('NO_RESOURCE', 'Give a uri or a resource_string; both are empty.')
+    return table_of(text, GIVEN_TEXT)
+
+
+def _parsed(make: Callable[[], T]) -> T:
+    """Return what is made of a resource; a mistake in it is one of the resource."""
+    try:
+        return make()
+    except ResourceError:
+        raise
+    except SimulationError as error:
+        raise ResourceError('RESOURCE_PARSE_ERROR', str(error)) from error
+
+
+def _read(path: Path) -> str:
+    """Return the text of a file."""
+    try:
+        return path.read_text(encoding='utf-8')
+    except (OSError, UnicodeDecodeError) as error:
+        raise ResourceError('RESOURCE_PARSE_ERROR', f'{path} cannot be read: {error}.') from error
+
+
+def _file(uri: str, suffixes: tuple[str, ...], known: str) -> Path:
+    """Return the file of a URI, if it is there and of a kind that can be read."""
+    path = _path_of(uri)
+    if not path.suffix:
+        raise ResourceError('NO_RESOURCE', f"'{uri}' is neither a file nor {known}.")
+    if path.suffix not in suffixes:
+        raise ResourceError(
+            'UNSUPPORTED_FORMAT',
+            f"'{uri}' cannot be read here. Give a file that ends with {', '.join(suffixes)}.",
+        )
+    if not path.is_file():
+        raise ResourceError('NO_RESOURCE', f'There is no file {path}. Correct the uri.')
+    return path
+
+
+def _path_of(uri: str) -> Path:
+    """Return the path that a path, a `file://` or a `package://` URI means."""
+    parts = urlsplit(uri)
+    if parts.scheme == 'package':
+        from ament_index_python.packages import get_package_share_directory, PackageNotFoundError
+
+        try:
+            share = get_package_share_directory(parts.netloc)
+        except (PackageNotFoundError, ValueError) as error:
+            raise ResourceError(
+                'NO_RESOURCE', f"There is no package '{parts.netloc}', which '{uri}' names."
+            ) from error
+        return Path(share) / unquote(parts.path).lstrip('/')
+    if parts.scheme == 'file':
+        return Path(unquote(parts.path))
+    if parts.scheme:
+        raise ResourceError(
+            'UNSUPPORTED_FORMAT', f"'{uri}' cannot be read here. Give a file or package URI."
+        )
+    return Path(uri)

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Write the map of a scene: `ros2 run humanoid_simulation scene_map`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+import os
+from pathlib import Path
+import signal
+import sys
+
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.scene import load_scene
+from humanoid_simulation.scene.occupancy import FREE, Layer, occupancy_of, OccupancyMap, OCCUPIED
+import numpy as np
+
+_GREY = {OCCUPIED: 0, FREE: 254}
+_UNKNOWN_GREY = 205
+"""Between the thresholds below, as map_saver writes it."""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Write the two files of a map; return 1 if that cannot be done."""
+    arguments = _parser().parse_args(argv)
+    try:
+        scene = load_scene(arguments.scene)
+        layer = _layer(arguments)
+        drawn = occupancy_of(
+            scene, layer, arguments.resolution, tuple(arguments.start), arguments.margin
+        )
+        stem = arguments.output or Path(scene.name)
+        picture, table = write_map(drawn, stem)
+    except SimulationError as error:
+        print(error, file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 128 + signal.SIGINT
+    rows, columns = drawn.cells.shape
+    print(
+        f'{table} and {picture}: {columns} x {rows} cells of {drawn.resolution_m:g} m, '
+        f'{layer.low_m:g} to {layer.high_m:g} m above the ground'
+    )
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    """Describe the command line."""
+    parser = argparse.ArgumentParser(
+        prog='scene_map',
+        description='Write the map of a scene that a perfect mapper would have drawn, as .pgm '
+        'and .yaml, which map_server and RViz read.',
+    )
+    parser.add_argument(
+        'scene',
+        nargs='?',
+        default='apartment',
+        help='its name or YAML file (default: apartment)',
+    )
+    parser.add_argument(
+        '--output', type=Path, help='the files, without .yaml (default: the name of the scene)'
+    )
+    heights = parser.add_argument_group(
+        'heights', 'What is solid between two heights is drawn, so that what is below or above '
+        'the plane of a laser scanner, such as a table, is in the map as well.',
+    )  # fmt: skip
+    heights.add_argument(
+        '--from-height',
+        type=float,
+        metavar='M',
+        default=Layer.low_m,
+        help=f'(default: {Layer.low_m:g})',
+    )
+    heights.add_argument(
+        '--to-height',
+        type=float,
+        metavar='M',
+        default=Layer.high_m,
+        help=f'(default: {Layer.high_m:g})',
+    )
+    heights.add_argument(
+        '--height',
+        type=float,
+        metavar='M',
+        help='one height instead: what a scanner there would see',
+    )
+    parser.add_argument(
+        '--resolution',
+        type=float,
+        metavar='M',
+        default=0.05,
+        help='edge of a cell (default: 0.05)',
+    )
+    parser.add_argument(
+        '--start',
+        type=float,
+        nargs=2,
+        metavar=('X', 'Y'),
+        default=(0.0, 0.0),
+        help='where the mapper begins (default: 0 0, as the robot does)',
+    )
+    parser.add_argument(
+        '--margin', type=float, metavar='M', default=0.5, help='round what is drawn (default: 0.5)'
+    )
+    return parser
+
+
+def _layer(arguments: argparse.Namespace) -> Layer:
+    """Return the heights that the arguments name."""
+    if arguments.height is not None:
+        return Layer(arguments.height, arguments.height)
+    return Layer(arguments.from_height, arguments.to_height)
+
+
+def write_map(drawn: OccupancyMap, stem: Path) -> tuple[Path, Path]:
+    """
+    Write a map as .pgm and .yaml, and return their paths.
+
+    Neither file is there before it is complete; the one that names the other comes last.
+    """
+    stem = stem.with_suffix('') if stem.suffix in ('.yaml', '.pgm') else stem
+    picture, table = stem.with_name(f'{stem.name}.pgm'), stem.with_name(f'{stem.name}.yaml')
+    rows, columns = drawn.cells.shape
+    greys = np.full(drawn.cells.shape, _UNKNOWN_GREY, dtype=np.uint8)
+    for value, grey in _GREY.items():
+        greys[drawn.cells == value] = grey
+    header = f'P5\n{columns} {rows}\n255\n'.encode()
+    # A picture begins with the row of the largest y.
+    _replace(picture, header + greys[::-1].tobytes())
+    x_m, y_m = drawn.origin_m
+    text = (
+        f'image: {picture.name}\n'
+        'mode: trinary\n'
+        f'resolution: {drawn.resolution_m:g}\n'
+        f'origin: [{x_m:.6g}, {y_m:.6g}, 0]\n'
+        'negate: 0\n'
+        'occupied_thresh: 0.65\n'
+        'free_thresh: 0.196\n'
+    )
+    _replace(table, text.encode())
+    return picture, table
+
+
+def _replace(path: Path, content: bytes) -> None:
+    """Write a file beside its place, and move it there when it is complete."""
+    new = path.with_name(f'.{path.name}.{os.getpid()}')
+    try:
+        try:
+            new.write_bytes(content)
+            new.replace(path)
+        finally:
+            new.unlink(missing_ok=True)
+    except OSError as error:
+        raise SimulationError(f'{path} cannot be written: {error.strerror}.') from error
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Write the named places of a scene: `ros2 run humanoid_simulation scene_places`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+import sys
+
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.scene import load_scene
+from humanoid_simulation.scene.scene import Scene
+
+_HEAD = """\
+# SPDX-License-Identifier: Apache-2.0
+# Named places of a home, in the frame of its map: what a user measured there.
+#   surfaces: outline [[x, y], ...] and height in m; tolerance: how exact these are, in m
+#   rooms:    outline [[x, y], ...]
+"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Write the file; return 1 if that cannot be done."""
+    parser = argparse.ArgumentParser(
+        prog='scene_places',
+        description='Write the surfaces and rooms of a scene as a file of named places, as if '
+        'somebody had measured them in its map, whose origin is that of the scene.',
+    )
+    parser.add_argument(
+        'scene', nargs='?', default='apartment', help='its name or YAML file (default: apartment)'
+    )
+    parser.add_argument(
+        '--output', type=Path, help='the file (default: places_ and the name of the scene)'
+    )
+    arguments = parser.parse_args(argv)
+    try:
+        scene = load_scene(arguments.scene)
+        path = arguments.output or Path(f'places_{scene.name}.yaml')
+        path.write_text(places_text(scene), encoding='utf-8')
+    except (SimulationError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    print(f'{path}: {len(scene.surfaces)} surfaces and {len(scene.rooms)} rooms')
+    return 0
+
+
+def places_text(scene: Scene) -> str:
+    """Return the text of the file, with centimetres as a tape measure gives them."""
+    surfaces = [
+        f'  - {{name: {surface.name}, height: {surface.height_m:.2f}, '
+        f'outline: {_corners(surface.outline_m)}}}'
+        for surface in scene.surfaces
+    ]
+    rooms = [
+        f'  - {{name: {room.name}, outline: {_corners(room.outline_m)}}}' for room in scene.rooms
+    ]
+    lines = ['frame: map', 'surfaces:', *surfaces, 'rooms:', *rooms]
+    return _HEAD + '\n'.join(lines) + '\n'
+
+
+def _corners(outline_m: Iterable[tuple[float, float]]) -> str:
+    return '[' + ', '.join(f'[{x_m:.2f}, {y_m:.2f}]' for x_m, y_m in outline_m) + ']'
+
+
+if __name__ == '__main__':
+    sys.exit(main())

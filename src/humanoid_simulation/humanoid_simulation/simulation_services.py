@@ -1,0 +1,303 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The services of `simulation_interfaces` about time and worlds, and what they lack: pushes."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+from humanoid_common.executing import create_async_service
+from humanoid_control.hosting.conversions import seconds
+from humanoid_control.hosting.topics.filling import topic
+from humanoid_interfaces.srv import ApplyWrench
+from humanoid_simulation.conversions import vector
+from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.scene.resources import (
+    installed_worlds,
+    ResourceError,
+    THING_FORMATS,
+    World,
+    world_at,
+    world_of,
+    worlds_in,
+)
+from humanoid_simulation.service_results import (
+    answering,
+    answering_later,
+    failure,
+    Refusal,
+    refusing_resource,
+)
+from humanoid_simulation.simulated_world import SimulatedWorld, State
+from humanoid_simulation.simulator_parameters import SimulatorParameters
+from rclpy.action import ActionServer, CancelResponse
+from rclpy.action.server import ServerGoalHandle
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from simulation_interfaces.action import SimulateSteps
+from simulation_interfaces.msg import (
+    Resource,
+    Result,
+    SimulationState,
+    SimulatorFeatures,
+    WorldResource,
+)
+from simulation_interfaces.srv import (
+    GetAvailableWorlds,
+    GetCurrentWorld,
+    GetSimulationState,
+    GetSimulatorFeatures,
+    LoadWorld,
+    ResetSimulation,
+    SetSimulationState,
+    StepSimulation,
+    UnloadWorld,
+)
+from std_srvs.srv import Trigger
+
+FEATURES = tuple(
+    getattr(SimulatorFeatures, name)
+    for name in (
+        'SPAWNING DELETING NAMED_POSES ENTITY_TAGS ENTITY_BOUNDS ENTITY_BOUNDS_BOX '
+        'ENTITY_CATEGORIES SPAWNING_RESOURCE_STRING ENTITY_STATE_GETTING ENTITY_STATE_SETTING '
+        'ENTITY_INFO_GETTING ENTITY_INFO_SETTING SPAWNABLES SIMULATION_RESET '
+        'SIMULATION_RESET_STATE SIMULATION_RESET_SPAWNED SIMULATION_STATE_GETTING '
+        'SIMULATION_STATE_SETTING SIMULATION_STATE_PAUSE STEP_SIMULATION_SINGLE '
+        'STEP_SIMULATION_MULTIPLE STEP_SIMULATION_ACTION WORLD_LOADING WORLD_RESOURCE_STRING '
+        'WORLD_INFO_GETTING AVAILABLE_WORLDS'
+    ).split()
+)
+_ABOUT = (
+    'MuJoCo. Time never goes back. Steps of physics are rounded up to whole control periods. '
+    'Things can be made from a class, also with a colour (red mug), or from a rigid URDF of '
+    'boxes, cylinders and spheres.'
+)
+_FEEDBACK_PERIODS = 10
+"""After so many control periods the action SimulateSteps says how far it is."""
+_QUIT_S = 0.2
+"""So long after the answer, the simulator ends."""
+
+
+class SimulationServices:
+    """Pause, step, reset, load, end; push, and help up."""
+
+    def __init__(self, node: Node, world: SimulatedWorld, parameters: SimulatorParameters) -> None:
+        """Offer the services below the name of the node."""
+        self._node, self._world = node, world
+        self._loaded = world_at(parameters.scene)
+        self.change(parameters)
+        for kind, service, do in (
+            (GetSimulationState, 'get_simulation_state', self._tell_state),
+            (SetSimulationState, 'set_simulation_state', self._set_state),
+            (ResetSimulation, 'reset_simulation', self._reset),
+            (GetCurrentWorld, 'get_current_world', self._tell_world),
+            (GetAvailableWorlds, 'get_available_worlds', self._tell_worlds),
+            (LoadWorld, 'load_world', self._load),
+            (UnloadWorld, 'unload_world', self._unload),
+        ):
+            node.create_service(kind, f'~/{service}', answering(do))
+        node.create_service(GetSimulatorFeatures, '~/get_simulator_features', _tell_features)
+        # In groups of their own: while they wait for their steps, all else is heard.
+        create_async_service(
+            node,
+            StepSimulation,
+            '~/step_simulation',
+            answering_later(self._step),
+            callback_group=MutuallyExclusiveCallbackGroup(),
+        )
+        self._steps = ActionServer(
+            node,
+            SimulateSteps,
+            '~/simulate_steps',
+            self._simulate_steps,
+            cancel_callback=lambda _: CancelResponse.ACCEPT,
+            callback_group=MutuallyExclusiveCallbackGroup(),
+        )
+        node.create_service(ApplyWrench, '~/apply_wrench', partial(_answer, self._push))
+        for robot in world.backend.robots:
+            stand_up = partial(_answer, partial(self._stand_up, robot))
+            node.create_service(Trigger, topic(robot, 'stand_up'), stand_up)
+
+    def change(self, parameters: SimulatorParameters) -> None:
+        """Let robots begin in another posture from the next reset on."""
+        self._keyframe = parameters.reset_keyframe
+
+    def _tell_state(self, _: Any, response: GetSimulationState.Response) -> None:
+        """Tell whether time passes."""
+        response.state.state = int(self._world.state)
+
+    def _set_state(self, request: SetSimulationState.Request, _: Any) -> None:
+        """Let time pass or not, put all back, or end."""
+        wanted, world = request.state.state, self._world
+        if wanted == world.state and not world.is_stepping:
+            raise Refusal(
+                SetSimulationState.Response.ALREADY_IN_TARGET_STATE,
+                f'The simulation is {world.state.name.lower()} already.',
+            )
+        if wanted == SimulationState.STATE_PLAYING and world.has_failed:
+            raise Refusal(
+                SetSimulationState.Response.STATE_TRANSITION_ERROR,
+                'The physics has failed; reset the simulation first.',
+            )
+        if wanted == SimulationState.STATE_STOPPED:
+            world.stop(self._keyframe)
+        elif wanted in (SimulationState.STATE_PLAYING, SimulationState.STATE_PAUSED):
+            world.pause(wanted == SimulationState.STATE_PAUSED)
+        elif wanted == SimulationState.STATE_QUITTING:
+            self._quit()
+        else:
+            raise Refusal(
+                SetSimulationState.Response.INCORRECT_TRANSITION,
+                f'The state {wanted} cannot be set. Give {State.STOPPED:d} (stopped), '
+                f'{State.PLAYING:d} (playing), {State.PAUSED:d} (paused) or '
+                f'{SimulationState.STATE_QUITTING} (quitting).',
+            )
+
+    def _quit(self) -> None:
+        """End the node when the answer is on its way."""
+        self._node.get_logger().info('The simulator ends, as set_simulation_state asked')
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._node.create_timer(_QUIT_S, self._node.context.try_shutdown, clock=steady)
+
+    def _reset(self, request: ResetSimulation.Request, _: Any) -> None:
+        """Put all, or a part, where it began; time goes on."""
+        scope = request.scope or ResetSimulation.Request.SCOPE_ALL
+        parts = scope & (
+            ResetSimulation.Request.SCOPE_STATE | ResetSimulation.Request.SCOPE_SPAWNED
+        )
+        if scope != ResetSimulation.Request.SCOPE_ALL and scope != parts:
+            raise Refusal(
+                Result.RESULT_FEATURE_UNSUPPORTED,
+                'Time cannot be reset: it would jump back for all nodes that use it. Give scope '
+                f'{ResetSimulation.Request.SCOPE_STATE} (state), '
+                f'{ResetSimulation.Request.SCOPE_SPAWNED} (spawned), their sum, or 0 for both.',
+            )
+        self._world.reset(
+            bool(parts & ResetSimulation.Request.SCOPE_STATE),
+            bool(parts & ResetSimulation.Request.SCOPE_SPAWNED),
+            self._keyframe,
+        )
+
+    async def _step(self, request: StepSimulation.Request, _: Any) -> None:
+        """Let a paused simulation go on by whole control periods."""
+        await self._world.step(self._periods(request.steps))
+
+    async def _simulate_steps(self, goal: ServerGoalHandle) -> SimulateSteps.Result:
+        """Let a paused simulation go on, and say how far it is."""
+        result, steps = SimulateSteps.Result(), goal.request.steps
+        try:
+            periods = self._periods(steps)
+            for done in range(0, periods, _FEEDBACK_PERIODS):
+                if goal.is_cancel_requested:
+                    goal.canceled()
+                    result.result.result = Result.RESULT_OPERATION_FAILED
+                    result.result.error_message = 'The steps were cancelled.'
+                    return result
+                await self._world.step(min(_FEEDBACK_PERIODS, periods - done))
+                share = min(1.0, (done + _FEEDBACK_PERIODS) / periods)
+                completed = int(share * steps)
+                goal.publish_feedback(
+                    SimulateSteps.Feedback(
+                        completed_steps=completed, remaining_steps=steps - completed
+                    )
+                )
+        except SimulationError as error:
+            goal.abort()
+            result.result = failure(error)
+            return result
+        goal.succeed()
+        result.result.result = Result.RESULT_OK
+        return result
+
+    def _periods(self, steps: int) -> int:
+        """Return how many control periods some steps take, or raise Refusal."""
+        if self._world.state == State.PLAYING:
+            raise Refusal(
+                Result.RESULT_INCORRECT_STATE,
+                'The simulation runs. Pause it before you step it.',
+            )
+        return self._world.periods_of(steps)
+
+    def _tell_world(self, _: Any, response: GetCurrentWorld.Response) -> None:
+        """Tell which world is loaded."""
+        response.world = _world_message(self._loaded)
+
+    def _tell_worlds(
+        self, request: GetAvailableWorlds.Request, response: GetAvailableWorlds.Response
+    ) -> None:
+        """Tell the worlds that are installed, and those of other folders."""
+        worlds = installed_worlds()
+        for source in request.additional_sources:
+            try:
+                worlds.extend(worlds_in(source))
+            except ResourceError:
+                if not request.continue_on_error:
+                    raise
+        if not request.filter.tags:  # worlds have no tags
+            response.worlds = [_world_message(world) for world in worlds]
+
+    def _load(self, request: LoadWorld.Request, response: LoadWorld.Response) -> None:
+        """Go on in another world."""
+        with refusing_resource(LoadWorld.Response):
+            world, scene = world_of(request.uri, request.resource_string)
+        self._world.load(scene, self._keyframe)
+        self._loaded = world
+        response.world = _world_message(world)
+        self._node.get_logger().info(
+            f"Loaded the world '{world.name}'; time stands still until set_simulation_state"
+        )
+
+    def _unload(self, _: Any, __: Any) -> None:
+        """Refuse: robots need a floor."""
+        raise Refusal(
+            Result.RESULT_FEATURE_UNSUPPORTED,
+            "There is always a world here, for robots need a floor. Load the world 'flat'.",
+        )
+
+    def _push(self, request: ApplyWrench.Request) -> str:
+        """Push a robot or a thing."""
+        self._world.refuse_after_failure()
+        backend = self._world.backend
+        backend.apply_wrench(
+            backend.body(request.entity, request.body),
+            vector(request.wrench.force),
+            vector(request.wrench.torque),
+            seconds(request.duration),
+            vector(request.point),
+        )
+        return 'The push begins.'
+
+    def _stand_up(self, robot: str, _: Trigger.Request) -> str:
+        """Lift a robot onto its feet; its walker takes over when it stands."""
+        self._world.refuse_after_failure()
+        self._world.backend.hoist(robot)
+        return 'The robot is being put onto its feet.'
+
+
+def _tell_features(
+    _: GetSimulatorFeatures.Request, response: GetSimulatorFeatures.Response
+) -> GetSimulatorFeatures.Response:
+    """Tell what can be done here; the one response without a result."""
+    response.features = SimulatorFeatures(
+        features=list(FEATURES), spawn_formats=list(THING_FORMATS), custom_info=_ABOUT
+    )
+    return response
+
+
+def _world_message(world: World) -> WorldResource:
+    """Return the message that tells of a world."""
+    return WorldResource(
+        name=world.name,
+        world_resource=Resource(uri=world.uri),
+        description=world.description,
+    )
+
+
+def _answer(do: Any, request: Any, response: Any) -> Any:
+    """Answer a request of our own: whether it was done, and if not, why."""
+    try:
+        response.message, response.success = do(request), True
+    except SimulationError as error:
+        response.message, response.success = str(error), False
+    return response

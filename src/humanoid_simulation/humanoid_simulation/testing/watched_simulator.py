@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A simulator in the process of a test."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from humanoid_common.qos import SENSOR
+from humanoid_common.testing.ros import RosSandbox
+from humanoid_simulation.examples.conversions import refusal, state_request
+from humanoid_simulation.simulator import Simulator
+from rosgraph_msgs.msg import Clock
+from simulation_interfaces.msg import EntityState
+from simulation_interfaces.srv import (
+    ResetSimulation,
+    SetEntityState,
+    SetSimulationState,
+    StepSimulation,
+)
+
+HEADLESS = {'camera_rate_hz': 0.0, 'real_time_factor': 0.0}
+
+
+class WatchedSimulator:
+    """A simulator in this process, what it says, and how to ask it for something."""
+
+    def __init__(self, ros: RosSandbox, **parameters: Any) -> None:
+        """Start the simulator, as fast as possible, and without a camera."""
+        self.ros, self.node = ros, ros.observer()
+        self.last: dict[str, Any] = {}
+        self.times_s: list[float] = []
+        self.node.create_subscription(Clock, '/clock', self._hear_time, 10)
+        self.simulator = ros.start(Simulator, {**HEADLESS, **parameters})
+
+    def _hear_time(self, message: Clock) -> None:
+        self.times_s.append(message.clock.sec + message.clock.nanosec * 1e-9)
+
+    def listen(self, kind: Any, topic: str) -> None:
+        """Keep the newest message of a topic."""
+
+        def keep(message: Any) -> None:
+            self.last[topic] = message
+
+        self.node.create_subscription(kind, topic, keep, SENSOR)
+
+    def wait(self, what: str, condition: Callable[[], bool]) -> None:
+        """Spin until a condition holds."""
+        self.ros.wait_until(condition, 30.0, what)
+
+    def wait_for(self, *topics: str) -> None:
+        """Wait for new messages."""
+        for topic in topics:
+            self.last.pop(topic, None)
+        self.wait(f'all of {topics}', lambda: set(topics) <= set(self.last))
+
+    def run(self, seconds: float) -> None:
+        """Let time pass in the world."""
+        self.wait('a time', lambda: bool(self.times_s))
+        end_s = self.times_s[-1] + seconds
+        self.wait('the time to pass', lambda: self.times_s[-1] >= end_s)
+
+    def ask(self, kind: Any, name: str, /, **request: Any) -> Any:
+        """Call a service."""
+        client = self.node.create_client(kind, name)
+        self.wait(name, client.service_is_ready)
+        future = client.call_async(kind.Request(**request))
+        self.wait(f'an answer of {name}', future.done)
+        self.node.destroy_client(client)
+        return future.result()
+
+    def pause(self, on: bool = True) -> str:
+        """Let time stand still, or go on; return why not."""
+        state = state_request(on).state
+        return refusal(self.ask(SetSimulationState, 'simulator/set_simulation_state', state=state))
+
+    def step(self, steps: int) -> str:
+        """Let a paused simulation go on; return why not."""
+        return refusal(self.ask(StepSimulation, 'simulator/step_simulation', steps=steps))
+
+    def reset(self) -> str:
+        """Put all where it began; return why not."""
+        return refusal(self.ask(ResetSimulation, 'simulator/reset_simulation'))
+
+    def put(self, entity: str, x: float, y: float, z: float) -> str:
+        """Put something somewhere, at rest; return why not."""
+        state = EntityState()
+        state.pose.position.x, state.pose.position.y, state.pose.position.z = x, y, z
+        name = 'simulator/set_entity_state'
+        return refusal(self.ask(SetEntityState, name, entity=entity, state=state))

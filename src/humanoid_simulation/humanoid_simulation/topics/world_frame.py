@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say where the world is, seen from where a robot believes it is."""
+
+from __future__ import annotations
+
+import math
+
+from geometry_msgs.msg import TransformStamped
+from humanoid_common.qos import STATE
+from humanoid_control.hosting.topics.filling import fill_quaternion, fill_stamp, fill_vector, topic
+from humanoid_control.hosting.topics.odometry import ODOM
+from humanoid_control.walking.odometry import Odometry
+from humanoid_simulation.backend import EntityState
+from humanoid_simulation.rotations import from_rpy, inverse, product
+from humanoid_simulation.topics.ground_truth import WORLD
+import numpy as np
+from rclpy.node import Node
+from tf2_msgs.msg import TFMessage
+
+_LEAST_M, _LEAST_HEIGHT_M, _LEAST_RAD = 0.005, 0.02, 0.005
+
+
+class WorldFrame:
+    """
+    The transform from `odom` to `world`, for viewers: it is true, and no robot could know it.
+
+    Odometry is reckoned on the ground, and so is this: a turn about the vertical, and a shift. It
+    is repeated as it was until odometry is off by more than is seen, so that a viewer need not
+    move the whole world at each step.
+    """
+
+    def __init__(self, node: Node, robot: str, prefix: str) -> None:
+        """Prepare the message."""
+        self._transform = TransformStamped(child_frame_id=WORLD)
+        self._transform.header.frame_id = prefix + ODOM
+        self._message = TFMessage(transforms=[self._transform])
+        self._publisher = node.create_publisher(TFMessage, topic(robot, 'tf'), STATE)
+        self._at = math.inf, math.inf, math.inf, math.inf
+
+    def publish(self, time_s: float, odometry: Odometry, truth: EntityState, age_s: float) -> None:
+        """
+        Publish it.
+
+        :param age_s: how much older the odometry is than the truth
+        """
+        x, y, z, yaw_rad = world_in_odom(odometry, truth, age_s)
+        old_x, old_y, old_z, old_yaw_rad = self._at
+        turned_rad = math.remainder(yaw_rad - old_yaw_rad, math.tau) if self._is_set else math.inf
+        if (
+            math.hypot(x - old_x, y - old_y) > _LEAST_M
+            or abs(z - old_z) > _LEAST_HEIGHT_M
+            or abs(turned_rad) > _LEAST_RAD
+        ):
+            self._at = x, y, z, yaw_rad
+            fill_vector(self._transform.transform.translation, np.array([x, y, z]))
+            fill_quaternion(self._transform.transform.rotation, from_rpy(0.0, 0.0, yaw_rad))
+        fill_stamp(self._transform.header.stamp, time_s)
+        self._publisher.publish(self._message)
+
+    @property
+    def _is_set(self) -> bool:
+        """Tell whether there is a place to compare with."""
+        return math.isfinite(self._at[3])
+
+
+def world_in_odom(
+    odometry: Odometry, truth: EntityState, age_s: float = 0.0
+) -> tuple[float, float, float, float]:
+    """Return where the world is in `odom`: x, y and z in metres, and its turn in radians."""
+    turn = product(np.array(odometry.orientation), inverse(truth.orientation))
+    yaw_rad = math.atan2(
+        2.0 * (turn[0] * turn[3] + turn[1] * turn[2]),
+        1.0 - 2.0 * (turn[2] * turn[2] + turn[3] * turn[3]),
+    )
+    x, y, z = truth.position_m - age_s * truth.linear_velocity_m_s
+    cosine, sine = math.cos(yaw_rad), math.sin(yaw_rad)
+    believed_m = odometry.pose.position_m
+    return (
+        believed_m.real - (cosine * x - sine * y),
+        believed_m.imag - (sine * x + cosine * y),
+        odometry.height_m - z,
+        yaw_rad,
+    )

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Read YAML, and remember on which line each value stands."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import yaml
+
+
+class LinedTable(dict[str, Any]):
+    """A table that knows its line, and those of its values, counted from 1."""
+
+    line: int
+    lines: dict[str, int]
+
+
+class _Loader(yaml.SafeLoader):
+    """Makes tables that know their lines; a key that stands twice is refused."""
+
+
+def _construct_table(loader: _Loader, node: yaml.MappingNode) -> Any:
+    """Yield a table, and then fill it, as PyYAML wants it of what may contain itself."""
+    table = LinedTable()
+    table.line, table.lines = node.start_mark.line + 1, {}
+    yield table
+    for key_node, _ in node.value:
+        key = str(key_node.value)
+        if key in table.lines:
+            raise yaml.constructor.ConstructorError(
+                None,
+                None,
+                f"'{key}' stands here and on line {table.lines[key]}: remove one of them",
+                key_node.start_mark,
+            )
+        table.lines[key] = key_node.start_mark.line + 1
+    loader.flatten_mapping(node)
+    values: dict[Any, Any] = loader.construct_mapping(node, deep=True)
+    table.update(values)
+
+
+_Loader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _construct_table)
+
+
+def read_lines(text: str) -> Any:
+    """Return the content of a YAML text; tables in it are `LinedTable`."""
+    return yaml.load(text, Loader=_Loader)  # noqa: S506 - it is a SafeLoader

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Let the humanoid be told what to do: a planner, and what does its plans."""
+
+from __future__ import annotations
+
+from humanoid_perception.places_choice import places_choice
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+ARGUMENTS = (
+    ('skills_file', '', 'What the robot can be asked for; empty for the file of this package.'),
+    (
+        'places_file',
+        '',
+        'Named places: a file, or the name of one of humanoid_perception; else by scene.',
+    ),
+    (
+        'llm_base_url',
+        'http://127.0.0.1:11434/v1',
+        'Where the interface of a server of language models begins.',
+    ),
+    ('llm_model', '', 'The model to ask; empty for the only one that the server has.'),
+    ('namespace', '', 'The namespace of the robot.'),
+    ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),
+)
+MODEL = (
+    ('backend', 'planner_backend'),
+    ('base_url', 'llm_base_url'),
+    ('model', 'llm_model'),
+)
+"""Parameters of the planner, and the arguments that give them."""
+
+
+def generate_launch_description() -> LaunchDescription:
+    """Start the two nodes."""
+    return LaunchDescription(
+        [
+            *(
+                DeclareLaunchArgument(name, default_value=default, description=description)
+                for name, default, description in ARGUMENTS
+            ),
+            DeclareLaunchArgument(
+                'planner_backend',
+                default_value='rules',
+                choices=['rules', 'openai'],
+                description='What makes plans: rules, or a language model (openai).',
+            ),
+            _node('task_planner', {name: LaunchConfiguration(each) for name, each in MODEL}),
+            _node('skill_executor', {}),
+        ]
+    )
+
+
+def _node(name: str, parameters: dict[str, object]) -> Node:
+    """Describe a node of this package, which is started anew if it ends."""
+    return Node(
+        package='llm_planner',
+        executable=name,
+        namespace=LaunchConfiguration('namespace'),
+        output='screen',
+        respawn=True,
+        respawn_delay=2.0,
+        parameters=[
+            {
+                'skills_file': LaunchConfiguration('skills_file'),
+                'places_file': places_choice(),
+                'use_sim_time': LaunchConfiguration('use_sim_time'),
+                **parameters,
+            }
+        ],
+    )

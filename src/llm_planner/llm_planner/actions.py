@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How skills are begun, and how those are done that need no more than arms and a voice."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+import math
+from typing import Any
+
+from control_msgs.action import FollowJointTrajectory
+from llm_planner.looking import Looking
+from llm_planner.plan import Step, value_in_words
+from llm_planner.plan_tree import SkillError, SkillRun
+from llm_planner.recall import HEAD_M, Recall
+from llm_planner.robot import Robot
+from llm_planner.skills import Skills
+from llm_planner.telling import Telling
+from llm_planner.walking import Walking
+from llm_planner.world import ObjectDescription
+from llm_planner.world_watch import WorldWatch
+from rclpy.duration import Duration
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+__all__ = ['Actions']
+
+_WALKING = ('come_back', 'move', 'turn', 'follow_path')
+_LOOKING = ('look_at', 'look_around', 'find')
+_TELLING = ('where', 'describe', 'identify', 'tell_count')
+_ARM = ('shoulder', 'shoulder_roll', 'shoulder_yaw', 'elbow')
+_DOWN = (0.0, 0.1, 0.0, -0.3)
+_UP, _OUT = (-1.6, 0.6, 0.0, -1.6), (-1.6, 1.0, 0.0, -1.0)
+
+
+class Actions:
+    """
+    Starts skills.
+
+    Parameters
+    ----------
+    robot, watch
+        What moves and speaks, and what is known.
+    skills
+        The skills, for the defaults of their arguments.
+
+    """
+
+    IMPLEMENTED = frozenset(
+        (*_WALKING, *_LOOKING, *_TELLING, 'go_to', 'wave', 'point_at', 'say', 'wait', 'stop')
+    )
+    """The names of the skills that can be done."""
+
+    def __init__(self, robot: Robot, watch: WorldWatch, skills: Skills) -> None:
+        self._robot, self._watch, self._skills = robot, watch, skills
+        self._recall = Recall(watch)
+        self._walking = Walking(robot, watch, self._recall)
+        self._looking = Looking(robot, watch, self._recall, self._walking)
+        telling = Telling(robot, watch, self._recall, self._walking, self._looking)
+        self._starts: Mapping[str, Callable[..., SkillRun]] = {
+            **{name: getattr(self._walking, name) for name in _WALKING},
+            **{name: getattr(self._looking, name) for name in _LOOKING},
+            **{name: getattr(telling, name) for name in _TELLING},
+            'go_to': self._go_to,
+            'wave': self._wave,
+            'point_at': self._point_at,
+            'say': self._say,
+            'wait': self._wait,
+            'stop': self._stop,
+        }
+
+    def begin_plan(self) -> None:
+        """Take note of where the robot is when it is asked, and forget what was found before."""
+        self._recall.begin_plan()
+        self._walking.begin_plan()
+
+    def start(self, step: Step) -> SkillRun:
+        """Begin a step, with the defaults of what it does not say."""
+        skill = self._skills[step.skill]
+        arguments = {name: each.default for name, each in skill.arguments.items()}
+        arguments.update(step.arguments)
+        said = {
+            name: value_in_words(value, skill.arguments[name])
+            for name, value in arguments.items()
+            if value not in (None, '')
+        }
+        if skill.says:
+            self._robot.say(skill.says.format_map(said))
+        run: SkillRun = self._starts[step.skill](**arguments)
+        return run
+
+    def _stop(self) -> SkillRun:
+        return
+        yield
+
+    def _go_to(self, target: Any) -> SkillRun:
+        yield from self._walking.go_to(target)
+        if isinstance(target, ObjectDescription):
+            yield from self._looking.glance_at(self._recall.position(target))
+
+    def _say(self, text: str) -> SkillRun:
+        self._robot.say(text)
+        return
+        yield
+
+    def _wait(self, duration: float) -> SkillRun:
+        yield from self._robot.sleep(duration)
+
+    def _wave(self, arm: str) -> SkillRun:
+        yield from self._move_arm(arm, [_UP, _OUT, _UP, _OUT, _UP, _DOWN])
+
+    def _point_at(self, target: Any) -> SkillRun:
+        position_m = self._recall.position(target)
+        yield from self._walking.face(position_m)
+        point = self._watch.point_from_robot(position_m)
+        if point is None:
+            raise SkillError('I do not know where I am, so I cannot point at anything.')
+        x, y, z = point
+        side, sign = ('left', 1.0) if y >= 0.0 else ('right', -1.0)
+        yield from self._looking.glance_at(position_m)
+        y, z = y - sign * 0.2, z - HEAD_M
+        length = math.sqrt(x * x + y * y + z * z) or 1.0
+        # The upper arm, which hangs down, is turned about y by the shoulder, then about x.
+        pitch, roll = math.atan2(-x, -z), sign * math.asin(max(-1.0, min(1.0, y / length)))
+        pointing = (max(-2.6, min(0.5, pitch)), max(-0.2, min(1.5, roll)), 0.0, 0.0)
+        yield from self._move_arm(side, [pointing, pointing, pointing, _DOWN])
+
+    def _move_arm(self, side: str, postures: Sequence[Sequence[float]]) -> SkillRun:
+        """Move an arm through postures of the left one, mirrored for the right one."""
+        mirror = (1.0, -1.0, -1.0, 1.0) if side == 'right' else (1.0, 1.0, 1.0, 1.0)
+        points = [
+            JointTrajectoryPoint(
+                positions=[factor * angle for factor, angle in zip(mirror, posture)],
+                time_from_start=Duration(seconds=1.2 * number).to_msg(),
+            )
+            for number, posture in enumerate(postures, 1)
+        ]
+        names = [f'{side}_{joint}' for joint in _ARM]
+        trajectory = JointTrajectory(joint_names=names, points=points)
+        yield from self._robot.act(
+            FollowJointTrajectory,
+            f'{side}_arm_controller/follow_joint_trajectory',
+            FollowJointTrajectory.Goal(trajectory=trajectory),
+        )

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What both nodes start with: skills and named places, by the same parameters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from humanoid_common.errors import NodeStartError
+from humanoid_common.parameters import parameter
+from humanoid_perception.places import load_places, Places, places_path, PlacesError
+from llm_planner.actions import Actions
+from llm_planner.rules import RulePlanner
+from llm_planner.skills_file import load_skills, skills_path, SkillsError
+from llm_planner.world_watch import WorldWatch
+from rclpy.node import Node
+
+__all__ = ['KnowledgeParameters', 'begin_watch']
+
+
+@dataclass(frozen=True)
+class KnowledgeParameters:
+    """The parameters that both nodes have."""
+
+    skills_file: str = parameter(
+        '', 'What the robot can be asked for; empty for the file of this package.', read_only=True
+    )
+    places_file: str = parameter(
+        '',
+        'The named places: a YAML file, or the name of one of humanoid_perception (apartment).',
+        read_only=True,
+    )
+
+
+def begin_watch(node: Node, told: KnowledgeParameters) -> tuple[RulePlanner, WorldWatch]:
+    """
+    Return what understands sentences, and what follows the world for it.
+
+    Parameters
+    ----------
+    node
+        The node that listens; a refusal has its name.
+    told
+        Which files it has to know.
+
+    Raises
+    ------
+    NodeStartError
+        A file cannot be used.
+
+    """
+    try:
+        skills, path = load_skills(skills_path(told.skills_file)), places_path(told.places_file)
+        places = load_places(path) if path else Places()
+    except (SkillsError, PlacesError) as error:
+        raise NodeStartError(f'{node.get_name()} cannot start. {error}') from error
+    return RulePlanner(skills), WorldWatch(node, skills, places, Actions.IMPLEMENTED)

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How the robot looks at things, around itself, and for what it does not remember."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+import math
+from typing import Any
+
+from control_msgs.action import PointHead
+from humanoid_interfaces.action import ScanRoom
+from llm_planner.plan_tree import SkillError, SkillRun
+from llm_planner.recall import Recall
+from llm_planner.robot import Robot
+from llm_planner.walking import Walking
+from llm_planner.wording import where_is
+from llm_planner.world import base_name, in_words, listed, ObjectDescription
+from llm_planner.world_watch import WorldWatch
+
+__all__ = ['Looking']
+
+_SEEN_FROM_M = 4.0
+_LOOK_S = 2.0
+
+
+class Looking:
+    """
+    Looks by the actions of the gaze.
+
+    Parameters
+    ----------
+    robot, watch, recall, walking
+        What moves and speaks, what is known, what is meant, and what brings the robot there.
+
+    """
+
+    def __init__(self, robot: Robot, watch: WorldWatch, recall: Recall, walking: Walking) -> None:
+        self._robot, self._watch = robot, watch
+        self._recall, self._walking = recall, walking
+
+    def look_at(self, target: Any) -> SkillRun:
+        """Turn the head towards a thing or a place."""
+        yield from self._look(self._recall.position(target))
+
+    def _look(self, position_m: tuple[float, float, float]) -> SkillRun:
+        goal = PointHead.Goal()
+        goal.target.header.frame_id = 'map'
+        goal.target.point.x, goal.target.point.y, goal.target.point.z = map(float, position_m)
+        yield from self._robot.act(PointHead, 'look_at', goal)
+
+    def glance_at(self, position_m: tuple[float, float, float]) -> SkillRun:
+        """Look at something for a moment if that is possible; what fails does not matter."""
+        pose = self._watch.pose()
+        if pose is None or math.dist(pose[:2], position_m[:2]) > _SEEN_FROM_M:
+            return
+        if self._watch.lacks('look_at'):
+            return
+        try:
+            yield from self._walking.face(position_m)
+            yield from self._look(position_m)
+            yield from self._robot.sleep(_LOOK_S)
+        except SkillError:
+            return
+
+    def look_around(self) -> SkillRun:
+        """Look into all directions."""
+        yield from self._robot.act(ScanRoom, 'scan_room', ScanRoom.Goal(turn_body=True))
+
+    def find(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
+        """Look for a thing, from one place after another."""
+        looked: list[str] = []
+        for search in self._searches(object, looked):
+            try:
+                for _ in search:
+                    if self._recall.remembered(object) is not None:
+                        break
+                    yield
+            except SkillError as error:
+                if error.code == 'UNAVAILABLE':
+                    raise
+            finally:
+                search.close()
+            if self._recall.remembered(object) is not None:
+                break
+        thing = self._recall.remembered(object)
+        if thing is None:
+            where = f' I have looked in {listed(looked)}.' if looked else ''
+            raise SkillError(f'I have not found {object.text}.{where}', is_final=True)
+        self._recall.take_found(object, thing)
+        self._robot.say(f'I see the {thing.name}{where_is(thing)}.')
+
+    def _searches(self, wanted: ObjectDescription, looked: list[str]) -> Iterator[SkillRun]:
+        """Yield one way to look for a thing after another; take note of the rooms."""
+        places, pose = self._watch.places, self._watch.pose()
+        yield self._robot.sleep(0.0)
+        only = wanted.place
+        surfaces = [each for each in places.surfaces if base_name(each.name) == only]
+        here = places.room_at(pose[0], pose[1]) if pose else ''
+        if surfaces:
+            yield self._walking.go_to(only)
+            looked.append(f'front of the {in_words(only)}')
+            yield self._look_upon(surfaces)
+            yield self.look_around()
+            return
+        rooms = [each for each in places.rooms if only in ('', each.name)]
+        if pose is not None:
+            rooms.sort(key=lambda room: math.dist(room.middle_m, pose[:2]))
+        if not rooms:
+            looked.append('all directions from here')
+            yield self.look_around()
+        for room in rooms:
+            if room.name != here:
+                yield self._walking.go_to(room.name)
+            looked.append(f'the {in_words(room.name)}')
+            yield self.look_around()
+            for surface in places.surfaces:
+                if places.room_at(*surface.middle_m) == room.name:
+                    yield self._visit(surface.name)
+
+    def _visit(self, name: str) -> SkillRun:
+        yield from self._walking.go_to(base_name(name))
+        yield from self._look_upon(
+            [each for each in self._watch.places.surfaces if each.name == name]
+        )
+
+    def _look_upon(self, surfaces: Sequence[Any]) -> SkillRun:
+        for surface in surfaces:
+            yield from self.glance_at((*surface.middle_m, surface.height_m))

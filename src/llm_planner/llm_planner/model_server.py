@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Ask a language model behind an interface like that of OpenAI: OpenAI, Ollama, llama.cpp, vLLM.
+
+Only `chat/completions` and `models` are used. What servers differ in is how they can be made to
+answer in JSON: by a schema, as any object, or not at all. The first that works is kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+import json
+import time
+from typing import Any
+
+import httpx
+from humanoid_common.naming import shortened
+from llm_planner.model_planner import ModelError
+
+__all__ = ['ModelServer']
+
+Message = Mapping[str, str]
+_MODES = ('json_schema', 'json_object', 'text')
+_LARGEST = 1_000_000
+_MOST_TOKENS = 800
+_NAMED = 8
+"""How many models a sentence lists."""
+_CONNECT_S = 3.0
+
+
+class ModelServer:
+    """
+    A server of language models.
+
+    Parameters
+    ----------
+    base_url
+        Where its interface begins: `http://127.0.0.1:11434/v1`.
+    model
+        The name of the model; empty for the only one that the server has.
+    key
+        What the server asks for; empty if nothing. It is sent, and never shown.
+    mode
+        How it is made to answer in JSON: `json_schema`, `json_object` or `text`; `auto` for the
+        first of these that it takes.
+
+    """
+
+    def __init__(self, base_url: str, model: str = '', key: str = '', mode: str = 'auto') -> None:
+        self._url = base_url.rstrip('/')
+        self._model = model
+        headers = {'Authorization': f'Bearer {key}'} if key else {}
+        self._client = httpx.Client(headers=headers)
+        self._modes = list(_MODES) if mode == 'auto' else [mode]
+
+    def answer(
+        self, messages: Sequence[Message], schema: Mapping[str, Any], deadline_s: float
+    ) -> str:
+        """
+        Return what the model answers.
+
+        Parameters
+        ----------
+        messages
+            The conversation: roles and contents.
+        schema
+            The JSON schema of the answer, for servers that take one.
+        deadline_s
+            By `time.monotonic`: when all of it has to be over.
+
+        Raises
+        ------
+        ModelError
+            There is no answer, or none in time.
+
+        """
+        model = self._model or self._only_model(deadline_s)
+        while True:
+            body = {
+                'model': model,
+                'messages': list(messages),
+                'temperature': 0,
+                'max_tokens': _MOST_TOKENS,
+                **_format(self._modes[0], schema),
+            }
+            status, text = self._request('POST', 'chat/completions', deadline_s, body)
+            if status == 400 and len(self._modes) > 1 and 'response_format' in text:
+                del self._modes[0]
+                continue
+            if status == 404 or (status == 400 and 'model' in text.lower()):
+                raise ModelError(self._unknown(model, deadline_s))
+            self._check(status, text)
+            return _content(text)
+
+    def _only_model(self, deadline_s: float) -> str:
+        names = self._models(deadline_s)
+        if len(names) == 1:
+            self._model = names[0]
+            return names[0]
+        if not names:
+            raise ModelError(f'The server at {self._url} has no models: load one there.')
+        raise ModelError(
+            f'The server at {self._url} has several models: {_some(names)}. Say which one to ask '
+            'by the parameter model.'
+        )
+
+    def _models(self, deadline_s: float) -> list[str]:
+        status, text = self._request('GET', 'models', deadline_s)
+        self._check(status, text)
+        try:
+            names = [str(each['id']) for each in json.loads(text)['data']]
+        except (ValueError, KeyError, TypeError):
+            raise ModelError(
+                f'What answers at {self._url} is no server of models. Is the parameter base_url '
+                'right? It often ends in /v1.'
+            ) from None
+        return names
+
+    def _unknown(self, model: str, deadline_s: float) -> str:
+        """Say that there is no such model, and which ones there are."""
+        try:
+            names = self._models(deadline_s)
+        except ModelError:
+            names = []
+        offer = f' It has: {_some(names)}.' if names else ' Is the parameter base_url right?'
+        return f"The server at {self._url} has no model '{shortened(model)}'.{offer}"
+
+    def _check(self, status: int, text: str) -> None:
+        """Raise what a status means."""
+        if status in (401, 403):
+            raise ModelError(
+                f'The server at {self._url} does not accept the key: set OPENAI_API_KEY in the '
+                'environment of the planner.'
+            )
+        if status == 429:
+            raise ModelError(f'The server at {self._url} is asked too often, or is not paid.')
+        if status >= 300:
+            raise ModelError(f'The server at {self._url} failed with the status {status}.')
+
+    def _request(
+        self, method: str, path: str, deadline_s: float, body: Any = None
+    ) -> tuple[int, str]:
+        """Return the status and the text of an answer that is there in time."""
+        left_s = deadline_s - time.monotonic()
+        late = ModelError(f'The server at {self._url} did not answer in time.')
+        if left_s <= 0.0:
+            raise late
+        timeout = httpx.Timeout(left_s, connect=min(left_s, _CONNECT_S))
+        received = bytearray()
+        try:
+            with self._client.stream(
+                method, f'{self._url}/{path}', json=body, timeout=timeout
+            ) as response:
+                for part in response.iter_bytes():
+                    received += part
+                    if len(received) > _LARGEST:
+                        raise ModelError(f'The answer of {self._url} is endless.')
+                    if time.monotonic() > deadline_s:  # one that trickles
+                        raise late
+                return response.status_code, received.decode(errors='replace')
+        except httpx.TimeoutException:
+            raise late from None
+        except (httpx.HTTPError, httpx.InvalidURL) as error:
+            raise ModelError(
+                f'The server at {self._url} cannot be reached ({type(error).__name__}). Is it '
+                'running, and is the parameter base_url right?'
+            ) from None
+
+
+def _format(mode: str, schema: Mapping[str, Any]) -> dict[str, Any]:
+    if mode == 'text':
+        return {}
+    if mode == 'json_object':
+        return {'response_format': {'type': 'json_object'}}
+    named = {'name': 'plan', 'strict': True, 'schema': schema}
+    return {'response_format': {'type': 'json_schema', 'json_schema': named}}
+
+
+def _content(text: str) -> str:
+    """Return what the model has written, of the answer of a server."""
+    try:
+        message = json.loads(text)['choices'][0]['message']
+        content = message['content']
+    except (ValueError, KeyError, IndexError, TypeError, RecursionError):
+        raise ModelError('The server answered something that is no answer of a model.') from None
+    if not isinstance(content, str) or not content.strip():
+        refusal = message.get('refusal') if isinstance(message, dict) else None
+        raise ModelError(str(refusal)[:200] if refusal else 'The model answered nothing.')
+    return content
+
+
+def _some(names: Sequence[str]) -> str:
+    more = f' and {len(names) - _NAMED} more' if len(names) > _NAMED else ''
+    return ', '.join(shortened(each) for each in names[:_NAMED]) + more

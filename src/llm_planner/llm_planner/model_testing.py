@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A server of language models that behaves as it is told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+import json
+import threading
+from typing import Any
+
+GOOD = {'steps': [{'skill': 'go_to', 'arguments': {'target': 'hall'}}], 'refusal': None}
+Answer = tuple[int, Any]
+"""A status, and what is sent: an object as JSON, a text, or bytes that come one after another."""
+
+
+def says(content: Any) -> Answer:
+    """Return the answer of a model that writes something."""
+    text = content if isinstance(content, str) else json.dumps(content)
+    return 200, {'choices': [{'message': {'role': 'assistant', 'content': text}}]}
+
+
+class ModelStub:
+    """What a server answers, and what it was asked."""
+
+    def __init__(self, *answers: Answer | Callable[[dict[str, Any]], Answer]) -> None:
+        self.answers = list(answers)
+        self.asked: list[dict[str, Any]] = []
+        self.headers: list[dict[str, str]] = []
+        self.models = ['small-model']
+        self.url = ''
+
+    def answer(self, request: dict[str, Any]) -> Answer:
+        """Return the next answer; the last one again and again."""
+        self.asked.append(request)
+        given = self.answers.pop(0) if len(self.answers) > 1 else self.answers[0]
+        return given(request) if callable(given) else given
+
+
+@contextmanager
+def serving(stub: ModelStub) -> Iterator[ModelStub]:
+    """Serve on a free port of this machine, whose address the stub then has."""
+    over = threading.Event()
+
+    class Handler(BaseHTTPRequestHandler):
+        """Answers as the stub says."""
+
+        def do_GET(self) -> None:
+            """List the models."""
+            self._send(200, {'data': [{'id': name} for name in stub.models]})
+
+        def do_POST(self) -> None:
+            """Answer a conversation."""
+            length = int(self.headers['Content-Length'])
+            stub.headers.append(dict(self.headers))
+            status, content = stub.answer(json.loads(self.rfile.read(length)))
+            self._send(status, content)
+
+        def _send(self, status: int, content: Any) -> None:
+            self.send_response(status)
+            if status in (301, 302):
+                self.send_header('Location', '/elsewhere')
+            self.end_headers()
+            if isinstance(content, str):
+                self.wfile.write(content.encode())
+            elif isinstance(content, (dict, list)):
+                self.wfile.write(json.dumps(content).encode())
+            else:
+                try:
+                    for part in content(over):
+                        self.wfile.write(part)
+                        self.wfile.flush()
+                except OSError:
+                    return
+
+        def log_message(self, *_: Any) -> None:
+            """Log nothing."""
+
+    server = ThreadingHTTPServer(('127.0.0.1', 0), Handler)
+    server.daemon_threads = True
+    threading.Thread(target=server.serve_forever, args=(0.05,), daemon=True).start()
+    stub.url = f'http://127.0.0.1:{server.server_port}/v1'
+    try:
+        yield stub
+    finally:
+        over.set()
+        server.shutdown()
+        server.server_close()

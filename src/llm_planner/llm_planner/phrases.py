@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+One notation for the sentences that are parsed and for those that are recognised.
+
+A phrase is written like an expansion of JSGF (the Java Speech Grammar Format): words, `(a | b)`
+for one of several, `[a]` for what may be left out, and `{name}` for a slot, which stands for a
+rule, a list of words with their values, a number, or any text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+import re
+
+__all__ = [
+    'Choice', 'GrammarError', 'Option', 'Phrase', 'Series', 'Slot', 'Word', 'parse_phrase',
+    'part_of', 'with_rules',
+]  # fmt: skip
+
+_TOKEN = re.compile(r'\{\w+\}|[\[\]()|,]|[^\s\[\](){}|,]+')
+
+
+class GrammarError(Exception):
+    """A phrase or a list of words cannot be used; the text says why."""
+
+
+@dataclass(frozen=True)
+class Word:
+    """A word that has to be said."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Series:
+    """Parts that have to be said one after another."""
+
+    parts: tuple[Phrase, ...]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Alternatives, one of which has to be said."""
+
+    parts: tuple[Phrase, ...]
+
+
+@dataclass(frozen=True)
+class Option:
+    """What may be said."""
+
+    part: Phrase
+
+
+@dataclass(frozen=True)
+class Slot:
+    """What stands for a rule, a list, a number or a text, and the name by which that is bound."""
+
+    name: str
+    rule: str
+
+
+Phrase = Word | Series | Choice | Option | Slot
+
+
+def part_of(phrase: Phrase) -> Iterator[Phrase]:
+    """Yield a phrase and all that it consists of."""
+    yield phrase
+    parts: tuple[Phrase, ...] = ()
+    if isinstance(phrase, Option):
+        parts = (phrase.part,)
+    elif isinstance(phrase, Series | Choice):
+        parts = phrase.parts
+    for part in parts:
+        yield from part_of(part)
+
+
+def with_rules(phrase: Phrase, rules: Mapping[str, str]) -> Phrase:
+    """
+    Return a phrase some of whose slots stand for other rules.
+
+    Parameters
+    ----------
+    phrase
+        Is left as it is.
+    rules
+        The names of the rules by the names of slots.
+
+    """
+    if isinstance(phrase, Slot):
+        return Slot(phrase.name, rules.get(phrase.name, phrase.rule))
+    if isinstance(phrase, Option):
+        return Option(with_rules(phrase.part, rules))
+    if isinstance(phrase, Series):
+        return Series(tuple(with_rules(part, rules) for part in phrase.parts))
+    if isinstance(phrase, Choice):
+        return Choice(tuple(with_rules(part, rules) for part in phrase.parts))
+    return phrase
+
+
+def parse_phrase(text: str) -> Phrase:
+    """
+    Read a phrase.
+
+    Raises
+    ------
+    GrammarError
+        Brackets do not match, or an alternative is empty.
+
+    """
+    tokens = _TOKEN.findall(text)
+    phrase, end = _alternatives(tokens, 0, text)
+    if end != len(tokens):
+        raise GrammarError(f"The phrase '{text}' has a '{tokens[end]}' too many.")
+    return phrase
+
+
+def _alternatives(tokens: Sequence[str], at: int, text: str) -> tuple[Phrase, int]:
+    found: list[Phrase] = []
+    while True:
+        part, at = _sequence(tokens, at, text)
+        found.append(part)
+        if at >= len(tokens) or tokens[at] != '|':
+            return (found[0] if len(found) == 1 else Choice(tuple(found))), at
+        at += 1
+
+
+def _sequence(tokens: Sequence[str], at: int, text: str) -> tuple[Phrase, int]:
+    parts: list[Phrase] = []
+    while at < len(tokens) and tokens[at] not in '|])':
+        token = tokens[at]
+        if token in '[(':
+            inner, at = _alternatives(tokens, at + 1, text)
+            if at >= len(tokens) or tokens[at] != {'[': ']', '(': ')'}[token]:
+                raise GrammarError(f"The phrase '{text}' has a '{token}' that nothing closes.")
+            parts.append(Option(inner) if token == '[' else inner)
+        elif token[0] == '{':
+            parts.append(Slot(token[1:-1], token[1:-1]))
+        else:
+            parts.append(Word(token))
+        at += 1
+    if not parts:
+        raise GrammarError(f"The phrase '{text}' has an alternative in which nothing is said.")
+    return (parts[0] if len(parts) == 1 else Series(tuple(parts))), at

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which remembered thing is meant, and where it is."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from llm_planner.plan_tree import SkillError
+from llm_planner.world import ObjectDescription, Thing
+from llm_planner.world_watch import WorldWatch
+
+__all__ = ['HEAD_M', 'Recall']
+
+HEAD_M = 1.0
+"""How high above the floor a room is looked at, and the shoulders are; m."""
+
+
+class Recall:
+    """
+    Finds what a plan speaks of among the remembered things.
+
+    Parameters
+    ----------
+    watch
+        What is remembered.
+
+    """
+
+    def __init__(self, watch: WorldWatch) -> None:
+        self._watch = watch
+        self._found: dict[ObjectDescription, str] = {}
+
+    def begin_plan(self) -> None:
+        """Forget what the plan before has found."""
+        self._found.clear()
+
+    def take_found(self, described: ObjectDescription, thing: Thing) -> None:
+        """
+        Take note of which thing it is that a description means until the plan is over.
+
+        Parameters
+        ----------
+        described, thing
+            The words, and the thing that was found for them.
+
+        """
+        self._found[described] = thing.object_id
+
+    def remembered(self, described: ObjectDescription) -> Thing | None:
+        """Return the thing that is meant; None if there is none."""
+        things = self._watch.things
+        known = self._found.get(described)
+        for thing in things:
+            if thing.object_id == known:
+                return thing
+        return next(iter(described.among(things, self._watch.pose())), None)
+
+    def thing(self, described: ObjectDescription) -> Thing:
+        """Return the thing that is meant; SkillError if there is none."""
+        thing = self.remembered(described)
+        if thing is None:
+            raise SkillError(f'I do not remember {described.text}: ask me to find it.')
+        return thing
+
+    def position(self, target: Any) -> tuple[float, float, float]:
+        """Return where a thing or a place is in the map (m); SkillError for an unknown thing."""
+        if isinstance(target, ObjectDescription):
+            return self.thing(target).position_m
+        if surface := self._watch.surface(target):
+            return (*surface.middle_m, surface.height_m)
+        room = self._watch.room(target)
+        assert room is not None, 'The plan was checked.'
+        return (*room.middle_m, HEAD_M)

@@ -1,0 +1,311 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Understand English sentences by the phrases of the skills, without a language model.
+
+A sentence is understood as a whole or not at all: each of its clauses has to be a phrase of a
+skill, and what is left over is quoted in the refusal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+import difflib
+from typing import Any
+
+from humanoid_common.naming import shortened
+from llm_planner.dialogue import answer_to, AskFirstError, Dialogue, Question, Refusal
+from llm_planner.grammar import Bindings, Grammar, tokenized
+from llm_planner.phrases import Choice, part_of, Phrase, Series, Word
+from llm_planner.plan import check, Plan, PlanError
+from llm_planner.reading import Clause, Reading
+from llm_planner.skills import Saying, Skill, Skills
+from llm_planner.world import ANYTHING, in_words, listed, ObjectDescription, spoken_places, World
+
+__all__ = ['RulePlanner']
+
+_LONGEST = 500
+_REPAIRED_FROM = 4
+"""Shorter words are not taken for misspelt ones."""
+_CLOSE = 0.8
+_OPEN = ('place', 'class', 'classes')
+"""Lists of names; when a sentence fits but for a name, that name is said to be unknown."""
+
+
+class RulePlanner:
+    """
+    Makes plans of sentences.
+
+    Parameters
+    ----------
+    skills
+        What can be asked for, and in which words.
+
+    """
+
+    def __init__(self, skills: Skills) -> None:
+        self.skills = skills
+        self._grammars: dict[Any, tuple[Grammar, Grammar, frozenset[str]]] = {}
+        self._sayings = [(skill, saying) for skill in skills for saying in skill.sayings]
+
+    def plan(self, text: str, world: World, dialogue: Dialogue) -> Plan | Question | Refusal:
+        """
+        Return what to do about a sentence.
+
+        Parameters
+        ----------
+        text
+            What was said or typed; an answer, if the dialogue has a question.
+        world
+            What is known now.
+        dialogue
+            What was spoken about before; is changed.
+
+        """
+        if len(text) > _LONGEST:
+            return Refusal(f'That is too long for me: say it in at most {_LONGEST} letters.')
+        tokens = tokenized(text)
+        if not tokens:
+            return Refusal('I heard no words. Say, for instance, "go to the kitchen".')
+        question, dialogue.question = dialogue.question, None
+        if question is not None and (answer := answer_to(tokens, question)) is not None:
+            dialogue.chosen[question.subject] = question.choices[answer]
+            text, tokens = question.command, tokenized(question.command)
+        else:
+            dialogue.chosen.clear()
+        try:
+            clauses = self._clauses(tokens, world)
+            plan = self._interpreted(text, clauses, world, dialogue)
+            check(plan, self.skills, world)
+        except AskFirstError as error:
+            dialogue.question = error.question
+            return error.question
+        except PlanError as error:
+            return Refusal(str(error))
+        return plan
+
+    def object_of(self, text: str, world: World) -> ObjectDescription:
+        """
+        Return the object that a text describes: `the red mug on the desk`.
+
+        Raises
+        ------
+        PlanError
+            It describes none.
+
+        """
+        grammar, _, _ = self._grammar(world)
+        tokens = tokenized(text)
+        for end, bindings in grammar.matches(grammar.rules['object'], tokens):
+            if end == len(tokens) and not dict(bindings).get('pronoun'):
+                return Reading(self.skills, world, Dialogue()).described_object(bindings)
+        raise PlanError(f"I do not know what '{shortened(text)}' is.")
+
+    def to_jsgf(self, world: World) -> str:
+        """Return the grammar of what can be said now, for a speech recogniser, as JSGF."""
+        grammar, _, _ = self._grammar(world)
+        phrases: dict[str, Phrase] = {}
+        for number, (skill, saying) in enumerate(self._sayings):
+            phrases[f'{skill.name}_phrase_{number}'] = saying.phrase
+        probe = grammar.to_jsgf('robot', '<VOID>', phrases)
+        usable = [name for name in phrases if f'\n<{name}> = ' in probe]
+        clause = f'({" | ".join(f"<{name}>" for name in usable)})'
+        more = f'[<joint> {clause}]'
+        command = f'[<beginning>] {clause} {more} {more} [<end>]'
+        return grammar.to_jsgf('robot', command, phrases)
+
+    def is_stop(self, text: str) -> bool:
+        """Return whether a sentence says no more than to stop, at once and whatever else."""
+        grammar, _, _ = self._grammar(World())
+        tokens = [each for each in tokenized(text) if each != ',']
+        for begin in self._skipped(grammar, 'beginning', tokens, 0):
+            for saying in self.skills['stop'].sayings if 'stop' in self.skills.skills else ():
+                for end, _ in grammar.matches(saying.phrase, tokens, begin):
+                    if len(tokens) in self._skipped(grammar, 'end', tokens, end):
+                        return True
+        return False
+
+    def _grammar(self, world: World) -> tuple[Grammar, Grammar, frozenset[str]]:
+        """Return the grammar of a world, one that takes any words for names, and all words."""
+        key = (tuple(world.places), world.rooms)
+        if key not in self._grammars:
+            vocabulary = self.skills.vocabulary
+            lists: dict[str, Mapping[str, Any]] = {
+                name: {word: value for value, words in values.items() for word in words}
+                for name, values in vocabulary.items()
+                if name != 'place'
+            }
+            lists['place'] = spoken_places(world, vocabulary.get('place', {}))
+            numbers, texts = {}, set()
+            for skill in self.skills:
+                for argument in skill.arguments.values():
+                    slot = f'{skill.name}_{argument.name}'
+                    if argument.kind == 'choice':
+                        lists[slot] = {
+                            word: value for value, ws in argument.values.items() for word in ws
+                        }
+                    elif argument.kind == 'number':
+                        numbers[slot] = argument.unit
+                    elif argument.kind == 'text':
+                        texts.add(slot)
+            rules = self.skills.rules
+            exact = Grammar(rules, lists, numbers, frozenset(texts))
+            closed = {name: each for name, each in lists.items() if name not in _OPEN}
+            loose = Grammar(rules, closed, numbers, frozenset((*texts, *_OPEN)))
+            self._grammars[key] = exact, loose, _all_words(exact, self._sayings)
+        return self._grammars[key]
+
+    def _clauses(self, tokens: list[str], world: World) -> list[Clause]:
+        """Return the clauses of a sentence; ask if it is one with its spelling mended."""
+        grammar, loose, words = self._grammar(world)
+        furthest = [0]
+        found = next(self._parsed(grammar, tokens, 0, furthest, {}), None)
+        if found is not None:
+            return found
+        mended = [_mended(each, words) for each in tokens]
+        if mended != tokens and any(self._parsed(grammar, mended, 0, [0], {})):
+            meant = ' '.join(mended).replace(' ,', ',')
+            raise AskFirstError(Question(f'Did you mean "{meant}"?', meant, None, {'yes': meant}))
+        guess = next(self._parsed(loose, tokens, 0, [0], {}), None)
+        if guess is not None:
+            for clause in guess:
+                _refuse_unknown_names(clause.bindings, grammar, words, world)
+        raise PlanError(self._not_understood(grammar, tokens, furthest[0]))
+
+    def _parsed(
+        self,
+        grammar: Grammar,
+        tokens: list[str],
+        at: int,
+        furthest: list[int],
+        found: dict[int, list[Clause]],
+    ) -> Iterator[list[Clause]]:
+        """Yield each way to read the rest of a sentence as clauses; keep how far one gets."""
+        for begin in self._skipped(grammar, 'beginning', tokens, at):
+            if begin not in found:
+                found[begin] = list(self._clauses_at(grammar, tokens, begin))
+            furthest[0] = max(furthest[0], begin if begin < len(tokens) else 0)
+            for clause in found[begin]:
+                for end in self._skipped(grammar, 'end', tokens, clause.end):
+                    if end == len(tokens):
+                        yield [clause]
+                        continue
+                    for after in self._joints(grammar, tokens, end):
+                        for rest in self._parsed(grammar, tokens, after, furthest, found):
+                            yield [clause, *rest]
+
+    def _clauses_at(self, grammar: Grammar, tokens: list[str], at: int) -> Iterator[Clause]:
+        matches = [
+            Clause(skill, saying, bindings, at, end)
+            for skill, saying in self._sayings
+            for end, bindings in grammar.matches(saying.phrase, tokens, at)
+        ]
+        seen = set()
+        # As much as possible, but of a free text as little as leaves the rest understandable.
+        for clause in sorted(matches, key=lambda each: each.end if each.is_free else -each.end):
+            key = (clause.end, clause.skill.name)
+            if key not in seen:  # one way to read the same words as the same skill is enough
+                seen.add(key)
+                yield clause
+
+    def _skipped(self, grammar: Grammar, rule: str, tokens: list[str], at: int) -> list[int]:
+        """Return the places to which a rule leads that may be said any number of times."""
+        reached = [at]
+        for place in reached:
+            start = place + 1 if place < len(tokens) and tokens[place] == ',' else place
+            for end, _ in grammar.matches(grammar.rules[rule], tokens, start):
+                if end not in reached:
+                    reached.append(end)
+        return [*reached[1:], at]
+
+    def _joints(self, grammar: Grammar, tokens: list[str], at: int) -> Iterator[int]:
+        """Yield where the next clause can begin."""
+        after_comma = at
+        while after_comma < len(tokens) and tokens[after_comma] == ',':
+            after_comma += 1
+        for end, _ in grammar.matches(grammar.rules['joint'], tokens, after_comma):
+            yield end
+        if after_comma > at:
+            yield after_comma
+
+    def _not_understood(self, grammar: Grammar, tokens: list[str], at: int) -> str:
+        """Quote the clause that was not understood, and say what could be said instead."""
+        end = next(
+            (
+                index
+                for index in range(at + 1, len(tokens))
+                if any(True for _ in self._joints(grammar, tokens, index))
+            ),
+            len(tokens),
+        )
+        quoted = shortened(' '.join(each for each in tokens[at:end] if each != ','))
+        examples = {
+            skill.name: skill.name.replace('_', ' ')
+            for skill, saying in self._sayings
+            if any(isinstance(p, Word) and p.text == tokens[at] for p in _first_words(saying))
+        }
+        hint = (
+            f'I can {listed(list(examples.values()))}, but not like that.'
+            if examples
+            else 'You can say, for instance: "go to the kitchen", "find the red mug" or "what do '
+            'you see".'
+        )
+        return f'I did not understand "{quoted}". {hint}'
+
+    def _interpreted(
+        self, text: str, clauses: Sequence[Clause], world: World, dialogue: Dialogue
+    ) -> Plan:
+        """Return the steps that the clauses ask for."""
+        reading = Reading(self.skills, world, dialogue)
+        for clause in clauses:
+            reading.read(clause, text)
+        dialogue.last_object, dialogue.last_place = reading.last_object, reading.last_place
+        return Plan(text, tuple(reading.steps))
+
+
+def _mended(token: str, words: frozenset[str]) -> str:
+    """Return a known word that is spelt nearly like an unknown one, or the word itself."""
+    if token in words or len(token) < _REPAIRED_FROM or not token.isalpha():
+        return token
+    close = difflib.get_close_matches(token, words, 1, _CLOSE)
+    return close[0] if close else token
+
+
+def _all_words(grammar: Grammar, sayings: Sequence[tuple[Skill, Saying]]) -> frozenset[str]:
+    phrases = [*grammar.rules.values(), *(saying.phrase for _, saying in sayings)]
+    words = {part.text for phrase in phrases for part in part_of(phrase) if isinstance(part, Word)}
+    for values in grammar.lists.values():
+        words.update(word for text in values for word in tokenized(text))
+    return frozenset(words)
+
+
+def _first_words(saying: Saying) -> Iterator[Phrase]:
+    """Yield the words with which a phrase can begin."""
+    pending: list[Phrase] = [saying.phrase]
+    while pending:
+        phrase = pending.pop()
+        if isinstance(phrase, Word):
+            yield phrase
+        elif isinstance(phrase, Choice):
+            pending.extend(phrase.parts)
+        elif isinstance(phrase, Series):
+            pending.append(phrase.parts[0])
+
+
+def _refuse_unknown_names(
+    bindings: Bindings, grammar: Grammar, words: frozenset[str], world: World
+) -> None:
+    """Raise PlanError for the first name that has no word which is known."""
+    for name, value in bindings:
+        if isinstance(value, tuple):
+            _refuse_unknown_names(value, grammar, words, world)
+        elif name not in _OPEN or {*value.split()} & words:
+            continue
+        elif name == 'place':
+            rooms = [in_words(each) for each in (*world.rooms, *world.places)]
+            known = f'I know {listed(rooms)}.' if rooms else 'I know no places at all.'
+            raise PlanError(f'I know no place called "{shortened(value)}". {known}')
+        else:
+            known = listed(sorted({*grammar.lists['class'].values()} - {ANYTHING}))
+            raise PlanError(
+                f'I do not know what "{shortened(value)}" is. I can recognise: {known}.'
+            )

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Numbers with units, as people say and type them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+__all__ = ['NUMBER_WORDS', 'UNITS', 'jsgf_digits', 'jsgf_of', 'numbers_at']
+
+UNITS = {
+    'm': 'metres', 'meter': 'metres', 'meters': 'metres', 'metre': 'metres', 'step': 'steps',
+    'deg': 'degrees', 'degree': 'degrees', '°': 'degrees', 's': 'seconds', 'sec': 'seconds',
+    'second': 'seconds', 'minute': 'minutes', 'cm': 'centimetres', 'centimeters': 'centimetres',
+}  # fmt: skip
+_ONES = (
+    'zero', 'one', 'two', 'three', 'four', 'five', 'six', 'seven', 'eight', 'nine', 'ten',
+    'eleven', 'twelve', 'thirteen', 'fourteen', 'fifteen', 'sixteen', 'seventeen', 'eighteen',
+    'nineteen',
+)  # fmt: skip
+_TENS = ('twenty', 'thirty', 'forty', 'fifty', 'sixty', 'seventy', 'eighty', 'ninety')
+NUMBER_WORDS = {word: float(value) for value, word in enumerate(_ONES)}
+NUMBER_WORDS |= {word: 10.0 * value for value, word in enumerate(_TENS, 2)}
+_FACTORS = {
+    'metres': 1.0, 'centimetres': 0.01, 'steps': 0.3, 'degrees': 1.0, 'seconds': 1.0,
+    'minutes': 60.0,
+}  # fmt: skip
+_UNITS_OF = {
+    'metres': ('metres', 'centimetres', 'steps'),
+    'degrees': ('degrees',),
+    'seconds': ('seconds', 'minutes'),
+}
+_SPOKEN_UNITS = {
+    'metres': 'meters | meter | steps | step',
+    'degrees': 'degrees | degree',
+    'seconds': 'seconds | second | minutes | minute',
+}
+
+
+def numbers_at(tokens: Sequence[str], at: int, unit: str) -> Iterator[tuple[int, float]]:
+    """
+    Yield the ways to read a number, with its unit or without.
+
+    Parameters
+    ----------
+    tokens, at
+        Words, and the index of the first one of the number: `half a metre`, `90`.
+    unit
+        What is wanted: `metres`, `degrees` or `seconds`. Others of the kind are converted.
+
+    Yields
+    ------
+    int, float
+        The index behind the last word, and the number in that unit.
+
+    """
+    read = _number(tokens, at)
+    if read is None:
+        return
+    end, number = read
+    if end < len(tokens) and tokens[end] in ('metres', 'metre') and unit == 'metres':
+        yield end + 1, number
+    elif end < len(tokens):
+        said = UNITS.get(tokens[end], tokens[end])
+        if said in _UNITS_OF[unit]:
+            yield end + 1, number * _FACTORS[said]
+    yield end, number
+
+
+def _number(tokens: Sequence[str], at: int) -> tuple[int, float] | None:
+    """Return the index behind a number, and the number; None if there is none."""
+    if at >= len(tokens):
+        return None
+    if tokens[at][0].isdigit():
+        return at + 1, float(tokens[at])
+    if tokens[at] == 'half':
+        return at + 1 + any(_says(tokens, at + 1, each) for each in ('a', 'an')), 0.5
+    end, total = at, 0.0
+    if any(_says(tokens, at, each, 'hundred') for each in ('a', 'one')):
+        end, total = at + 2, 100.0
+        end += _says(tokens, end, 'and')
+    elif tokens[at] in ('a', 'an'):
+        return at + 1, 1.0
+    first = NUMBER_WORDS.get(tokens[end]) if end < len(tokens) else None
+    if first is not None:
+        end, total = end + 1, total + first
+        ones = NUMBER_WORDS.get(tokens[end], 0.0) if end < len(tokens) else 0.0
+        if first >= 20.0 and 0.0 < ones < 10.0:
+            end, total = end + 1, total + ones
+    if end > at and _says(tokens, end, 'and', 'a', 'half'):
+        end, total = end + 3, total + 0.5
+    return (end, total) if end > at else None
+
+
+def _says(tokens: Sequence[str], at: int, *words: str) -> bool:
+    """Whether words are said from a place on."""
+    end = at + len(words)
+    return tuple(tokens[at:end]) == words
+
+
+def jsgf_of(number: str, unit: str) -> str:
+    """
+    Return the rule of a number with its unit for a speech recogniser.
+
+    Parameters
+    ----------
+    number
+        The name of the rule.
+    unit
+        `metres`, `degrees` or `seconds`.
+
+    """
+    return f'<{number}> = (<digits> | half a | a) ({_SPOKEN_UNITS[unit]});'
+
+
+def jsgf_digits() -> str:
+    """Return the rule `<digits>`, which the rules of numbers refer to."""
+    ones, tens = ' | '.join(_ONES[1:]), ' | '.join(_TENS)
+    digits = f'<digits> = {ones} | ({tens}) [{" | ".join(_ONES[1:10])}]'
+    return f'{digits} | (one | a) hundred [[and] ({ones} | {tens})];'

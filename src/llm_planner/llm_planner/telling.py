@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How the robot tells what it remembers."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from llm_planner.looking import Looking
+from llm_planner.plan_tree import SkillRun
+from llm_planner.recall import Recall
+from llm_planner.robot import Robot
+from llm_planner.walking import Walking
+from llm_planner.wording import capital, enumerated, NUMBERS, where_is, with_article
+from llm_planner.world import base_name, in_words, ObjectDescription, Thing
+from llm_planner.world_watch import WorldWatch
+
+__all__ = ['Telling']
+
+_NEAR_M = 0.6
+"""Things that are not farther from each other stand beside each other."""
+_CLOSE_M = 1.5
+"""What is to be described is looked at from no farther away, if the robot can walk."""
+
+
+class Telling:
+    """
+    Answers questions about things.
+
+    Parameters
+    ----------
+    robot, watch, recall
+        What speaks, what is known, and what is meant.
+    walking, looking
+        What looks anew before something is described.
+
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        watch: WorldWatch,
+        recall: Recall,
+        walking: Walking,
+        looking: Looking,
+    ) -> None:
+        self._robot, self._watch, self._recall = robot, watch, recall
+        self._walking, self._looking = walking, looking
+
+    def where(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
+        """Say where a thing is."""
+        thing = self._recall.thing(object)
+        self._robot.say(f'The {thing.name} is{where_is(thing) or " where I have seen it"}.')
+        return
+        yield
+
+    def identify(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
+        """Say which thing is meant."""
+        thing = self._recall.thing(object)
+        self._robot.say(f'It is {with_article(thing.name)}{where_is(thing)}.')
+        return
+        yield
+
+    def tell_count(self, objects: ObjectDescription) -> SkillRun:
+        """Say how many things there are."""
+        count = len(objects.among(self._watch.things))
+        one = ObjectDescription(
+            objects.class_id, objects.colour, '', objects.place, is_inside=objects.is_inside
+        )
+        number = NUMBERS[count] if count < len(NUMBERS) else str(count)
+        if count == 1:
+            self._robot.say(f'There is one{one.text.removeprefix("the")}.')
+        else:
+            self._robot.say(f'There are {number} {objects.plural_text}.')
+        return
+        yield
+
+    def describe(self, target: Any, relation: str) -> SkillRun:
+        """
+        Say what is here, at a place, or beside a thing; go and look there before.
+
+        Parameters
+        ----------
+        target
+            The name of a place, or the description of a thing; empty for the room around.
+        relation
+            `beside` or `at`; a thing is told with what is beside it, a place with what is at it.
+
+        """
+        things = self._watch.things
+        if not target:
+            pose = self._watch.pose()
+            room = self._watch.places.room_at(pose[0], pose[1]) if pose else ''
+            seen = [each for each in things if each.room == room] if room else list(things)
+            where = f'In the {in_words(room)} I see' if room else 'I see'
+            self._robot.say(f'{where} {enumerated(seen) or "nothing that I know"}.')
+            return
+        position_m, pose = self._recall.position(target), self._watch.pose()
+        is_far = pose is not None and math.dist(pose[:2], position_m[:2]) > _CLOSE_M
+        if is_far and not self._watch.lacks('go_to'):
+            yield from self._walking.go_to(target)
+        yield from self._looking.glance_at(position_m)
+        things = self._watch.things
+        if isinstance(target, ObjectDescription):
+            thing = self._recall.thing(target)
+            beside = [each for each in things if _are_neighbours(thing, each)]
+            beside.sort(key=lambda each: math.dist(each.position_m, thing.position_m))
+            verb = 'is' if len(beside) == 1 else 'are'
+            text = f'{capital(enumerated(beside) or "nothing")} {verb} beside the {thing.name}.'
+            self._robot.say(text if beside else f'Nothing is beside the {thing.name}.')
+            return
+        there = [each for each in things if target in (base_name(each.place), each.room)]
+        where = f'{"In" if self._watch.room(target) else "On"} the {in_words(target)}'
+        self._robot.say(f'{where} I see {enumerated(there) or "nothing that I know"}.')
+
+
+def _are_neighbours(one: Thing, other: Thing) -> bool:
+    if one.object_id == other.object_id or base_name(one.place) != base_name(other.place):
+        return False
+    return math.dist(one.position_m, other.position_m) <= _NEAR_M

@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the planner knows of the world: places, remembered things, and what the robot can do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+import math
+
+__all__ = [
+    'ANYTHING', 'ObjectDescription', 'Thing', 'World', 'base_name', 'in_words', 'listed',
+    'spoken_places',
+]  # fmt: skip
+
+ANYTHING = 'thing'
+"""The class that all things have."""
+_PLURALS = {'box': 'boxes', 'person': 'people'}
+
+
+@dataclass(frozen=True)
+class Thing:
+    """
+    A thing that the robot remembers.
+
+    Attributes
+    ----------
+    object_id, class_id, colour
+        Its id, what it is, and its colour; the colour may be empty.
+    place, room
+        The surface and the room where it is; may be empty.
+    position_m, size_m
+        Its middle in the map, and the length, width and height of its box; m.
+
+    """
+
+    object_id: str
+    class_id: str
+    colour: str = ''
+    place: str = ''
+    room: str = ''
+    position_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    size_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    @property
+    def name(self) -> str:
+        """Return what people call it: red mug."""
+        colour = self.colour if self.colour != self.class_id else ''
+        return f'{colour} {self.class_id}'.strip()
+
+
+@dataclass(frozen=True)
+class ObjectDescription:
+    """
+    An object as somebody describes it; what is empty is not said.
+
+    Attributes
+    ----------
+    class_id, colour, which, place
+        `mug`, `red`, `biggest`, `kitchen_table`.
+    object_id
+        The id of a single remembered thing, when it is known which one is meant.
+    is_definite
+        Whether a certain one is meant (the mug), not any (a mug).
+
+    """
+
+    class_id: str = ANYTHING
+    colour: str = ''
+    which: str = ''
+    place: str = ''
+    object_id: str = ''
+    is_inside: bool = False
+    """Whether the place is a room or a container, which has things in it, not on it."""
+    is_definite: bool = True
+
+    @property
+    def text(self) -> str:
+        """Return the description as text that is understood again: `the red mug on the desk`."""
+        article = 'the' if self.is_definite else 'a'
+        return self._worded(article, in_words(self.class_id))
+
+    @property
+    def plural_text(self) -> str:
+        """Return the description of all that it fits: `red mugs on the desk`."""
+        return self._worded('', _PLURALS.get(self.class_id, f'{self.class_id}s'))
+
+    def _worded(self, article: str, noun: str) -> str:
+        where = f'{"in" if self.is_inside else "on"} the {in_words(self.place)}'
+        words = (article, self.which, self.colour, noun, self.place and where)
+        return ' '.join(filter(None, words))
+
+    def fits(self, thing: Thing) -> bool:
+        """Return whether a thing can be meant, whatever `which` says."""
+        if self.object_id:
+            return thing.object_id == self.object_id
+        return (
+            self.class_id in (ANYTHING, thing.class_id)
+            and self.colour in ('', thing.colour)
+            and self.place in ('', base_name(thing.place), thing.room)
+            and (self.class_id != ANYTHING or thing.class_id != 'person')
+        )
+
+    def among(
+        self, things: Iterable[Thing], robot: tuple[float, float, float] | None = None
+    ) -> list[Thing]:
+        """
+        Return the things that are meant, the best first.
+
+        Parameters
+        ----------
+        things
+            All that are remembered.
+        robot
+            Where the robot is in the map (x and y in m, yaw in rad): `leftmost` and `nearest` are
+            seen from there.
+
+        """
+        found = [each for each in things if self.fits(each)]
+        if not self.which or not found:
+            return found
+        found.sort(key=_orders(robot or (0.0, 0.0, 0.0))[self.which])
+        return found[:1]
+
+
+@dataclass(frozen=True)
+class World:
+    """
+    What is known when a plan is made.
+
+    Attributes
+    ----------
+    places
+        The named surfaces, each with the room in which it is.
+    rooms
+        The named rooms.
+    things
+        What is remembered.
+    missing
+        Why skills cannot be done now, by their names; the others can.
+    inhibition
+        Why the robot cannot walk now; empty if it can.
+    holding
+        The name of what the hand holds; empty if nothing.
+    robot
+        Where the robot is in the map: x and y in m, yaw in rad; None if that is not known.
+
+    """
+
+    places: Mapping[str, str] = field(default_factory=dict)
+    rooms: tuple[str, ...] = ()
+    things: tuple[Thing, ...] = ()
+    missing: Mapping[str, str] = field(default_factory=dict)
+    inhibition: str = ''
+    holding: str = ''
+    robot: tuple[float, float, float] | None = None
+
+    @property
+    def place_names(self) -> tuple[str, ...]:
+        """Return the names of surfaces and rooms."""
+        return (*self.places, *self.rooms)
+
+
+def base_name(place: str) -> str:
+    """Return the name of a piece of furniture of which a surface is one board: `shelf/1`."""
+    return place.partition('/')[0]
+
+
+def in_words(name: str) -> str:
+    """Return a name as it is said: `kitchen_table` is the kitchen table."""
+    return base_name(name).replace('_', ' ')
+
+
+def listed(names: Sequence[str], last: str = 'and') -> str:
+    """
+    Return names as people list them: a, b and c; nothing for none.
+
+    Parameters
+    ----------
+    names, last
+        The names, and the word before the last one.
+
+    """
+    if len(names) < 2:
+        return names[0] if names else ''
+    return f'{", ".join(names[:-1])} {last} {names[-1]}'
+
+
+def spoken_places(world: World, more: Mapping[str, Iterable[str]]) -> dict[str, tuple[str, ...]]:
+    """
+    Return what can be said for places, and which ones it can mean.
+
+    The name of a place stands for it, and so does its last word: `counter`, and `table` for each
+    of several tables.
+
+    Parameters
+    ----------
+    world
+        Where the places are from.
+    more
+        Further words by the names of places; those of places that there are not are left out.
+
+    """
+    meant: dict[str, list[str]] = {}
+    for name in world.place_names:
+        spoken = {in_words(name), *(more.get(name, ()))}
+        for text in spoken:
+            meant.setdefault(text, []).append(name)
+    for name in world.places:
+        last = in_words(name).split()[-1]
+        if last not in world.rooms and name not in meant.get(last, ()):
+            meant.setdefault(last, []).append(name)
+    return {text: tuple(names) for text, names in meant.items()}
+
+
+def _orders(robot: tuple[float, float, float]) -> Mapping[str, Callable[[Thing], float]]:
+    """Return by what things are sorted for each word that picks one of them."""
+    x, y, yaw = robot
+
+    def distance(thing: Thing) -> float:
+        return math.hypot(thing.position_m[0] - x, thing.position_m[1] - y)
+
+    def bearing(thing: Thing) -> float:
+        angle = math.atan2(thing.position_m[1] - y, thing.position_m[0] - x)
+        return math.remainder(angle - yaw, math.tau)
+
+    return {
+        'biggest': lambda thing: -math.prod(thing.size_m),
+        'smallest': lambda thing: math.prod(thing.size_m),
+        'tallest': lambda thing: -thing.size_m[2],
+        'leftmost': lambda thing: -bearing(thing),
+        'rightmost': bearing,
+        'nearest': distance,
+        'farthest': lambda thing: -distance(thing),
+    }

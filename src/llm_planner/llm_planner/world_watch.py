@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a node hears of the world: remembered objects, what runs, and where the robot is."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from humanoid_common.inhibition import Inhibition
+from humanoid_common.qos import LATCHED
+from humanoid_perception.memory_conversions import planar_of, pose_of
+from humanoid_perception.places import Places, Room, Surface
+from llm_planner.skills import Skill, Skills
+from llm_planner.world import base_name, Thing, World
+import numpy as np
+from rclpy.node import Node
+from rclpy.time import Time
+from std_msgs.msg import String
+from tf2_ros import Buffer, TransformException, TransformListener
+from vision_msgs.msg import Detection3DArray
+
+__all__ = ['WorldWatch']
+
+_MAP, _BASE = 'map', 'base_footprint'
+
+
+class WorldWatch:
+    """
+    Follows what the planner has to know.
+
+    Parameters
+    ----------
+    node
+        The node that listens.
+    skills, places
+        What the robot can be asked for, and the named places.
+    implemented
+        The names of the skills that can be done at all.
+
+    """
+
+    def __init__(
+        self, node: Node, skills: Skills, places: Places, implemented: frozenset[str]
+    ) -> None:
+        self._node, self._skills, self._implemented = node, skills, implemented
+        self.places = places
+        self._things: tuple[Thing, ...] = ()
+        self._inhibition = Inhibition()
+        self._buffer = Buffer()
+        self._listener = TransformListener(self._buffer, node)
+        node.create_subscription(Detection3DArray, 'objects', self._take, LATCHED)
+        for topic, tell in (
+            ('walking_state', self._inhibition.tell_walking_state),
+            ('stop_state', self._inhibition.tell_stop_state),
+        ):
+            node.create_subscription(
+                String, topic, lambda message, tell=tell: tell(message.data), LATCHED
+            )
+        rooms = {each.name for each in places.rooms}
+        self._surfaces = {
+            base_name(each.name): places.room_at(*each.middle_m) for each in places.surfaces
+        }
+        self._rooms = tuple(sorted(rooms))
+
+    @property
+    def things(self) -> tuple[Thing, ...]:
+        """Return what is remembered."""
+        return self._things
+
+    @property
+    def inhibition(self) -> str:
+        """Return why the robot cannot walk now; empty if it can."""
+        return self._inhibition.reason
+
+    def world(self) -> World:
+        """Return all that is known now; it asks the graph for each server."""
+        lacks = {each.name: self.lack(each) for each in self._skills}
+        return World(
+            self._surfaces,
+            self._rooms,
+            self._things,
+            {name: reason for name, reason in lacks.items() if reason},
+            self.inhibition,
+            robot=self.pose(),
+        )
+
+    def lack(self, skill: Skill) -> str:
+        """Return why a skill cannot be done now; nothing if it can."""
+        if skill.steps:
+            return ''
+        if skill.name not in self._implemented:
+            return skill.without or f'I cannot {skill.name.replace("_", " ")} yet.'
+        name = skill.server
+        if skill.server_kind == 'action':
+            name = f'{name}/_action/send_goal'
+        if not name or self._node.count_services(self._node.resolve_service_name(name)):
+            return ''
+        return skill.without or f"I cannot do that, as '{skill.server}' is not running."
+
+    def lacks(self, name: str) -> bool:
+        """Return whether the skill of a name cannot be done now."""
+        return bool(self.lack(self._skills[name]))
+
+    def surface(self, name: str) -> Surface | None:
+        """Return the first board of a piece of furniture; None if nothing has that name."""
+        boards = (each for each in self.places.surfaces if base_name(each.name) == name)
+        return next(boards, None)
+
+    def room(self, name: str) -> Room | None:
+        """Return a room; None if nothing has that name."""
+        return next((each for each in self.places.rooms if each.name == name), None)
+
+    def pose(self) -> tuple[float, float, float] | None:
+        """Return where the robot is in the map: x and y in m, yaw in rad; None if unknown."""
+        try:
+            transform = self._buffer.lookup_transform(_MAP, _BASE, Time()).transform
+        except TransformException:
+            return None
+        return planar_of(transform)
+
+    def point_from_robot(
+        self, point_m: tuple[float, float, float]
+    ) -> tuple[float, float, float] | None:
+        """
+        Return a point of the map as seen from the robot, whose base is on the floor.
+
+        Parameters
+        ----------
+        point_m
+            In the map.
+
+        Returns
+        -------
+        tuple or None
+            In the robot's base frame (m); None if it is not known where the robot is.
+
+        """
+        try:
+            found = self._buffer.lookup_transform(_BASE, _MAP, Time()).transform
+        except TransformException:
+            return None
+        position, rotation = pose_of(found)
+        x, y, z = position + rotation @ np.array(point_m)
+        return float(x), float(y), float(z)
+
+    def _take(self, message: Detection3DArray) -> None:
+        self._things = tuple(
+            _thing(each, self.places) for each in message.detections if each.results
+        )
+
+
+def _thing(detection: Any, places: Places) -> Thing:
+    """Return a remembered object; its colour is that of a second name, such as `red mug`."""
+    class_id = detection.results[0].hypothesis.class_id
+    names = [each.hypothesis.class_id for each in detection.results[1:]]
+    colour = next(
+        (name[: -len(class_id) - 1] for name in names if name.endswith(f' {class_id}')), ''
+    )
+    centre, size = detection.bbox.center.position, detection.bbox.size
+    place = places.surface_at(centre.x, centre.y, centre.z - 0.5 * size.z)
+    return Thing(
+        detection.id,
+        class_id,
+        colour,
+        place,
+        places.room_at(centre.x, centre.y),
+        (centre.x, centre.y, centre.z),
+        (size.x, size.y, size.z),
+    )

@@ -1,0 +1,321 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The planner and the executor over DDS, beside servers that do as they are told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from diagnostic_msgs.msg import KeyValue
+from geometry_msgs.msg import TransformStamped
+from humanoid_common.errors import NodeStartError
+from humanoid_common.qos import EVENT, LATCHED
+from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
+from humanoid_common.testing.ros import ros_sandbox, RosSandbox
+from humanoid_interfaces.action import ExecutePlan
+from humanoid_interfaces.msg import Plan, PlanStep
+from humanoid_interfaces.srv import FindObjects, MakePlan
+from llm_planner.model_testing import ModelStub, says, serving
+from llm_planner.skill_executor import SkillExecutor
+from llm_planner.task_planner import TaskPlanner
+from nav2_msgs.action import ComputePathToPose, NavigateToPose, Spin
+import pytest
+from rclpy.action import ActionClient
+from rclpy.node import Node
+from std_msgs.msg import String
+from tf2_ros import StaticTransformBroadcaster
+from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
+
+PLACES = """
+surfaces:
+  - {name: desk, height: 0.7, outline: [[3.0, 1.0], [4.0, 1.0], [4.0, 1.6], [3.0, 1.6]]}
+rooms:
+  - {name: hall, outline: [[-2, -2], [2, -2], [2, 2], [-2, 2]]}
+  - {name: study, outline: [[2, -2], [6, -2], [6, 2], [2, 2]]}
+"""
+
+
+def detection(name: str, *classes: str, at: tuple[float, float, float]) -> Detection3D:
+    """Return a remembered object."""
+    found = Detection3D(id=name)
+    for each in classes:
+        result = ObjectHypothesisWithPose()
+        result.hypothesis.class_id = each
+        found.results.append(result)
+    centre = found.bbox.center.position
+    centre.x, centre.y, centre.z = at
+    found.bbox.size.x = found.bbox.size.y = found.bbox.size.z = 0.1
+    return found
+
+
+MUGS = [
+    detection('red_mug_1', 'mug', 'red mug', at=(3.2, 1.2, 0.75)),
+    detection('blue_mug_1', 'mug', 'blue mug', at=(3.4, 1.2, 0.75)),
+    detection('box_1', 'box', at=(0.5, 0.5, 0.05)),
+]
+
+
+class Robot(Node):
+    """Navigation that goes nowhere, eyes that remember, and ears for what is said."""
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__('robot', **options)
+        self.walks: list[Any] = []
+        self.spins: list[float] = []
+        self.said: list[str] = []
+        self.plans: list[Plan] = []
+        self.grammars: list[str] = []
+        self.cancelled = 0
+        self.is_slow, self.failure = False, ''
+        self._goals = SingleGoal(self, lambda: '')
+        self._spins = SingleGoal(self, lambda: '')
+        self._paths = SingleGoal(self, lambda: '')
+        self._goals.offer(NavigateToPose, 'navigate_to_pose', self._walk)
+        self._spins.offer(Spin, 'spin', self._spin)
+        self._paths.offer(ComputePathToPose, 'compute_path_to_pose', self._path)
+        self.create_service(FindObjects, 'find_objects', lambda _, response: response)
+        self.create_subscription(String, 'speech/say', self._hear, EVENT)
+        self.create_subscription(Plan, 'plan', self.plans.append, LATCHED)
+        self.create_subscription(
+            String, 'speech/grammar', lambda message: self.grammars.append(message.data), LATCHED
+        )
+        self.commands = self.create_publisher(String, 'user_command', EVENT)
+        self.transcripts = self.create_publisher(String, 'speech/transcript', EVENT)
+        self.walking = self.create_publisher(String, 'walking_state', LATCHED)
+        self.objects = self.create_publisher(Detection3DArray, 'objects', LATCHED)
+        self._transforms = StaticTransformBroadcaster(self)
+        here = TransformStamped(child_frame_id='base_footprint')
+        here.header.frame_id = 'map'
+        here.transform.rotation.w = 1.0
+        self._transforms.sendTransform(here)
+        self.objects.publish(Detection3DArray(detections=MUGS))
+
+    def _hear(self, message: String) -> None:
+        self.said.append(message.data)
+
+    async def _walk(self, goal: RunningGoal) -> None:
+        self.walks.append(goal.request.pose.pose.position)
+        try:
+            while self.is_slow:
+                await goal.tick()
+        except BaseException:
+            self.cancelled += 1
+            raise
+        if self.failure:
+            raise GoalAborted('UNKNOWN', self.failure)
+
+    async def _spin(self, goal: RunningGoal) -> None:
+        self.spins.append(goal.request.target_yaw)
+
+    async def _path(self, goal: RunningGoal) -> None:
+        if goal.request.goal.pose.position.x > 5.5:
+            raise GoalAborted('UNKNOWN', 'There is a wall.')
+
+
+@pytest.fixture
+def ros() -> Iterator[RosSandbox]:
+    """Give a domain of its own."""
+    with ros_sandbox() as sandbox:
+        yield sandbox
+
+
+@pytest.fixture
+def tell(ros: RosSandbox, tmp_path: Path) -> Iterator[Any]:
+    """Start all; return what tells the robot something."""
+    places = tmp_path / 'places.yaml'
+    places.write_text(PLACES)
+    robot = ros.start(Robot)
+    for kind in (SkillExecutor, TaskPlanner):
+        ros.start(kind, {'places_file': str(places)})
+
+    def send(text: str, *, by_voice: bool = False) -> None:
+        publisher = robot.transcripts if by_voice else robot.commands
+        publisher.publish(String(data=text))
+
+    send.robot = robot  # type: ignore[attr-defined]
+    planner = robot.create_client(MakePlan, 'task_planner/plan')
+
+    def is_ready() -> bool:
+        """Whether a plan that needs all is made."""
+        if not planner.service_is_ready():
+            return False
+        answer = planner.call_async(MakePlan.Request(command='go to the mug'))
+        ros.wait_until(answer.done, 30.0)
+        return answer.result().message.startswith('Which mug')
+
+    client = ActionClient(robot, ExecutePlan, 'execute_plan')
+    ros.wait_until(client.server_is_ready, 60.0, 'the executor')
+    ros.wait_until(lambda: robot.commands.get_subscription_count() > 0, 60.0, 'the planner')
+    ros.wait_until(lambda: robot.transcripts.get_subscription_count() > 0, 60.0, 'the planner')
+    ros.wait_until(lambda: robot.objects.get_subscription_count() == 2, 60.0, 'both of them')
+    ros.wait_until(is_ready, 60.0, 'a planner that knows what runs, and what is remembered')
+    yield send
+    client.destroy()
+
+
+def heard(robot: Robot, *texts: str) -> Callable[[], bool]:
+    """Return whether all of some texts were said, in their order."""
+
+    def were_said() -> bool:
+        said = iter(robot.said)
+        return all(any(text in each for each in said) for text in texts)
+
+    return were_said
+
+
+def test_what_is_typed_is_done(ros: RosSandbox, tell: Any) -> None:
+    """It walks into the room, turns, and tells what is beside the mug."""
+    robot = tell.robot
+    tell('go to the study, turn left and tell me where the red mug is')
+    ros.wait_until(
+        heard(robot, 'going to the study', 'The red mug is on the desk.'), 60.0, 'words'
+    )
+    assert 2.0 < robot.walks[0].x < 6.0 and robot.spins == [pytest.approx(1.5708, abs=1e-3)]
+    assert [each.text for each in robot.plans[-1].steps] == [
+        'go to the study', 'turn left', 'say where the red mug is',
+    ]  # fmt: skip
+
+
+def test_what_is_heard_is_done(ros: RosSandbox, tell: Any) -> None:
+    """A question by voice; the words for several things are as people say them."""
+    tell('what is on the desk', by_voice=True)
+    ros.wait_until(heard(tell.robot, 'On the desk I see a red mug and a blue mug.'), 60.0, 'words')
+    tell('how many mugs do you see', by_voice=True)
+    ros.wait_until(heard(tell.robot, 'There are two mugs.'), 60.0, 'words')
+    tell('what is next to the red mug', by_voice=True)
+    ros.wait_until(heard(tell.robot, 'A blue mug is beside the red mug.'), 60.0, 'words')
+
+
+def test_stop_ends_it(ros: RosSandbox, tell: Any) -> None:
+    """The goal of navigation is canceled."""
+    robot = tell.robot
+    robot.is_slow = True
+    tell('go to the study and then say hello')
+    ros.wait_until(lambda: robot.walks, 60.0, 'a walk')
+    tell('Robot, stop!', by_voice=True)
+    ros.wait_until(lambda: robot.cancelled == 1, 10.0, 'a canceled walk')
+    ros.wait_until(heard(robot, 'I have stopped.'), 10.0, 'words')
+    assert 'hello' not in robot.said
+
+
+def test_a_newer_command_takes_over(ros: RosSandbox, tell: Any) -> None:
+    """The older walk ends; the newer one begins."""
+    robot = tell.robot
+    robot.is_slow = True
+    tell('go to the study')
+    ros.wait_until(lambda: len(robot.walks) == 1, 60.0, 'a walk')
+    robot.is_slow = False
+    tell('go to the desk')
+    ros.wait_until(lambda: len(robot.walks) == 2, 60.0, 'another walk')
+    assert robot.walks[1].y == pytest.approx(0.5)
+
+
+def test_a_failure_is_explained(ros: RosSandbox, tell: Any) -> None:
+    """After the attempts of the skill; what would follow is not done."""
+    robot = tell.robot
+    robot.failure = 'A dog is in the way.'
+    tell('go to the study and then say hello')
+    ros.wait_until(heard(robot, 'A dog is in the way.'), 60.0, 'words')
+    assert len(robot.walks) == 2 and 'hello' not in robot.said
+
+
+def test_a_fall_ends_it(ros: RosSandbox, tell: Any) -> None:
+    """The walk is given up at once, and the reason is said."""
+    robot = tell.robot
+    robot.is_slow = True
+    tell('go to the study')
+    ros.wait_until(lambda: robot.walks, 60.0, 'a walk')
+    robot.walking.publish(String(data='fallen'))
+    ros.wait_until(heard(robot, 'The robot has fallen.'), 10.0, 'words')
+    ros.wait_until(lambda: robot.cancelled == 1, 10.0, 'a canceled walk')
+
+
+def test_what_is_not_understood_is_said(ros: RosSandbox, tell: Any) -> None:
+    """Nothing is done; a question is asked, and answered by voice."""
+    robot = tell.robot
+    tell('dance with me')
+    ros.wait_until(heard(robot, 'I did not understand "dance with me".'), 60.0, 'words')
+    tell('bring me the red mug')
+    ros.wait_until(heard(robot, 'I have no hands yet.'), 60.0, 'words')
+    tell('go to the mug')
+    ros.wait_until(heard(robot, 'Which mug: the blue one or the red one?'), 60.0, 'a question')
+    assert not robot.walks
+    tell('the red one', by_voice=True)
+    ros.wait_until(lambda: robot.walks, 60.0, 'a walk')
+    assert robot.walks[0].x == pytest.approx(3.2) and robot.walks[0].y == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    'steps, code, said',
+    [
+        ([], ExecutePlan.Result.INVALID, 'nothing to do'),
+        ([('fly', {})], ExecutePlan.Result.INVALID, "no skill 'fly'"),
+        ([('go_to', {'target': 'moon'})], ExecutePlan.Result.INVALID, 'I do not know what'),
+        ([('move', {'distance': '9e9'})], ExecutePlan.Result.INVALID, 'out of my range'),
+        ([('wave', {})], ExecutePlan.Result.UNAVAILABLE, 'I cannot move my arms'),
+        ([('go_to', {'target': 'box_1'})], ExecutePlan.Result.NONE, ''),
+    ],
+)
+def test_plans_of_other_programs(
+    ros: RosSandbox, tell: Any, steps: Any, code: int, said: str
+) -> None:
+    """Whoever sends a plan, it is checked as a whole before its first step."""
+    robot = tell.robot
+    client = ActionClient(robot, ExecutePlan, 'execute_plan')
+    ros.wait_until(client.server_is_ready, 60.0, 'the executor')
+    plan = Plan(
+        steps=[
+            PlanStep(
+                skill=skill, arguments=[KeyValue(key=k, value=v) for k, v in arguments.items()]
+            )
+            for skill, arguments in steps
+        ]
+    )
+    if steps:
+        plan.steps.insert(0, PlanStep(skill='say', arguments=[KeyValue(key='text', value='hi')]))
+    sent = client.send_goal_async(ExecutePlan.Goal(plan=plan))
+    ros.wait_until(sent.done, 60.0, 'an answer')
+    end = sent.result().get_result_async()
+    ros.wait_until(end.done, 60.0, 'the end')
+    result = end.result().result
+    client.destroy()
+    assert result.error_code == code and said in result.error_msg
+    assert ('hi' in result.said) == (code == ExecutePlan.Result.NONE) and result.failed_step == -1
+
+
+def test_the_grammar_is_published(ros: RosSandbox, tell: Any) -> None:
+    """With the places of this home."""
+    ros.wait_until(lambda: tell.robot.grammars, 60.0, 'a grammar')
+    assert tell.robot.grammars[0].startswith('#JSGF') and 'study' in tell.robot.grammars[0]
+
+
+def test_a_language_model_plans(ros: RosSandbox, tell: Any) -> None:
+    """What the model plans is done; when it fails, the rules plan."""
+    robot = tell.robot
+    said = {'skill': 'say', 'arguments': {'text': 'Roses are red.'}}
+    with serving(ModelStub(says({'steps': [said], 'refusal': None}), (500, ''))) as stub:
+        parameters = {'backend': 'openai', 'base_url': stub.url, 'timeout_s': 60.0}
+        ros.start(lambda **options: TaskPlanner(namespace='thinking', **options), parameters)
+        client = robot.create_client(MakePlan, '/thinking/task_planner/plan')
+        ros.wait_until(client.service_is_ready, 60.0, 'the planner')
+
+        def answer(command: str) -> Any:
+            future = client.call_async(MakePlan.Request(command=command))
+            ros.wait_until(future.done, 60.0, 'an answer')
+            return future.result()
+
+        model, rules = answer('recite a poem'), answer('wait for ten seconds')
+    assert model.success and model.plan.source == 'openai'
+    assert [each.text for each in model.plan.steps] == ['say "Roses are red."']
+    assert rules.success and rules.plan.source == 'rules'
+    assert [each.text for each in rules.plan.steps] == ['wait 10 seconds']
+    assert stub.asked[0]['messages'][1]['content'] == '{"wish": "recite a poem"}'
+
+
+@pytest.mark.parametrize('kind', [TaskPlanner, SkillExecutor])
+@pytest.mark.parametrize('name', ['skills_file', 'places_file'])
+def test_files_that_cannot_be_used(ros: RosSandbox, kind: Any, name: str) -> None:
+    """The node says which one, and does not start."""
+    with pytest.raises(NodeStartError, match=r'cannot start. (The skills in|There is no file)'):
+        ros.start(kind, {name: '/nowhere.yaml'})

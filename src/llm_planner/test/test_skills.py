@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The file of skills: that of this package, and what is wrong with others."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from llm_planner.skills_file import load_skills, skills_path, SkillsError
+import pytest
+import yaml
+
+OWN = Path(__file__).parents[1] / 'config' / 'skills.yaml'
+
+
+def test_the_own_file() -> None:
+    """It has all skills, and what they need in common."""
+    skills = load_skills(OWN)
+    assert {
+        *('go_to', 'find', 'look_at', 'pick', 'place', 'bring', 'hand_over', 'put_into'),
+        *('follow_path', 'turn', 'move', 'wait', 'wave', 'point_at', 'count', 'describe', 'say'),
+        *('come_back', 'stop'),
+    } <= {*skills.skills}
+    assert skills['pick'].needs == ('standing', 'empty_hand')
+    assert skills.simple('bring') == {'find', 'go_to', 'pick', 'come_back', 'hand_over'}
+    assert {each.name for each in skills if not each.sayings} == {'pick', 'tell_count'}
+    assert all(skill.steps or skill.does for skill in skills)
+
+
+def test_the_installed_file() -> None:
+    """Without a path, it is the one of this package; ~ is the home folder."""
+    assert load_skills(skills_path()).skills
+    assert skills_path('~/mine.yaml') == Path.home() / 'mine.yaml'
+
+
+CHANGES: list[tuple[tuple[str, ...], Any, str]] = [
+    (('skills', 'go_to', 'summry'), 'x', "has no 'summry'. Did you mean 'summary'?"),
+    (('skills', 'go_to', 'summary'), 3, 'has to be a text'),
+    (('skills', 'go_to', 'timeout'), -1, 'give a number from 0.1'),
+    (('skills', 'go_to', 'timeout'), True, 'give a number'),
+    (('skills', 'go_to', 'needs'), ['legs'], "is 'legs'. Give some of standing"),
+    (('skills', 'go_to', 'needs'), 'standing', 'has to be a list'),
+    (('skills', 'go_to', 'arguments', 'target', 'type'), 'planet', 'Give one of place'),
+    (('skills', 'go_to', 'phrases'), ['go (to'], 'nothing closes'),
+    (('skills', 'go_to', 'phrases'), [{'go': {'speed': 3}}], 'which is no argument'),
+    (('skills', 'go_to', 'does'), 'go to {place}', 'unknown argument'),
+    (('skills', 'go_to', 'server'), {'action': 'a', 'service': 'b'}, 'two servers'),
+    (('skills', 'move', 'arguments', 'distance', 'unit'), 'miles', 'has a unit'),
+    (('skills', 'wave', 'arguments', 'arm', 'default'), 'third', 'which is no value'),
+    (('skills', 'take', 'steps'), [{'fnd': {}}], "Did you mean 'find'?"),
+    (('skills', 'take', 'steps'), [{'bring': {}}], 'is no simple skill'),
+    (('skills', 'take', 'steps'), [{'find': {'object': 'cat'}}], 'takes object from cat'),
+    (('skills', 'take', 'steps'), [{'find': {'unless': 'tired'}}], "only 'holding'"),
+    (('rules', 'joint'), None, 'has to be a text'),
+    (('rules', 'where'), 'on {moon}', "the slot 'moon', which stands for nothing"),
+    (('vocabulary', 'colour'), {'red': 'red'}, 'give a list'),
+    (('skils',), {}, "Did you mean 'skills'?"),
+]
+
+
+@pytest.mark.parametrize('path, value, said', CHANGES)
+def test_a_wrong_file_is_refused(
+    tmp_path: Path, path: tuple[str, ...], value: Any, said: str
+) -> None:
+    """One sentence says where and why."""
+    table = yaml.safe_load(OWN.read_text())
+    part = table
+    for key in path[:-1]:
+        part = part[key]
+    part[path[-1]] = value
+    file = tmp_path / 'skills.yaml'
+    file.write_text(yaml.safe_dump(table))
+    with pytest.raises(SkillsError) as caught:
+        load_skills(file)
+    assert said in str(caught.value) and str(file) in str(caught.value)
+
+
+@pytest.mark.parametrize('text', ['skills: [', '[]', 'skills: 3', '\x00'])
+def test_what_is_no_file_of_skills(tmp_path: Path, text: str) -> None:
+    """Text of any kind ends in a sentence."""
+    file = tmp_path / 'skills.yaml'
+    file.write_text(text)
+    with pytest.raises(SkillsError, match=r'The skills in .* cannot be'):
+        load_skills(file)
+    with pytest.raises(SkillsError, match='cannot be read'):
+        load_skills(tmp_path / 'nothing.yaml')

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Let the humanoid hear and speak: a microphone, a recogniser and a voice."""
+
+from __future__ import annotations
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+
+ARGUMENTS = (
+    ('microphone', '', 'A part of the name of the microphone; empty for the default one.'),
+    ('wav_file', '', 'A WAV file to hear instead of a microphone, with audio:=file.'),
+    ('speech_model_path', '', 'The model of Whisper on this machine: a folder, or a ggml file.'),
+    ('speech_base_url', '', 'Where the interface of a server of transcriptions begins.'),
+    ('speech_model', '', 'The model that such a server is to use.'),
+    ('wake_word', '', 'What commands have to begin with; empty if every command counts.'),
+    ('namespace', '', 'The namespace of the robot.'),
+    ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),
+)
+CHOICES = (
+    (
+        'audio',
+        'auto',
+        ['auto', 'microphone', 'file', 'none'],
+        'Where sound comes from; auto is a microphone if there is one.',
+    ),
+    (
+        'speech_backend',
+        'pocketsphinx',
+        ['pocketsphinx', 'whisper', 'whisper_cpp', 'openai'],
+        'What recognizes speech: a grammar (pocketsphinx), Whisper, or a server (openai).',
+    ),
+)
+
+
+def generate_launch_description() -> LaunchDescription:
+    """Start the three nodes."""
+    return LaunchDescription(
+        [
+            *(
+                DeclareLaunchArgument(name, default_value=default, description=description)
+                for name, default, description in ARGUMENTS
+            ),
+            *(
+                DeclareLaunchArgument(
+                    name, default_value=default, choices=choices, description=description
+                )
+                for name, default, choices, description in CHOICES
+            ),
+            _node('audio_source', source='audio', device='microphone', wav_file='wav_file'),
+            _node(
+                'speech_recognizer',
+                backend='speech_backend',
+                model_path='speech_model_path',
+                base_url='speech_base_url',
+                model='speech_model',
+                wake_word='wake_word',
+            ),
+            _node('speaker'),
+        ]
+    )
+
+
+def _node(name: str, **parameters: str) -> Node:
+    """Describe a node of this package, which is started anew if it ends."""
+    given = {
+        parameter: ParameterValue(LaunchConfiguration(argument), value_type=str)
+        for parameter, argument in parameters.items()
+    }
+    return Node(
+        package='voice_control',
+        executable=name,
+        namespace=LaunchConfiguration('namespace'),
+        output='screen',
+        respawn=True,
+        respawn_delay=2.0,
+        parameters=[{'use_sim_time': LaunchConfiguration('use_sim_time'), **given}],
+    )

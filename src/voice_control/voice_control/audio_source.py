@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Publish sound from a microphone or a file: the node `audio_source`."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+import sys
+from typing import Any
+
+from audio_common_msgs.msg import AudioData, AudioInfo
+from humanoid_common.errors import NodeStartError
+from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.parameters import parameter
+from humanoid_common.qos import EVENT, LATCHED
+from humanoid_common.running import run_node
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from voice_control.audio import AudioError, BYTES_PER_SECOND, chunks, RATE_HZ, read_wav
+from voice_control.microphone import Microphone
+
+__all__ = ['AudioSource', 'AudioSourceParameters', 'main']
+
+AUTO, MICROPHONE, FILE, NONE = 'auto', 'microphone', 'file', 'none'
+_RETRY_S = 5.0
+_SILENCE_S = 1.0
+"""How long it is silent before and behind a file."""
+
+
+@dataclass(frozen=True)
+class AudioSourceParameters:
+    """The parameters of the node."""
+
+    source: str = parameter(
+        AUTO,
+        'Where sound comes from: a microphone, a WAV file, or nowhere; auto is a microphone if '
+        'there is one.',
+        choices=(AUTO, MICROPHONE, FILE, NONE),
+        read_only=True,
+    )
+    device: str = parameter(
+        '',
+        'The microphone: a part of its name, or its number; empty for the default one.',
+        read_only=True,
+    )
+    wav_file: str = parameter('', 'The file to play, as a microphone would.', read_only=True)
+    loop: bool = parameter(False, 'Play the file again and again.', read_only=True)
+    chunk_s: float = parameter(
+        0.03, 'The length of the pieces (s).', at_least=0.01, at_most=1.0, read_only=True
+    )
+
+
+class AudioSource(Node):
+    """
+    Publishes sound on `audio`, 16 kHz, mono, S16LE.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    Raises
+    ------
+    NodeStartError
+        If the file cannot be played.
+
+    """
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__('audio_source', **options)
+        self._told = NodeParameters(self, AudioSourceParameters).current
+        self._sound = self.create_publisher(AudioData, 'audio', EVENT)
+        info = AudioInfo(
+            channels=1, sample_rate=RATE_HZ, sample_format='S16LE', coding_format='wave',
+            bitrate=8 * BYTES_PER_SECOND,
+        )  # fmt: skip
+        self._info = self.create_publisher(AudioInfo, 'audio_info', LATCHED)
+        self._info.publish(info)
+        self._steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._microphone: Microphone | None = None
+        self._complaint, self._is_over = '', False
+        if self._told.source == FILE:
+            self._pieces = self._file()
+            self.create_timer(self._told.chunk_s, self._play, clock=self._steady)
+        elif self._told.source != NONE:
+            self.create_timer(_RETRY_S, self._listen, clock=self._steady)
+            self._listen()
+
+    def destroy_node(self) -> None:
+        """Close the microphone, too."""
+        if self._microphone is not None:
+            self._microphone.close()
+        super().destroy_node()
+
+    # A file
+
+    def _file(self) -> Iterator[bytes]:
+        if not self._told.wav_file:
+            raise NodeStartError('source:=file needs a file: set wav_file:=/path/to/speech.wav')
+        try:
+            sound = read_wav(Path(self._told.wav_file).expanduser())
+        except AudioError as error:
+            raise NodeStartError(str(error)) from error
+        silence = b'\0' * int(_SILENCE_S * RATE_HZ) * 2
+        return chunks(silence + sound + silence, self._told.chunk_s)
+
+    def _play(self) -> None:
+        """Publish the next piece, once somebody listens."""
+        if not self._sound.get_subscription_count():
+            return
+        piece = next(self._pieces, None)
+        if piece is None and self._told.loop:
+            self._pieces = self._file()
+            piece = next(self._pieces)
+        if piece is not None:
+            self._publish(piece)
+        elif not self._is_over:
+            self._is_over = True
+            self.get_logger().info(f"'{self._told.wav_file}' has been played.")
+
+    # A microphone
+
+    def _listen(self) -> None:
+        """Open the microphone, if it is not; it may be plugged in later."""
+        if self._microphone is not None:
+            if self._microphone.is_active:
+                return
+            self.get_logger().warning('The microphone is gone.')
+            self._microphone.close()
+            self._microphone = None
+        try:
+            self._microphone = Microphone(self._told.device, self._told.chunk_s, self._hand_over)
+        except AudioError as error:
+            self._complain(str(error))
+        else:
+            self._complaint = ''
+            self.get_logger().info('The microphone records.')
+
+    def _hand_over(self, sound: bytes) -> None:
+        """Publish a piece in the thread of the executor."""
+        executor = self.executor
+        if executor is not None:
+            executor.create_task(self._publish, sound)
+
+    def _complain(self, sentence: str) -> None:
+        """Say once why nothing is heard; what is typed is obeyed all the same."""
+        if sentence == self._complaint:
+            return
+        self._complaint = sentence
+        if self._told.source == AUTO:
+            self.get_logger().info(f'{sentence} Commands can be typed.')
+        else:
+            self.get_logger().warning(f'{sentence} It is tried again every {_RETRY_S:g} s.')
+
+    def _publish(self, sound: bytes) -> None:
+        self._sound.publish(AudioData(data=array('B', sound)))
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node."""
+    return run_node(AudioSource, args)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Recognize the commands of a grammar, offline, with pocketsphinx."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+import math
+import re
+
+from pocketsphinx import Decoder, get_model_path
+from voice_control.recognition import Recognition, RecognizerError
+
+__all__ = ['STOP_GRAMMAR', 'GrammarRecognizer', 'read_dictionary', 'words_of_grammar']
+
+BACKEND = 'pocketsphinx'
+STOP_GRAMMAR = """#JSGF V1.0;
+grammar stop;
+public <command> = <stop_phrase>;
+<stop_phrase> = (stop | halt | freeze) [(it | that | now)] | emergency stop;
+"""
+"""What is heard before another grammar comes."""
+
+_COMMANDS, _PHONES = 'commands', 'phones'
+_STOP_WORDS = frozenset(('stop', 'halt', 'freeze'))
+_STOP_WITHIN = 3
+"""Among how many words at the beginning a word to stop counts: "please stop", "emergency stop"."""
+_DANGLING = frozenset(('and', 'then'))
+_LEAST_SCORE = 1e-300
+_RULE_OR_WORD = re.compile(r"<[^<>]*>|[^\W\d_]+(?:['-][^\W\d_]+)*")
+_PHRASE_OF_PHONES = re.compile(r'[A-Z]{1,2}( [A-Z]{1,2})*')
+
+
+def words_of_grammar(jsgf: str) -> list[str]:
+    """Return the words that can be said by a grammar in JSGF, each once."""
+    rules = jsgf.split(';', 2)[-1]  # behind "#JSGF V1.0;" and "grammar name;"
+    found = _RULE_OR_WORD.findall(re.sub(r'\bpublic\s+<', '<', rules))
+    return list(dict.fromkeys(word for word in found if not word.startswith('<')))
+
+
+def read_dictionary(lines: Iterable[str]) -> dict[str, str]:
+    """
+    Read words with their phones, as in CMUdict: `kitchenette K IH CH AH N EH T`.
+
+    Raises
+    ------
+    RecognizerError
+        If a line is none of that kind.
+
+    """
+    words = {}
+    for number, line in enumerate(lines, start=1):
+        word, _, phones = line.partition('#')[0].strip().partition(' ')
+        if not word:
+            continue
+        if not _PHRASE_OF_PHONES.fullmatch(phones.strip()):
+            raise RecognizerError(
+                f'Line {number} of the dictionary, {line.strip()!r}, has no word with phones '
+                'behind it, such as: kitchenette K IH CH AH N EH T'
+            )
+        words[word.lower()] = phones.strip()
+    return words
+
+
+class GrammarRecognizer:
+    """
+    Recognizes what a grammar allows, and rejects what is something else.
+
+    A grammar forces any sound into its words. So an utterance is recognized a second time as a
+    loop of phones, which may follow in any order: the mean, over the frames of the words, of the
+    log-likelihood ratio of the two tells commands (median -1.5 to -3.4) from other sentences
+    (-5.3 to -6.2); measured with six synthetic voices.
+
+    Parameters
+    ----------
+    threshold
+        The least log-likelihood ratio per frame of what is accepted; words to stop always are.
+    dictionary
+        Words with their phones, besides the 135,000 of CMUdict.
+
+    """
+
+    def __init__(self, threshold: float = -4.2, dictionary: Mapping[str, str] = {}) -> None:
+        self.threshold = threshold
+        self.title = f'pocketsphinx (grammar, threshold {threshold:g})'
+        self._decoder = Decoder(loglevel='FATAL', lm=None)
+        for word, phones in dictionary.items():
+            self._decoder.add_word(word, phones, True)
+        self._decoder.add_allphone_file(_PHONES, get_model_path('en-us/en-us-phone.lm.bin'))
+        self.set_grammar(STOP_GRAMMAR)
+
+    def set_grammar(self, jsgf: str) -> list[str]:
+        """
+        Replace the grammar.
+
+        Parameters
+        ----------
+        jsgf
+            A grammar in JSGF 1.0. What it allows only with a word of unknown pronunciation cannot
+            be said.
+
+        Returns
+        -------
+        list[str]
+            The words whose pronunciation is not known.
+
+        Raises
+        ------
+        RecognizerError
+            If it is no grammar; the one of before stays.
+
+        """
+        unknown = [word for word in words_of_grammar(jsgf) if not self._knows(word)]
+        for word in unknown:
+            jsgf = re.sub(rf"(?<![\w<'-]){re.escape(word)}(?![\w>'-])", '<VOID>', jsgf)
+        try:
+            self._decoder.add_jsgf_string(_COMMANDS, jsgf)
+            self._decoder.activate_search(_COMMANDS)
+        except (ValueError, RuntimeError) as error:
+            raise RecognizerError(f'The grammar of commands cannot be used: {error}') from error
+        return unknown
+
+    def recognize(self, sound: bytes) -> Recognition:
+        """Recognize an utterance; see `Recognizer`."""
+        segments = self._decoded(_COMMANDS, sound)
+        words = [segment for segment in segments if segment[0][0] not in '<([']
+        while words and words[-1][0] in _DANGLING:  # of a sentence that was cut off
+            words.pop()
+        if not words:
+            return Recognition('', -math.inf, BACKEND, 'No command was recognized.')
+        text = ' '.join(word.partition('(')[0] for word, *_ in words)
+        is_stop = bool(_STOP_WORDS.intersection(text.split()[:_STOP_WITHIN]))
+        ratio = self._log_likelihood_ratio(segments, words[0][1], words[-1][2], sound)
+        reason = ''
+        if ratio < self.threshold and not is_stop:
+            reason = f'It did not sound much like "{text}", the closest command.'
+        return Recognition(text, ratio, BACKEND, reason, is_stop)
+
+    def _knows(self, word: str) -> bool:
+        return self._decoder.lookup_word(word) is not None
+
+    def _decoded(self, search: str, sound: bytes) -> list[tuple[str, int, int, float]]:
+        """Decode a sound; return words or phones with first and last frame and log-likelihood."""
+        self._decoder.activate_search(search)
+        self._decoder.start_utt()
+        self._decoder.process_raw(sound)
+        self._decoder.end_utt()
+        return [
+            (each.word, each.start_frame, each.end_frame, math.log(max(each.ascore, _LEAST_SCORE)))
+            for each in self._decoder.seg() or ()
+        ]
+
+    def _log_likelihood_ratio(
+        self, segments: list[tuple[str, int, int, float]], first: int, last: int, sound: bytes
+    ) -> float:
+        """Compute the ratio of words and phones, per frame from the first to the last one."""
+        of_words = sum(
+            score for _, begin, end, score in segments if begin >= first and end <= last
+        )
+        of_phones = sum(
+            score * max(0, min(end, last) - max(begin, first) + 1) / (end - begin + 1)
+            for _, begin, end, score in self._decoded(_PHONES, sound)
+        )
+        return (of_words - of_phones) / (last - first + 1)

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Record from a sound card."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from voice_control.audio import AudioError, RATE_HZ
+
+__all__ = ['Microphone']
+
+
+class Microphone:
+    """
+    A microphone that records until it is closed.
+
+    Parameters
+    ----------
+    device
+        A part of the name of the device, or its number; empty for the default one.
+    chunk_s
+        The length of the pieces.
+    take
+        Gets each piece, in S16LE, 16 kHz, mono, in a thread of the sound library.
+
+    Raises
+    ------
+    AudioError
+        If there is no library, no sound card, or no such device.
+
+    """
+
+    def __init__(self, device: str, chunk_s: float, take: Callable[[bytes], None]) -> None:
+        sounddevice = _library()
+        self._take = take
+        try:
+            self._stream = sounddevice.RawInputStream(
+                samplerate=RATE_HZ,
+                blocksize=round(chunk_s * RATE_HZ),
+                device=(int(device) if device.isdecimal() else device) or None,
+                channels=1,
+                dtype='int16',
+                callback=self._record,
+            )
+            self._stream.start()
+        except (sounddevice.PortAudioError, ValueError) as error:
+            name = f"'{device}'" if device else 'here'
+            raise AudioError(
+                f'There is no microphone {name} that can be used: {error}.'
+            ) from error
+
+    def close(self) -> None:
+        """Record no longer."""
+        self._stream.close(ignore_errors=True)
+
+    @property
+    def is_active(self) -> bool:
+        """Whether it still records: the device may have been unplugged."""
+        return bool(self._stream.active)
+
+    def _record(self, data: Any, *_: Any) -> None:
+        self._take(bytes(data))
+
+
+def _library() -> Any:
+    """Import the library, which looks for PortAudio at once."""
+    try:
+        import sounddevice
+    except ImportError as error:
+        raise AudioError(
+            f'The microphone needs the package sounddevice ({error}): pip install sounddevice'
+        ) from error
+    except OSError as error:
+        raise AudioError(
+            'The microphone needs the library PortAudio: sudo apt install libportaudio2'
+        ) from error
+    return sounddevice

@@ -1,0 +1,308 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Turn sound into commands: the node `speech_recognizer`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+import math
+import os
+from pathlib import Path
+from queue import Full, Queue
+import sys
+import threading
+import time
+import traceback
+from typing import Any
+
+from audio_common_msgs.msg import AudioData
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from humanoid_common.errors import NodeStartError
+from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.parameters import parameter
+from humanoid_common.qos import EVENT, LATCHED, STATE
+from humanoid_common.running import run_node
+from humanoid_interfaces.msg import SpeechResult
+from rclpy.clock import Clock, ClockType
+from rclpy.duration import Duration
+from rclpy.node import Node
+from std_msgs.msg import Bool, String
+from std_srvs.srv import SetBool
+from voice_control.grammar_recognizer import GrammarRecognizer, read_dictionary
+from voice_control.recognition import Heard, Listener, Recognizer, RecognizerError
+from voice_control.segmentation import UtteranceSegmenter
+from voice_control.whisper import FasterWhisper, TranscriptionServer, WhisperCpp
+
+__all__ = ['RecognizerParameters', 'SpeechRecognizer', 'main']
+
+POCKETSPHINX, WHISPER, WHISPER_CPP, OPENAI = 'pocketsphinx', 'whisper', 'whisper_cpp', 'openai'
+_LONGEST_QUEUE = 400
+_END_S = 2.0
+_ECHO_S = 0.3
+"""How long after its own speech the robot does not listen."""
+_SILENT_AFTER_S = 5.0
+Work = Callable[[], None]
+
+
+@dataclass(frozen=True)
+class RecognizerParameters:
+    """The parameters of the node."""
+
+    backend: str = parameter(
+        POCKETSPHINX,
+        'What recognizes speech: the grammar of commands (pocketsphinx), Whisper by '
+        'faster-whisper or whisper.cpp, or a server. The grammar hears "stop" in any case.',
+        choices=(POCKETSPHINX, WHISPER, WHISPER_CPP, OPENAI),
+        read_only=True,
+    )
+    model_path: str = parameter(
+        '', 'The folder or file of the model of Whisper on this machine.', read_only=True
+    )
+    base_url: str = parameter(
+        '', 'Where the interface of a server for openai begins.', read_only=True
+    )
+    model: str = parameter('', 'The model that the server is to use.', read_only=True)
+    language: str = parameter(
+        'en', 'The language that Whisper or the server is to expect.', read_only=True
+    )
+    num_threads: int = parameter(
+        1, 'How many threads Whisper computes with.', at_least=1, at_most=64, read_only=True
+    )
+    threshold: float = parameter(
+        -4.2,
+        'The least log-likelihood ratio per frame with which pocketsphinx accepts a command.',
+        at_least=-100.0,
+        at_most=100.0,
+        read_only=True,
+    )
+    dictionary_file: str = parameter(
+        '', 'Words with their phones that pocketsphinx does not know.', read_only=True
+    )
+    wake_word: str = parameter(
+        '', 'What commands have to begin with; empty if every command counts.', read_only=True
+    )
+    vad_mode: int = parameter(
+        0,
+        'How readily sound is taken for something else than speech.',
+        at_least=0,
+        at_most=3,
+        read_only=True,
+    )
+    max_utterance_s: float = parameter(
+        10.0, 'The longest utterance (s).', at_least=1.0, at_most=60.0, read_only=True
+    )
+
+
+def make_listener(
+    told: RecognizerParameters, report: Callable[[str], None]
+) -> tuple[Listener, GrammarRecognizer, Recognizer]:
+    """
+    Make what parameters ask for.
+
+    Parameters
+    ----------
+    told
+        The parameters.
+    report
+        Gets a sentence when a part fails.
+
+    Returns
+    -------
+    Listener, GrammarRecognizer, Recognizer
+        What hears; the grammar in it; and what hears all but "stop".
+
+    Raises
+    ------
+    RecognizerError
+        If something that was asked for cannot be used.
+
+    """
+    dictionary = {}
+    if told.dictionary_file:
+        try:
+            text = Path(told.dictionary_file).expanduser().read_text(encoding='utf-8')
+        except (OSError, UnicodeDecodeError) as error:
+            raise RecognizerError(f"'{told.dictionary_file}' cannot be read: {error}") from error
+        dictionary = read_dictionary(text.splitlines())
+    grammar = GrammarRecognizer(told.threshold, dictionary)
+    other: Recognizer | None = None
+    if told.backend == WHISPER:
+        other = FasterWhisper(told.model_path, told.language, told.num_threads)
+    elif told.backend == WHISPER_CPP:
+        other = WhisperCpp(told.model_path, told.language, told.num_threads)
+    elif told.backend == OPENAI:
+        key = os.environ.get('OPENAI_API_KEY', '')
+        other = TranscriptionServer(told.base_url, told.model, key, told.language)
+    return Listener(grammar, other, told.wake_word, report), grammar, other or grammar
+
+
+class SpeechRecognizer(Node):
+    """
+    Hears `audio`, and publishes commands on `speech/transcript`, and all on `speech/result`.
+
+    The key for a server is the variable OPENAI_API_KEY of the environment.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    Raises
+    ------
+    NodeStartError
+        If what the parameters ask for cannot be used.
+
+    """
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__('speech_recognizer', **options)
+        told = NodeParameters(self, RecognizerParameters).current
+        try:
+            self._listener, self._grammar, main = make_listener(told, self._report)
+        except RecognizerError as error:
+            raise NodeStartError(str(error)) from error
+        self._title, self._language = main.title, told.language
+        self._segmenter = UtteranceSegmenter(told.vad_mode, told.max_utterance_s)
+        self._is_enabled, self._is_speaking = True, False
+        self._quiet_until_s = 0.0
+        self._sound_s = -math.inf
+        self._heard = self._accepted = self._lost = 0
+        self._transcripts = self.create_publisher(String, 'speech/transcript', EVENT)
+        self._results = self.create_publisher(SpeechResult, 'speech/result', EVENT)
+        self._diagnostics = self.create_publisher(DiagnosticArray, 'diagnostics', STATE)
+        self.create_subscription(AudioData, 'audio', self._take, EVENT)
+        self.create_subscription(String, 'speech/grammar', self._take_grammar, LATCHED)
+        self.create_subscription(Bool, 'speech/speaking', self._mute, LATCHED)
+        self.create_service(SetBool, '~/enable', self._enable)
+        self.create_timer(1.0, self._diagnose, clock=Clock(clock_type=ClockType.STEADY_TIME))
+        self._queue: Queue[Work | None] = Queue(_LONGEST_QUEUE)
+        self._worker = threading.Thread(target=self._work, name='recognizer', daemon=True)
+        self._worker.start()
+        self.get_logger().info(f'Recognizes speech with {self._title}.')
+
+    def destroy_node(self) -> None:
+        """End the thread, too."""
+        self._is_enabled = False
+        try:
+            self._queue.put(None, timeout=_END_S)
+        except Full:
+            pass  # it is a daemon
+        self._worker.join(_END_S)
+        super().destroy_node()
+
+    # What comes in
+
+    def _take(self, message: AudioData) -> None:
+        now_s = self._sound_s = time.monotonic()
+        if self._is_enabled and not self._is_speaking and now_s >= self._quiet_until_s:
+            sound = message.data.tobytes()
+            self._do(lambda: self._add(sound))
+
+    def _take_grammar(self, message: String) -> None:
+        self._do(lambda: self._set_grammar(message.data))
+
+    def _mute(self, message: Bool) -> None:
+        """Do not listen to the robot's own voice."""
+        if self._is_speaking and not message.data:
+            self._quiet_until_s = time.monotonic() + _ECHO_S
+        self._is_speaking = message.data
+        self._do(self._segmenter.reset)
+
+    def _enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        self._is_enabled = request.data
+        self._do(self._segmenter.reset)
+        response.success = True
+        response.message = 'listening' if request.data else 'not listening'
+        return response
+
+    def _do(self, work: Work) -> None:
+        """Have something done by the thread of the recogniser, unless it is far behind."""
+        try:
+            self._queue.put_nowait(work)
+        except Full:
+            self._lost += 1
+            self.get_logger().warning(
+                'Speech comes faster than it is recognized: some of it is lost.',
+                throttle_duration_sec=10.0,
+            )
+
+    # The thread of the recogniser
+
+    def _work(self) -> None:
+        while (work := self._queue.get()) is not None:
+            try:
+                work()
+            except Exception:  # what one utterance does must not end the next ones
+                self.get_logger().error(traceback.format_exc())
+
+    def _add(self, sound: bytes) -> None:
+        for utterance in self._segmenter.add(sound):
+            heard = self._listener.hear(utterance)
+            executor = self.executor
+            if executor is not None:
+                executor.create_task(self._tell, heard)
+
+    def _set_grammar(self, jsgf: str) -> None:
+        try:
+            unknown = self._grammar.set_grammar(jsgf)
+        except RecognizerError as error:
+            self._report(f'{error} The one of before is used.')
+            return
+        if unknown:
+            words = ', '.join(f'"{word}"' for word in unknown)
+            self._report(
+                f'How to pronounce {words} is not known, so that it is not understood: add it to '
+                'a file, and give that as dictionary_file.'
+            )
+
+    def _report(self, sentence: str) -> None:
+        self.get_logger().warning(sentence)
+
+    # What goes out
+
+    def _tell(self, heard: Heard) -> None:
+        recognition = heard.recognition
+        self._heard += 1
+        result = SpeechResult(
+            text=recognition.text,
+            accepted=recognition.is_accepted,
+            reason=recognition.reason,
+            confidence=recognition.confidence if math.isfinite(recognition.confidence) else 0.0,
+            backend=recognition.backend,
+            locale='en-US' if recognition.backend == POCKETSPHINX else self._language,
+            speech_duration=Duration(seconds=heard.speech_s).to_msg(),
+            processing_duration=Duration(seconds=heard.processing_s).to_msg(),
+        )
+        result.header.stamp = self.get_clock().now().to_msg()
+        self._results.publish(result)
+        if recognition.is_accepted and recognition.text:
+            self._accepted += 1
+            self.get_logger().info(f'Heard: {recognition.text!r}')
+            self._transcripts.publish(String(data=recognition.text))
+
+    def _diagnose(self) -> None:
+        is_silent = time.monotonic() - self._sound_s > _SILENT_AFTER_S
+        values = {
+            'recogniser': self._title,
+            'utterances': self._heard,
+            'accepted': self._accepted,
+            'lost pieces of sound': self._lost,
+        }
+        status = DiagnosticStatus(
+            level=DiagnosticStatus.OK,
+            name=f'{self.get_name()}: speech',
+            message='No sound comes in' if is_silent else 'Listening',
+            values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
+        )
+        message = DiagnosticArray(status=[status])
+        message.header.stamp = self.get_clock().now().to_msg()
+        self._diagnostics.publish(message)
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node."""
+    return run_node(SpeechRecognizer, args)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Recognize free speech with Whisper: by faster-whisper, by whisper.cpp, or by a server.
+
+The libraries and their models are the user's: nothing is ever downloaded.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+import re
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from voice_control.audio import wav_of
+from voice_control.recognition import Recognition, RecognizerError
+
+__all__ = ['FasterWhisper', 'TranscriptionServer', 'WhisperCpp']
+
+NEEDED_FILES = ('model.bin', 'config.json', 'tokenizer.json')
+VOCABULARIES = ('vocabulary.json', 'vocabulary.txt')
+GGML_MAGIC = b'lmgg'
+_SILENCE_PROBABILITY = 0.6
+_UNSURE = -1.0
+_NO_SPEECH = 'Nothing was said.'
+_PUNCTUATION = re.compile(r"[^\w\s'°%-]")
+
+
+class FasterWhisper:
+    """
+    Whisper by the library faster-whisper.
+
+    Parameters
+    ----------
+    folder
+        A model as CTranslate2 reads it.
+    language
+        The language that is spoken, such as `en`.
+    threads
+        How many threads compute.
+
+    Raises
+    ------
+    RecognizerError
+        If the library is not installed, or files are missing.
+
+    """
+
+    def __init__(self, folder: str, language: str = 'en', threads: int = 1) -> None:
+        path = _existing(folder, 'faster-whisper', 'a folder with a model')
+        missing = [name for name in NEEDED_FILES if not (path / name).is_file()]
+        if not any((path / name).is_file() for name in VOCABULARIES):
+            missing.append(' or '.join(VOCABULARIES))
+        if missing:
+            raise RecognizerError(
+                f"'{path}' is no model for faster-whisper: it lacks {', '.join(missing)}."
+            )
+        os.environ['HF_HUB_OFFLINE'] = '1'  # a file that it misses, it would look for for minutes
+        try:
+            from faster_whisper import WhisperModel
+        except ImportError as error:
+            raise _not_installed('faster-whisper', error) from error
+        try:
+            self._model = WhisperModel(
+                str(path), device='cpu', compute_type='int8', cpu_threads=threads
+            )
+        except (RuntimeError, ValueError, OSError) as error:
+            raise RecognizerError(f"The model in '{path}' cannot be used: {error}") from error
+        self._language = language
+        self.title = f"Whisper (faster-whisper, '{path}')"
+
+    def recognize(self, sound: bytes) -> Recognition:
+        """Recognize an utterance; see `Recognizer`."""
+        segments = list(
+            self._model.transcribe(
+                _samples(sound),
+                language=self._language,
+                beam_size=1,
+                temperature=0.0,
+                condition_on_previous_text=False,
+                without_timestamps=True,
+            )[0]
+        )
+        if not segments:
+            return Recognition('', -math.inf, 'whisper', _NO_SPEECH)
+        confidence = min(each.avg_logprob for each in segments)
+        silence = max(each.no_speech_prob for each in segments)
+        return _judged(''.join(each.text for each in segments), confidence, silence, 'whisper')
+
+
+class WhisperCpp:
+    """
+    Whisper by the library pywhispercpp.
+
+    Parameters
+    ----------
+    file
+        A model in the format ggml.
+    language, threads
+        As for `FasterWhisper`.
+
+    Raises
+    ------
+    RecognizerError
+        If the library is not installed, or the file is no model. The library itself would end the
+        process with a fault of memory.
+
+    """
+
+    def __init__(self, file: str, language: str = 'en', threads: int = 1) -> None:
+        path = _existing(file, 'whisper.cpp', 'a file in the format ggml')
+        with path.open('rb') as content:
+            magic = content.read(len(GGML_MAGIC))
+        if magic != GGML_MAGIC:
+            raise RecognizerError(
+                f"'{path}' is no model in the format ggml, as whisper.cpp needs."
+            )
+        try:
+            from pywhispercpp.model import Model
+        except ImportError as error:
+            raise _not_installed('pywhispercpp', error) from error
+        self._model: Any = Model(
+            str(path), n_threads=threads, language=language, print_progress=False,
+            print_realtime=False, redirect_whispercpp_logs_to=None,
+        )  # fmt: skip
+        self.title = f"Whisper (whisper.cpp, '{path}')"
+
+    def recognize(self, sound: bytes) -> Recognition:
+        """Recognize an utterance; see `Recognizer`."""
+        segments = self._model.transcribe(_samples(sound), no_context=True, temperature=0.0)
+        text = ''.join(str(each.text) for each in segments)
+        return _judged(text, math.nan, 0.0, 'whisper_cpp')
+
+
+class TranscriptionServer:
+    """
+    A server with an interface like that of OpenAI: `POST base_url/audio/transcriptions`.
+
+    Parameters
+    ----------
+    base_url
+        Where the interface begins, such as `http://127.0.0.1:8000/v1`.
+    model
+        The name of the model, as the server knows it.
+    key
+        What the server asks for as authorization, if it does.
+    language
+        As for `FasterWhisper`.
+    timeout_s
+        How long an answer may take.
+
+    """
+
+    def __init__(
+        self, base_url: str, model: str, key: str = '', language: str = 'en',
+        timeout_s: float = 15.0,
+    ) -> None:  # fmt: skip
+        import httpx
+
+        if not base_url.startswith(('http://', 'https://')):
+            raise RecognizerError(
+                f"'{base_url}' is no address of a server: set base_url, such as "
+                'http://127.0.0.1:8000/v1.'
+            )
+        self._url = f'{base_url.rstrip("/")}/audio/transcriptions'
+        self._form = {'model': model, 'language': language, 'response_format': 'json'}
+        headers = {'Authorization': f'Bearer {key}'} if key else {}
+        self._client = httpx.Client(headers=headers, timeout=timeout_s)
+        self.title = f'the server at {self._url}'
+
+    def recognize(self, sound: bytes) -> Recognition:
+        """Recognize an utterance; see `Recognizer`."""
+        import httpx
+
+        files = {'file': ('speech.wav', wav_of(sound), 'audio/wav')}
+        try:
+            answer = self._client.post(self._url, data=self._form, files=files)
+        except httpx.HTTPError as error:
+            why = str(error) or type(error).__name__
+            raise RecognizerError(f'The server at {self._url} does not answer: {why}.') from error
+        if answer.status_code != httpx.codes.OK:
+            raise RecognizerError(
+                f'The server at {self._url} refuses, with status {answer.status_code}: '
+                f'{answer.text[:200]!r}.'
+            )
+        try:
+            text = answer.json()['text']
+        except (ValueError, KeyError, TypeError) as error:
+            raise RecognizerError(
+                f'The server at {self._url} answers with something else than a text: '
+                f'{answer.text[:200]!r}.'
+            ) from error
+        return _judged(str(text), math.nan, 0.0, 'openai')
+
+
+def _existing(path: str, library: str, what: str) -> Path:
+    if not path:
+        raise RecognizerError(f'{library} needs {what}: set model_path.')
+    found = Path(path).expanduser()
+    if not found.exists():
+        raise RecognizerError(f"There is no '{found}': {library} needs {what}.")
+    return found
+
+
+def _not_installed(library: str, error: ImportError) -> RecognizerError:
+    return RecognizerError(
+        f'{library} cannot be imported ({error}): install it with: pip install {library}'
+    )
+
+
+def _samples(sound: bytes) -> NDArray[np.float32]:
+    return np.frombuffer(sound, '<i2').astype(np.float32) / 32768.0
+
+
+def _judged(text: str, confidence: float, silence: float, backend: str) -> Recognition:
+    """Make a recognition of a text; what a model makes up when nothing is said does not count."""
+    words = ' '.join(_PUNCTUATION.sub(' ', text.lower()).split())
+    if not words or (silence > _SILENCE_PROBABILITY and confidence < _UNSURE):
+        return Recognition('', confidence, backend, _NO_SPEECH)
+    return Recognition(words, confidence, backend)

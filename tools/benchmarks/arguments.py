@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the benchmarks take as arguments: types for argparse, which prints why a text is none."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+import math
+from pathlib import Path
+from typing import TypeVar
+
+Number = TypeVar('Number', int, float)
+
+
+def in_range(kind: type[Number], least: float, most: float = math.inf) -> Callable[[str], Number]:
+    """
+    Return the type of a finite number that is neither too small nor too large.
+
+    :param kind: `int` or `float`
+    :param least: the smallest number that is taken
+    :param most: the largest one
+    """
+    bounds = f'at least {least:g}' if most == math.inf else f'from {least:g} to {most:g}'
+
+    def number(text: str) -> Number:
+        try:
+            value = kind(text)
+        except ValueError:
+            value = None
+        if value is None or math.isinf(value) or not least <= value <= most:
+            raise argparse.ArgumentTypeError(f"'{text}' is no {kind.__name__} {bounds}.")
+        return value
+
+    return number
+
+
+def built_workspace(text: str) -> Path:
+    """Return the folder of a built workspace."""
+    if not text.strip():
+        raise argparse.ArgumentTypeError('an empty text names no folder.')
+    folder = Path(text).resolve()
+    if not (folder / 'tools' / 'in_environment').is_file() or not (folder / 'install').is_dir():
+        raise argparse.ArgumentTypeError(
+            f"'{folder}' is no built workspace: tools/in_environment or install/ is missing. "
+            'Check out the commit to compare with there, and run `make build` in it.'
+        )
+    return folder
+
+
+def workspace_sources(text: str) -> Path:
+    """Return the folder of a workspace, built or not, that is a clone of git."""
+    if not text.strip():
+        raise argparse.ArgumentTypeError('an empty text names no folder.')
+    folder = Path(text).resolve()
+    if not (folder / 'tools' / 'setup').is_dir() or not (folder / '.git').exists():
+        raise argparse.ArgumentTypeError(
+            f"'{folder}' is no clone of this workspace: tools/setup or .git is missing. "
+            'Make one with `git clone` and check out the commit to compare with there.'
+        )
+    return folder

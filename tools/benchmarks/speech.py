@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Count how many spoken commands are understood, and how many other sentences are taken for one.
+
+Synthesizers of the system, flite and espeak-ng, speak the commands of the planner's tests, and
+sentences that are none; the recogniser has the grammar of the planner in the apartment.
+A command is right if the plan of what was recognized is that of what was said.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from dataclasses import dataclass, field
+from pathlib import Path
+import shutil
+import subprocess
+import sys
+from tempfile import TemporaryDirectory
+import time
+
+from arguments import in_range
+from humanoid_perception.places import load_places, places_path
+from llm_planner.dialogue import Dialogue
+from llm_planner.plan import Plan
+from llm_planner.rules import RulePlanner
+from llm_planner.skills_file import load_skills, skills_path
+from llm_planner.world import base_name, Thing, World
+import numpy as np
+from voice_control.audio import chunks, duration_s, read_wav
+from voice_control.grammar_recognizer import GrammarRecognizer
+from voice_control.segmentation import UtteranceSegmenter
+import yaml
+
+SENTENCES = Path(__file__).parents[2] / 'src' / 'llm_planner' / 'test' / 'sentences.yaml'
+KINDS = ('moving', 'looking', 'fetching', 'asking', 'together')
+OTHER = (
+    'the weather is nice today', 'i had pasta for lunch yesterday',
+    'please call my mother tonight', 'the football match starts at nine',
+    'she sells sea shells by the sea shore', 'can you lend me some money',
+    'the quick brown fox jumps over the lazy dog', 'my car needs new brakes',
+    'let us watch a movie later', 'good morning everyone how was the weekend',
+    'the kitchen sink is leaking again', 'who is going to win the election',
+)  # fmt: skip
+VOICES = {
+    'flite slt': ['flite', '-voice', 'slt', '-o', '{file}', '-t', '{text}'],
+    'flite rms': ['flite', '-voice', 'rms', '-o', '{file}', '-t', '{text}'],
+    'flite awb': ['flite', '-voice', 'awb', '-o', '{file}', '-t', '{text}'],
+    'espeak en-us': ['espeak-ng', '-v', 'en-us', '-s', '160', '-w', '{file}', '{text}'],
+    'espeak en-us+f3': ['espeak-ng', '-v', 'en-us+f3', '-s', '160', '-w', '{file}', '{text}'],
+    'espeak en-gb': ['espeak-ng', '-v', 'en-gb', '-s', '150', '-w', '{file}', '{text}'],
+}
+PEAK = 12_000.0
+THINGS = (
+    Thing('red_mug_1', 'mug', 'red', 'kitchen_counter', 'kitchen', (1.0, 3.8, 0.85)),
+    Thing('blue_mug_1', 'mug', 'blue', 'desk', 'bedroom', (3.2, 1.2, 0.77)),
+    Thing('green_apple_1', 'apple', 'green', 'kitchen_table', 'kitchen', (0.0, 2.0, 0.74)),
+)
+
+
+@dataclass
+class Row:
+    """What became of the sentences of a voice: right, rejected, wrong; others that were taken."""
+
+    counts: Counter[str] = field(default_factory=Counter)
+    speech_s: float = 0.0
+    cpu_s: float = 0.0
+
+
+def main() -> int:
+    """Measure and print a table."""
+    parser = argparse.ArgumentParser(description=__doc__.strip().split('\n')[0])
+    parser.add_argument(
+        '--noise', type=in_range(float, 0.0, 10_000.0), default=10.0,
+        help='standard deviation of the noise beside speech with a peak of 12000; 200 is 20 dB',
+    )  # fmt: skip
+    parser.add_argument('--threshold', type=float, default=-4.2, help='that of the recogniser')
+    parser.add_argument(
+        '--every', type=in_range(int, 1), default=1, help='only each n-th sentence'
+    )
+    parser.add_argument('--list', action='store_true', help='print what was not understood')
+    options = parser.parse_args()
+    voices = {name: words for name, words in VOICES.items() if shutil.which(words[0])}
+    if not voices:
+        print('There is no synthesizer: sudo apt install flite espeak-ng', file=sys.stderr)
+        return 1
+    planner, world = apartment()
+    said = yaml.safe_load(SENTENCES.read_text())
+    commands = [text for kind in KINDS for text in said[kind]][:: options.every]
+    recognizer = GrammarRecognizer(options.threshold)
+    unknown = recognizer.set_grammar(planner.to_jsgf(world))
+    print(f'{len(commands)} commands, {len(OTHER)} others; unknown words: {unknown or "none"}')
+    print(f'{"voice":<18}{"right":>7}{"rejected":>10}{"wrong":>7}{"others taken":>14}{"CPU":>7}')
+    for name, words in voices.items():
+        row = measured(words, commands, planner, world, recognizer, options)
+        shares = [row.counts[kind] / len(commands) for kind in ('right', 'rejected', 'wrong')]
+        shares.append(row.counts['taken'] / len(OTHER))
+        print(
+            f'{name:<18}{shares[0]:>7.0%}{shares[1]:>10.0%}{shares[2]:>7.0%}{shares[3]:>14.0%}'
+            f'{row.cpu_s / row.speech_s:>7.3f}'
+        )
+    return 0
+
+
+def apartment() -> tuple[RulePlanner, World]:
+    """Return the planner, and what it knows at home."""
+    places = load_places(places_path('apartment'))
+    surfaces = {base_name(each.name): places.room_at(*each.middle_m) for each in places.surfaces}
+    rooms = tuple(sorted({each.name for each in places.rooms}))
+    return RulePlanner(load_skills(skills_path(''))), World(surfaces, rooms, THINGS)
+
+
+def measured(
+    words: list[str], commands: list[str], planner: RulePlanner, world: World,
+    recognizer: GrammarRecognizer, options: argparse.Namespace,
+) -> Row:  # fmt: skip
+    """Let a voice say everything."""
+    row = Row()
+    for number, text in enumerate([*commands, *OTHER]):
+        sound = spoken(words, text, options.noise, number)
+        begin_s = time.process_time()
+        heard, is_accepted = recognized(recognizer, sound)
+        row.cpu_s += time.process_time() - begin_s
+        row.speech_s += duration_s(sound)
+        outcome = plan_of(planner, world, heard) if is_accepted else None
+        if text in OTHER:
+            kind = 'taken' if outcome is not None else 'left'
+        elif outcome is None:
+            kind = 'rejected'
+        else:
+            kind = 'right' if outcome == plan_of(planner, world, text) else 'wrong'
+        row.counts[kind] += 1
+        if options.list and kind not in ('right', 'left'):
+            print(f'    {kind}: {text!r} -> {heard!r}')
+    return row
+
+
+def spoken(words: list[str], text: str, noise: float, seed: int) -> bytes:
+    """Return a sentence with silence and noise around it."""
+    with TemporaryDirectory() as folder:
+        file = f'{folder}/speech.wav'
+        command = [word.format(file=file, text=text) for word in words]
+        subprocess.run(command, check=True, capture_output=True)
+        samples = np.frombuffer(read_wav(Path(file)), '<i2').astype(float)
+    samples *= PEAK / max(np.abs(samples).max(), 1.0)
+    samples = np.concatenate([np.zeros(8000), samples, np.zeros(16_000)])
+    samples += np.random.default_rng(seed).normal(0.0, noise, samples.size)
+    return bytes(np.clip(samples, -32768, 32767).astype('<i2').tobytes())
+
+
+def recognized(recognizer: GrammarRecognizer, sound: bytes) -> tuple[str, bool]:
+    """Return what is heard in a sound, and whether all of it counts."""
+    segmenter = UtteranceSegmenter()
+    texts, is_accepted = [], True
+    for piece in chunks(sound, 0.03):
+        for utterance in segmenter.add(piece):
+            recognition = recognizer.recognize(utterance)
+            texts.append(recognition.text)
+            is_accepted = is_accepted and recognition.is_accepted
+    return ' '.join(texts), is_accepted and bool(texts)
+
+
+def plan_of(planner: RulePlanner, world: World, text: str) -> tuple[object, ...] | None:
+    """Return the steps of the plan for a sentence; None if there is none."""
+    outcome = planner.plan(text, world, Dialogue())
+    if isinstance(outcome, Plan):
+        return tuple((step.skill, repr(step.arguments)) for step in outcome.steps)
+    return None
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the benchmarks say about arguments that they cannot use."""
+
+from __future__ import annotations
+
+from pathlib import Path
+import subprocess
+import sys
+
+import pytest
+
+BENCHMARKS = Path(__file__).resolve().parents[1] / 'benchmarks'
+
+
+@pytest.mark.parametrize('name', ['bringup_cost', 'command_times', 'launch_times'])
+@pytest.mark.parametrize(
+    ('folder', 'sentence'),
+    [
+        ('/nowhere', "'/nowhere' is no built workspace"),
+        ('', 'an empty text names no folder.'),
+    ],
+)
+def test_no_workspace_to_compare_with(name: str, folder: str, sentence: str) -> None:
+    """It is a mistake in the arguments, said in a sentence before anything is measured."""
+    command = [sys.executable, str(BENCHMARKS / f'{name}.py'), '--against', folder]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert sentence in done.stderr and 'Traceback' not in done.stderr
+    assert done.stdout == ''
+
+
+@pytest.mark.parametrize(
+    ('words', 'sentence'),
+    [
+        (['first_run', '--against', '/nowhere'], "'/nowhere' is no clone of this workspace"),
+        (['first_run', '--against', ''], 'an empty text names no folder.'),
+        (['first_run', '--runs', '0'], "'0' is no int at least 1."),
+        (['walking_pushes', '--impulses', 'nan'], "'nan' is no float at least 0."),
+        (['walking_pushes', '--impulses', ''], "'' is no float at least 0."),
+        (['walking_pushes', '--speed', '0'], "'0' is no float from 0.05 to 1."),
+        (['walking_pushes', '--phases', '0'], "'0' is no int at least 1."),
+        (['obstacle_trials', '--first', '-1'], "'-1' is no int at least 0."),
+        (['obstacle_trials', '--trials', '0'], "'0' is no int at least 1."),
+        (['walking_soak', '--drop-outs', '7'], "'7' is no float from 0 to 1."),
+        (['walking_soak', '--first-seed', 'x'], "'x' is no int at least 0."),
+        (['odometry_errors', '--noise', 'inf'], "'inf' is no float at least 0."),
+    ],
+)
+def test_no_number_to_begin_with(words: list[str], sentence: str) -> None:
+    """A number that means nothing is refused before the robot walks."""
+    command = [sys.executable, str(BENCHMARKS / f'{words[0]}.py'), *words[1:]]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert sentence in done.stderr and 'Traceback' not in done.stderr
+    assert done.stdout == ''

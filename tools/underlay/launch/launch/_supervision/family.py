@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Tell which processes a launch has started, directly or through others.
+
+Whatever a process does, leave its group and its session or lose its parent, two things pass from
+it to all that it starts: its resource limits and its environment. A launch marks its processes
+with the soft limit RLIMIT_LOCKS, which Linux has not enforced since 2.4.25 and hands down all the
+same: one call reads it, a program whose environment was cleared keeps it, and nobody sees a
+variable that he has not set. Where the limit cannot be set, or there is no room in it for one more
+launch in a launch, the variable `ROS_LAUNCH_ID` is the mark.
+
+This module needs the standard library only, as what cleans up behind a killed launch uses it too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from itertools import count
+import os
+import resource
+from typing import Optional, TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from launch._supervision.member import Member
+
+ID_VARIABLE = 'ROS_LAUNCH_ID'
+"""The launches that a process belongs to, from the outermost to the innermost."""
+
+DETACHED_VARIABLE = 'ROS_LAUNCH_DETACHED'
+"""A process in whose environment this is not empty may outlive the launch that it comes from."""
+
+_RLIMIT_LOCKS = 10  # the `resource` module has no name for it
+_RUN_BITS = 8
+_LAUNCH_BITS = 22 + _RUN_BITS  # ids of processes have 22 bits at most
+_INIT = 1  # the parent of orphans; in a container that may be the launch
+_MOST_LOOKS = 50
+_runs = count()
+
+
+class Family:
+    """The processes of one run of a launch."""
+
+    def __init__(
+        self, launch_id: str, mark: int, start_ticks: int, sessions: Iterable[int] = ()
+    ) -> None:
+        """
+        Create the family of a run, here or in another process.
+
+        :param launch_id: names the run in the variable
+        :param mark: the limit that its processes have; 0 if they have the variable only
+        :param start_ticks: when the process of the run was started; no member is older
+        :param sessions: all that is in these sessions belongs to the family as well
+        """
+        self.id = launch_id
+        self.mark = mark
+        self.start_ticks = start_ticks
+        self._sessions = frozenset(sessions)
+        self._detached = os.environ.get(DETACHED_VARIABLE)
+        self._outer = None if self._detached else os.environ.get(ID_VARIABLE)
+
+    @classmethod
+    def of_new_run(cls) -> Family:
+        """Return the family of a new run in this process."""
+        pid, run = os.getpid(), next(_runs)
+        start_ticks = _start_ticks(pid)
+        return cls(f'{pid}.{start_ticks}.{run}', _new_mark(pid, run), start_ticks)
+
+    # Marking.
+
+    def environment(self, environment: Mapping[str, str]) -> dict[str, str]:
+        """
+        Return the environment with which a process of this launch is started.
+
+        What a launch that may outlive the one around it has started does not outlive it for that.
+        """
+        marked = dict(environment)
+        if not self.mark:
+            marked[ID_VARIABLE] = f'{self._outer}/{self.id}' if self._outer else self.id
+        if not self.detaches(marked):
+            marked.pop(DETACHED_VARIABLE, None)
+        return marked
+
+    @contextmanager
+    def marking(self) -> Iterator[None]:
+        """Mark what is started meanwhile."""
+        with _limit(self.mark) if self.mark else _unchanged():
+            yield
+
+    def detaches(self, environment: Mapping[str, str]) -> bool:
+        """Return whether a process with this environment is to outlive the launch."""
+        value = environment.get(DETACHED_VARIABLE)
+        return bool(value) and value != self._detached
+
+    # Finding.
+
+    def members(self) -> list[Member]:
+        """
+        Return the processes of the launch that live and are not to outlive it.
+
+        Of what forks and ends all the time, each process has gone when it is looked at. If one of
+        those that were seen has, others may have come: there is nobody only if nobody went.
+        """
+        for _ in range(_MOST_LOOKS):
+            candidates = self._candidates()
+            found = [member for member in map(self._member, candidates) if member is not None]
+            if found or all(map(_exists, candidates)):
+                return found
+        return []
+
+    def descendants(self, pid: int) -> list[Member]:
+        """Return those whose parents, grandparents and so on lead to a process."""
+        members = self.members()
+        ancestors = {pid}
+        while True:
+            more = {m.pid for m in members if m.parent in ancestors} - ancestors
+            if not more:
+                return [m for m in members if m.pid in ancestors and m.pid != pid]
+            ancestors |= more
+
+    def _candidates(self) -> list[int]:
+        """Return the ids of the processes at which it is worth while to look, at little cost."""
+        pids = [int(name) for name in os.listdir('/proc') if name.isdigit()]
+        if not self.mark or self._sessions:
+            return pids
+        return [pid for pid in pids if self.mark in _marks_of(pid)]
+
+    def _member(self, pid: int) -> Optional[Member]:
+        from launch._supervision.member import look_at, variables_of
+
+        process = look_at(pid)
+        if process is None or process.start_ticks < self.start_ticks or pid == os.getpid():
+            return None
+        variables = variables_of(pid)
+        if variables.get(DETACHED_VARIABLE):
+            return None
+        ids = list(filter(None, variables.get(ID_VARIABLE, '').split('/')))
+        if self.id in ids:
+            return process.of_launch(nested=ids[-1] != self.id)
+        if process.session in self._sessions:
+            return process
+        return self._member_by_mark(process, has_inner_id=bool(ids))
+
+    def _member_by_mark(self, process: Member, *, has_inner_id: bool) -> Optional[Member]:
+        """
+        Return a process whose variable does not name this launch if it has the mark.
+
+        What a program with threads starts at the instant in which `marking` is in force has the
+        mark too. It is told by its parent: a process of the launch has one elsewhere, or is known.
+        """
+        marks = _marks_of(process.pid)
+        if not self.mark or self.mark not in marks or process.parent == os.getpid() != _INIT:
+            return None
+        return process.of_launch(nested=has_inner_id or self.mark != marks[0])
+
+
+@contextmanager
+def unmarked() -> Iterator[None]:
+    """Let what is started meanwhile belong to no launch."""
+    with _limit(resource.RLIM_INFINITY):
+        yield
+
+
+def detached_environment(environment: Mapping[str, str]) -> dict[str, str]:
+    """Return the environment of a process that may outlive all launches."""
+    return {
+        **{name: value for name, value in environment.items() if name != ID_VARIABLE},
+        DETACHED_VARIABLE: '1',
+    }
+
+
+def _new_mark(pid: int, run: int) -> int:
+    """Return the mark of a new run, which begins with that of the launch around it."""
+    outer, most = resource.getrlimit(_RLIMIT_LOCKS)
+    if most != resource.RLIM_INFINITY or outer >> _LAUNCH_BITS > 0:
+        return 0  # it may not be set, or there is no room for a third one
+    own = pid << _RUN_BITS | run % (1 << _RUN_BITS)
+    return max(outer, 0) << _LAUNCH_BITS | own
+
+
+@contextmanager
+def _limit(value: int) -> Iterator[None]:
+    before, most = resource.getrlimit(_RLIMIT_LOCKS)
+    if most != resource.RLIM_INFINITY:
+        value = before
+    resource.setrlimit(_RLIMIT_LOCKS, (value, most))
+    try:
+        yield
+    finally:
+        resource.setrlimit(_RLIMIT_LOCKS, (before, most))
+
+
+@contextmanager
+def _unchanged() -> Iterator[None]:
+    yield
+
+
+def _marks_of(pid: int) -> tuple[int, ...]:
+    """Return the marks of the launch that a process belongs to, and of the one around that."""
+    try:
+        mark = resource.prlimit(pid, _RLIMIT_LOCKS)[0]
+    except OSError:  # it has ended, or is another user's
+        return ()
+    return (mark, mark >> _LAUNCH_BITS) if mark > 0 else ()
+
+
+def _exists(pid: int) -> bool:
+    return os.path.exists(f'/proc/{pid}')
+
+
+def _start_ticks(pid: int) -> int:
+    """Return when a process was started, in clock ticks since the system was."""
+    with open(f'/proc/{pid}/stat', 'rb') as file:
+        return int(file.read().rpartition(b')')[2].split()[19])

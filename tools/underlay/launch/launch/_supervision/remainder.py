@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: Apache-2.0
+"""End what processes have started outside of their groups, when the launch ends."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Collection
+import os
+import signal
+import time
+from typing import Any, Optional
+
+from launch._supervision.family import Family
+from launch._supervision.member import is_alive, Member, send
+from launch.logging import get_logger
+
+_AFTER_SIGKILL_S = 5.0
+_AT_ONCE_S = 2.0
+_LOOK_EVERY_S = 0.02  # where the system cannot tell of the end of a process
+_MOST_WATCHED = 64  # at a time, as each of them takes a descriptor
+_MOST_NAMED = 5
+
+
+Find = Callable[[signal.Signals], list[Member]]
+
+
+class Remainder:
+    """Interrupts, terminates and kills the members of a launch that no supervisor looks after."""
+
+    def __init__(self, family: Family, supervised_groups: Callable[[], Collection[int]]) -> None:
+        """Create what ends all of a family but the groups that have a supervisor."""
+        self._family = family
+        self._supervised_groups = supervised_groups
+        self._is_alone = asyncio.Event()
+        self._task: Optional[asyncio.Task[None]] = None
+
+    def begin(self, sigterm_s: float, sigkill_s: float) -> None:
+        """Send SIGINT to what there is outside of the supervised groups, and plan the rest."""
+        if self._task is None or self._task.done():
+            ending = end_members(self._left, sigterm_s, sigkill_s, changed=self._is_alone)
+            self._task = asyncio.ensure_future(ending)
+
+    async def finish(self, sigterm_s: float, sigkill_s: float) -> None:
+        """Leave nothing behind, now that no supervisor is at work any more."""
+        self._is_alone.set()
+        if self._task is not None:
+            await self._task
+        await end_members(self._left, sigterm_s, sigkill_s)
+
+    def _left(self, number: signal.Signals) -> list[Member]:
+        """Return who is to get a signal; a launch that was started here ends its own processes."""
+        members = self._family.members()
+        if self._is_alone.is_set():
+            return members
+        groups = self._supervised_groups()
+        with_nested = number == signal.SIGKILL
+        return [m for m in members if m.group not in groups and (with_nested or not m.is_nested)]
+
+
+async def end_members(
+    find: Find,
+    sigterm_s: float,
+    sigkill_s: float,
+    *,
+    interrupted: Collection[Member] = (),
+    changed: Optional[asyncio.Event] = None,
+) -> None:
+    """
+    Send one signal after the other until nothing is left.
+
+    :param find: returns who is left, and is to get the signal
+    :param sigterm_s: the seconds from SIGINT to SIGTERM
+    :param sigkill_s: the seconds from then to SIGKILL
+    :param interrupted: who has got SIGINT already
+    :param changed: is set when `find` may return others
+    """
+    steps = (
+        (signal.SIGINT, sigterm_s),
+        (signal.SIGTERM, sigkill_s),
+        (signal.SIGKILL, _AFTER_SIGKILL_S),
+    )
+    told = set(interrupted)
+    for number, patience_s in steps:
+        if await _end_with(number, patience_s, find, told, changed):
+            return
+        told = set()
+    if left := find(signal.SIGKILL):
+        get_logger('launch').error('could not end %s', _names(left))
+
+
+async def _end_with(
+    number: signal.Signals,
+    patience_s: float,
+    find: Find,
+    told: set[Member],
+    changed: Optional[asyncio.Event],
+) -> bool:
+    """Send a signal to all, also to those that come meanwhile; return whether none is left."""
+    loop = asyncio.get_running_loop()
+    end_s = loop.time() + patience_s
+    while left := find(number):
+        if not told:
+            text = "sending signal '%s' to what has left the group of its process: %s"
+            get_logger('launch').info(text, number.name, _names(left))
+        for member in left:
+            if number == signal.SIGKILL or member not in told:
+                send(member, number)
+        told.update(left)
+        if loop.time() >= end_s:
+            return False
+        await _wait(left[:_MOST_WATCHED], end_s - loop.time(), changed)
+    return True
+
+
+async def _wait(
+    members: list[Member], patience_s: float, changed: Optional[asyncio.Event]
+) -> None:
+    """Wait until these have ended, or until there may be others."""
+    tasks: list[asyncio.Future[Any]] = [asyncio.gather(*map(_ended, members))]
+    if changed is not None and not changed.is_set():
+        tasks.append(asyncio.ensure_future(changed.wait()))
+    try:
+        await asyncio.wait(tasks, timeout=patience_s, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+
+def kill_at_once(family: Family) -> None:
+    """Kill all members, as the launch has no time left to wait for them."""
+    end_s = time.monotonic() + _AT_ONCE_S
+    while (members := family.members()) and time.monotonic() < end_s:
+        for member in members:
+            send(member, signal.SIGKILL)
+
+
+async def _ended(member: Member) -> None:
+    """Wait for the end of a member."""
+    loop = asyncio.get_running_loop()
+    try:
+        descriptor = os.pidfd_open(member.pid)
+    except ProcessLookupError:
+        return
+    except (AttributeError, OSError):
+        while is_alive(member):
+            await asyncio.sleep(_LOOK_EVERY_S)
+        return
+    ended = asyncio.Event()
+    loop.add_reader(descriptor, ended.set)
+    try:
+        if is_alive(member):
+            await ended.wait()
+    finally:
+        loop.remove_reader(descriptor)
+        os.close(descriptor)
+
+
+def _names(members: list[Member]) -> str:
+    named = ', '.join(str(member) for member in members[:_MOST_NAMED])
+    more = len(members) - _MOST_NAMED
+    return f'{named} and {more} more' if more > 0 else named

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Files that are written for the processes of a launch, and removed when it ends."""
+
+from __future__ import annotations
+
+import atexit
+from collections.abc import Callable
+import os
+
+Listener = Callable[[str], None]
+
+_paths: list[str] = []
+_listeners: list[Listener] = []
+
+
+class FileListening:
+    """Lets a function hear of each file, until it is closed; the last one removes the files."""
+
+    def __init__(self, listener: Listener) -> None:
+        """Tell the function of the files that there are, and of others before they are made."""
+        self._listener = listener
+        _listeners.append(listener)
+        for path in _paths:
+            listener(path)
+
+    def close(self) -> None:
+        """Tell no more."""
+        _listeners.remove(self._listener)
+        if not _listeners:
+            _remove_all()
+
+
+def write_temporary_file(prefix: str, text: str) -> str:
+    """Write a file into the folder for temporary files, and return its path."""
+    if not _paths:
+        atexit.register(_remove_all)
+    path = os.path.join(_folder(), f'{prefix}{os.urandom(6).hex()}')
+    _paths.append(path)
+    for listener in _listeners:
+        listener(path)
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o600)
+    with open(descriptor, 'wb') as file:
+        file.write(text.encode())
+    return path
+
+
+def is_temporary_file(path: str) -> bool:
+    """Return whether a file is one of those that were written here."""
+    return path in _paths
+
+
+def _folder() -> str:
+    """Return what tempfile.gettempdir() does, in the usual cases without that large module."""
+    for folder in (*map(os.environ.get, ('TMPDIR', 'TEMP', 'TMP')), '/tmp'):
+        if folder and os.path.isdir(folder) and os.access(folder, os.W_OK | os.X_OK):
+            return os.path.abspath(folder)
+    import tempfile
+
+    return tempfile.gettempdir()
+
+
+def _remove_all() -> None:
+    atexit.unregister(_remove_all)
+    for path in _paths:
+        try:
+            os.unlink(path)
+        except OSError:
+            pass  # someone has removed it already
+    _paths.clear()

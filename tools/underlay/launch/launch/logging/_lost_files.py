@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say that log files cannot be written, as on a full disk, once for a launch and all its nodes."""
+
+from __future__ import annotations
+
+import re
+
+from launch.logging._screen import screen
+
+_NODE_ERROR = re.compile(
+    r'\[\*\*\* LOG ERROR #\d+ \*\*\*\] .*\{Failed writing to file (?P<path>.*): (?P<reason>.*)\}'
+)
+"""What spdlog, which writes the log files of nodes, prints each second while it cannot."""
+
+
+class LostFiles:
+    """Log files that cannot be written: each reason is said once, with the first file."""
+
+    def __init__(self) -> None:
+        """Know of none."""
+        self._reasons: set[str] = set()
+
+    def add(self, path: str, reason: str) -> None:
+        """Take note of a file that cannot be written any more."""
+        if reason not in self._reasons:
+            self._reasons.add(reason)
+            screen.write_line(
+                f"[WARNING] [launch]: log files cannot be written any more, '{path}' first: "
+                f'{reason}. All else goes on; make room there, or set ROS_LOG_DIR to another '
+                'folder at the next start.'
+            )
+
+    def without_errors(self, lines: list[str]) -> list[str]:
+        """Return the lines of a node but those that say that its log file cannot be written."""
+        kept = []
+        for line in lines:
+            found = _NODE_ERROR.match(line) if line.startswith('[***') else None
+            if found is None:
+                kept.append(line)
+            else:
+                self.add(found['path'], found['reason'])
+        return kept

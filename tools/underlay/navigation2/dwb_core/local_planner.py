@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: Apache-2.0
+"""DWB: try many velocities at once, and take the one that its critics find best."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+import math
+
+from dwb_critics.critic import Critic, Scene
+from dwb_critics.registry import find_critic
+from dwb_plugins.generators import make_generator, Rollouts
+from nav2_controller.control import (
+    Command,
+    Controller,
+    ControlState,
+    Displays,
+    NoValidControl,
+    Velocity,
+)
+from nav2_controller.plugins import PluginContext
+from nav2_controller.tracking import path_lengths
+from nav2_util.errors import ConfigurationError
+from nav2_util.parameters import parameter
+import numpy as np
+
+__all__ = ['DWBLocalPlanner']
+
+_UNSUPPORTED = {
+    'goal_checker_name': 'the goal checkers of the controller server are used',
+    'publish_evaluation': 'scores are not published',
+    'publish_cost_grid_pc': 'the grids of critics are not published',
+    'publish_input_params': 'they are not published',
+    'publish_trajectories': "trajectories are published on 'marker' when somebody listens",
+    'publish_global_plan': "'received_global_plan' is published when somebody listens",
+    'publish_transformed_plan': "'transformed_global_plan' is published when somebody listens",
+    'publish_local_plan': "'local_plan' is published when somebody listens",
+    'marker_lifetime': 'trajectories are shown until the next ones',
+    'prune_plan': 'what was passed of the path is always left out',
+    'path_distance_bias': 'set PathAlign.scale and PathDist.scale',
+    'goal_distance_bias': 'set GoalAlign.scale and GoalDist.scale',
+    'occdist_scale': 'set BaseObstacle.scale or ObstacleFootprint.scale',
+    'max_scaling_factor': 'the footprint keeps its size at any speed',
+    'scaling_speed': 'the footprint keeps its size at any speed',
+    'prune_distance': 'the path is followed from the pose nearest to the robot',
+}
+
+
+@dataclass(frozen=True)
+class DwbParameters:
+    """The parameters of DWB, beside those of its generator and critics."""
+
+    default_critic_namespaces: list[str] = parameter(
+        ['dwb_critics'], 'What may be left out before the names of critics.'
+    )
+    shorten_transformed_plan: bool = parameter(
+        True, 'Whether critics only see the path up to forward_prune_distance.'
+    )
+    forward_prune_distance: float = parameter(
+        2.0, 'The length in m of the path that is regarded; -1: as far as the costmap.'
+    )
+    debug_trajectory_details: bool = parameter(
+        False, 'Whether to log what critics object to when no velocity is left.'
+    )
+    trajectory_generator_name: str = parameter(
+        'dwb_plugins::StandardTrajectoryGenerator', 'The generator of trajectories.'
+    )
+    short_circuit_trajectory_evaluation: bool = parameter(
+        True, 'Accepted; all trajectories are scored at once.'
+    )
+
+
+class DWBLocalPlanner(Controller):
+    """
+    Chooses among sampled velocities, also sideways, by a sum of scores of critics.
+
+    Source: D. Fox, W. Burgard, S. Thrun, The Dynamic Window Approach to Collision Avoidance, IEEE
+    Robotics and Automation Magazine 4 (1997).
+    """
+
+    def __init__(self, context: PluginContext) -> None:
+        self._parameters = context.declare(DwbParameters)
+        context.unsupported(_UNSUPPORTED)
+        self.transform_tolerance_s = context.transform_tolerance()
+        generator = self._parameters.current.trajectory_generator_name
+        self._generator = make_generator(generator, context)
+        names = context.value('critics', [], 'The critics, by their names.')
+        if not names:
+            raise ConfigurationError(
+                f"The parameter '{context.name}.critics' names no critic. Such as "
+                "['RotateToGoal', 'Oscillation', 'BaseObstacle', 'GoalAlign', 'PathAlign', "
+                "'PathDist', 'GoalDist'] is usual."
+            )
+        self._critics = [_make_critic(context, name) for name in names]
+
+    def new_plan(self, *, is_new_goal: bool) -> None:
+        """Follow another path from now on."""
+        if is_new_goal:
+            for critic in self._critics:
+                critic.reset()
+
+    def compute(self, state: ControlState) -> Command:
+        """Compute the velocity for the next period."""
+        state = _shortened(state, self._parameters.current)
+        ratio = self.limit_ratio(self._generator.fastest)
+        velocities = self._generator.velocities(state.velocity, ratio)
+        rollouts = self._generator.rollouts(state.pose, state.velocity, velocities)
+        scene = Scene(state, rollouts)
+        total = np.zeros(len(rollouts), np.float32)
+        objections: list[tuple[int, Critic]] = []
+        for critic in self._critics:
+            critic.begin(scene)
+            scale = critic.scale(scene)
+            if not scale:
+                continue
+            scores = critic.scores(scene)
+            total += scores * np.float32(scale)
+            refused = int(np.isinf(scores).sum())
+            if refused:
+                objections.append((refused, critic))
+        best = int(np.argmin(total))
+        if not math.isfinite(float(total[best])):
+            raise NoValidControl(_explanation(len(rollouts), objections))
+        velocity = Velocity(*(float(each) for each in velocities[best]))
+        for critic in self._critics:
+            critic.debrief(velocity)
+        return Command(velocity, _displays(rollouts, best))
+
+
+def _make_critic(context: PluginContext, name: str) -> Critic:
+    kind = find_critic(str(context.value(f'{name}.class', name, 'The kind of the critic.')))
+    return kind(context.named(f'{context.name}.{name}'))
+
+
+def _shortened(state: ControlState, parameters: DwbParameters) -> ControlState:
+    limit = parameters.forward_prune_distance
+    if not parameters.shorten_transformed_plan or limit < 0.0:
+        return state
+    lengths = path_lengths(state.plan)
+    if lengths[-1] <= limit:
+        return state
+    end = max(int(np.searchsorted(lengths, limit, 'right')), 1)
+    return replace(state, plan=state.plan[:end], is_goal_in_plan=False)
+
+
+def _explanation(count: int, objections: list[tuple[int, Critic]]) -> str:
+    objections.sort(key=lambda each: -each[0])
+    reasons = ', '.join(
+        f'{100.0 * refused / count:.0f} % {critic.objection()} ({critic.name})'
+        for refused, critic in objections
+    )
+    return f'No velocity of {count} is valid: {reasons}. Plan another way.'
+
+
+def _displays(rollouts: Rollouts, best: int) -> Displays:
+    chosen = np.stack(
+        [rollouts.x[best], rollouts.y[best], rollouts.yaw[best]], axis=1, dtype=np.float64
+    )
+    step = max(len(rollouts) // 60, 1)
+    shown = np.stack([rollouts.x[::step], rollouts.y[::step]], axis=2, dtype=np.float64)
+    return Displays(local_plan=chosen, trajectories=shown)

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What critics of DWB have in common: the scene that they look at, and their scale."""
+
+from __future__ import annotations
+
+from functools import cached_property
+import math
+from typing import Any
+
+import cv2
+from dwb_plugins.generators import Floats, Rollouts
+from nav2_controller.control import ControlState, Velocity
+from nav2_controller.plugins import PluginContext
+from nav2_costmap_2d.costs import (
+    INSCRIBED_INFLATED_OBSTACLE,
+    NO_INFORMATION,
+)
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ['Critic', 'Scene', 'invalid_costs']
+
+FloatArray = npt.NDArray[np.float64]
+
+
+def invalid_costs(costs: npt.NDArray[np.uint8]) -> npt.NDArray[np.bool_]:
+    """Return where a robot's centre must not be."""
+    invalid: npt.NDArray[np.bool_] = np.greater_equal(costs, INSCRIBED_INFLATED_OBSTACLE)
+    return invalid
+
+
+class Scene:
+    """
+    One period of control: the state, all trajectories, and what several critics need of them.
+
+    Parameters
+    ----------
+    state
+        What is known.
+    rollouts
+        The trajectories.
+
+    """
+
+    def __init__(self, state: ControlState, rollouts: Rollouts) -> None:
+        self.state, self.rollouts = state, rollouts
+
+    @cached_property
+    def costs(self) -> npt.NDArray[np.uint8]:
+        """(S, T) costs at the points of the trajectories; NO_INFORMATION off the costmap."""
+        return self.costs_at(self.rollouts.x, self.rollouts.y)
+
+    def costs_at(self, x: Floats, y: Floats) -> npt.NDArray[np.uint8]:
+        """Return the costs at points in m; NO_INFORMATION off the costmap."""
+        costs: npt.NDArray[np.uint8] = self.look_up(
+            self.state.surroundings.grid.cells, x, y, NO_INFORMATION
+        )
+        return costs
+
+    def look_up(
+        self, values: npt.NDArray[Any], x: Floats, y: Floats, outside: float
+    ) -> npt.NDArray[Any]:
+        """Return what an array of the shape of the costmap holds at points in m."""
+        grid = self.state.surroundings.grid
+        scale = np.float32(1.0 / grid.resolution)
+        u = np.floor((x - np.float32(grid.origin_x)) * scale).astype(np.int32)
+        v = np.floor((y - np.float32(grid.origin_y)) * scale).astype(np.int32)
+        beyond = (u < 0) | (v < 0) | (u >= grid.size_x) | (v >= grid.size_y)
+        if beyond.any():
+            u, v = np.where(beyond, 0, u), np.where(beyond, 0, v)
+        found: npt.NDArray[Any] = values.ravel()[v * grid.size_x + u]
+        return np.where(beyond, values.dtype.type(outside), found) if beyond.any() else found
+
+    @cached_property
+    def path_distances(self) -> Floats:
+        """Distance in cells from each cell of the costmap to the path."""
+        return self.distances_to(self.state.plan)
+
+    def distances_to(self, plan: FloatArray) -> Floats:
+        """Return the distance in cells from each cell of the costmap to (N, 2 or more) points."""
+        grid = self.state.surroundings.grid
+        away = np.ones(grid.cells.shape, np.uint8)
+        columns, rows = grid.world_to_map_array(plan[:, :2]).T
+        inside = (columns >= 0) & (rows >= 0) & (columns < grid.size_x) & (rows < grid.size_y)
+        if not inside.any():
+            return np.full(away.shape, float(max(away.shape)), np.float32)
+        away[rows[inside], columns[inside]] = 0
+        return np.asarray(cv2.distanceTransform(away, cv2.DIST_L2, 5), np.float32)
+
+    @property
+    def local_goal(self) -> FloatArray:
+        """Return the last pose of the path within the costmap."""
+        goal: FloatArray = self.state.plan[-1]
+        return goal
+
+
+class Critic:
+    """
+    The base of critics: scores all trajectories at once.
+
+    Parameters
+    ----------
+    context
+        Its name is that of the critic below that of the controller.
+
+    """
+
+    default_scale = 1.0
+
+    def __init__(self, context: PluginContext) -> None:
+        self.name = context.name.rpartition('.')[2]
+        scale = context.value('scale', self.default_scale, 'How much the critic counts.')
+        self._scale = float(scale)
+
+    def reset(self) -> None:
+        """Forget everything: there is a new goal."""
+
+    def begin(self, scene: Scene) -> None:
+        """Look at the scene before scores are asked for."""
+
+    def scale(self, scene: Scene) -> float:
+        """Return the factor of the scores."""
+        return self._scale
+
+    def scores(self, scene: Scene) -> Floats:
+        """Return (S,) scores, lower is better; infinite for a trajectory that is illegal."""
+        raise NotImplementedError
+
+    def objection(self) -> str:
+        """Return why trajectories are illegal, as the rest of a sentence."""
+        return 'are refused'
+
+    def debrief(self, velocity: Velocity) -> None:
+        """Regard which velocity was chosen."""
+
+
+def illegal(scores: Floats, mask: Any) -> Floats:
+    """Return scores that are infinite where a mask is true."""
+    return np.where(mask, np.float32(math.inf), scores)

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The messages of AMCL, from and to what its core knows."""
+
+from __future__ import annotations
+
+import struct
+from typing import Any
+
+from geometry_msgs.msg import PoseWithCovarianceStamped, TransformStamped
+from nav2_amcl.clusters import Cluster
+from nav2_amcl.occupancy_map import FloatArray, OccupancyMap
+from nav2_amcl.scan_projection import Scan
+from nav2_util.geometry import make_pose, make_quaternion, Pose2D, yaw_of
+import numpy as np
+
+__all__ = [
+    'cloud_bytes',
+    'covariance_of',
+    'map_of',
+    'pose_message',
+    'rotation_and_translation',
+    'scan_of',
+    'transform_message',
+]
+
+_PLANE = np.array([0, 1, 5])
+"""Where x, y and yaw are in the 6 x 6 covariance of a pose."""
+
+
+def map_of(message: Any) -> OccupancyMap:
+    """
+    Return the map of a `nav_msgs/OccupancyGrid`.
+
+    Raises
+    ------
+    ValueError
+        It has no cells, or another number of them than it says.
+
+    """
+    info = message.info
+    if not info.width or not info.height or info.resolution <= 0.0:
+        raise ValueError('it has no cells')
+    if len(message.data) != info.width * info.height:
+        raise ValueError(f'it has {len(message.data)} cells and not {info.width} x {info.height}')
+    cells = np.frombuffer(message.data, np.int8).reshape(info.height, info.width)
+    corner = info.origin
+    origin = corner.position.x, corner.position.y, yaw_of(corner.orientation)
+    return OccupancyMap(cells, info.resolution, origin)
+
+
+def scan_of(message: Any) -> Scan:
+    """Return the readings of a `sensor_msgs/LaserScan`."""
+    return Scan(
+        np.frombuffer(message.ranges, np.float32),
+        message.angle_min,
+        message.angle_increment,
+        message.range_min,
+        message.range_max,
+    )
+
+
+def covariance_of(message: PoseWithCovarianceStamped) -> FloatArray:
+    """Return the (3, 3) covariance of x, y (m) and yaw (rad) of a pose."""
+    whole = np.asarray(message.pose.covariance, float).reshape(6, 6)
+    found: FloatArray = whole[np.ix_(_PLANE, _PLANE)]
+    return found
+
+
+def pose_message(estimate: Cluster, frame: str, stamp: Any) -> PoseWithCovarianceStamped:
+    """Return the message of an estimate."""
+    message = PoseWithCovarianceStamped()
+    message.header.frame_id, message.header.stamp = frame, stamp
+    message.pose.pose = make_pose(Pose2D(*estimate.pose))
+    whole = np.zeros((6, 6))
+    whole[np.ix_(_PLANE, _PLANE)] = estimate.covariance
+    message.pose.covariance = whole.ravel()
+    return message
+
+
+def rotation_and_translation(transform: TransformStamped) -> tuple[FloatArray, FloatArray]:
+    """Return the (3, 3) rotation and the (3,) translation in m of a transform."""
+    moved = transform.transform
+    q, t = moved.rotation, moved.translation
+    x, y, z, w = q.x, q.y, q.z, q.w
+    rotation = np.array(
+        [
+            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+            [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+        ]
+    )
+    return rotation, np.array([t.x, t.y, t.z])
+
+
+def transform_message(pose: Pose2D, frame: str, child: str, stamp: Any) -> TransformStamped:
+    """Return the transform of a frame that is at a pose in another one."""
+    message = TransformStamped(child_frame_id=child)
+    message.header.frame_id, message.header.stamp = frame, stamp
+    message.transform.translation.x = pose.x
+    message.transform.translation.y = pose.y
+    message.transform.rotation = make_quaternion(pose.yaw)
+    return message
+
+
+def cloud_bytes(particles: FloatArray, weights: FloatArray, frame: str, stamp: Any) -> bytes:
+    """
+    Serialise a `nav2_msgs/ParticleCloud`, without an object for each particle.
+
+    It is CDR, little-endian: the header, the number of particles, and eight doubles of each from
+    an offset that is a multiple of eight.
+    """
+    name = frame.encode() + b'\0'
+    data = struct.pack('<iII', stamp.sec, stamp.nanosec, len(name)) + name
+    data += b'\0' * (-len(data) % 4) + struct.pack('<I', len(particles))
+    data += b'\0' * (-len(data) % 8)
+    rows = np.zeros((len(particles), 8), '<f8')
+    rows[:, :2] = particles[:, :2]
+    rows[:, 5], rows[:, 6] = np.sin(0.5 * particles[:, 2]), np.cos(0.5 * particles[:, 2])
+    rows[:, 7] = weights
+    return b'\0\1\0\0' + data + rows.tobytes()

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Why there is no pose: what AMCL waits for, and how to mend it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ['Inputs', 'Reminder', 'describe_missing']
+
+_SCAN_LATE_S = 3.0
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """What has come so far, and where it is expected."""
+
+    has_map: bool
+    is_started: bool
+    scan_age_s: float
+    transform_problem: str
+    map_topic: str
+    scan_topic: str
+
+
+def describe_missing(inputs: Inputs) -> list[str]:
+    """Return a sentence or two for each input that is missing."""
+    found = []
+    if not inputs.has_map:
+        found.append(
+            f"No map has come on '{inputs.map_topic}'. Start map_server with a map and activate "
+            'it, or set map_topic.'
+        )
+    if not inputs.is_started:
+        found.append(
+            "It is not known where the robot is. Set its pose with '2D Pose Estimate' in RViz, on "
+            'initialpose, or with set_initial_pose and initial_pose; or call '
+            'reinitialize_global_localization.'
+        )
+    if inputs.scan_age_s > _SCAN_LATE_S:
+        found.append(
+            f"No scan has come on '{inputs.scan_topic}' for {inputs.scan_age_s:.0f} s. Check that "
+            'the laser runs, and scan_topic.'
+        )
+    elif inputs.transform_problem:
+        found.append(
+            f'Scans wait for a transform: {inputs.transform_problem.rstrip(".")}. Check that '
+            'odometry and robot_state_publisher run, that clocks agree (use_sim_time), and '
+            'odom_frame_id and base_frame_id.'
+        )
+    return found
+
+
+class Reminder:
+    """Says what is missing once at the second look, and again after a time."""
+
+    def __init__(self, again_after_s: float = 30.0) -> None:
+        self._again_after_s = again_after_s
+        self._last: list[str] = []
+        self._said: dict[str, float] = {}
+
+    def text_for(self, missing: list[str], now_s: float) -> str:
+        """
+        Return what is to be logged now, or an empty text.
+
+        Parameters
+        ----------
+        missing
+            Sentences; only what was missing at the last look too is worth a warning. Those that
+            begin alike count as the same.
+        now_s
+            The time in s.
+
+        """
+        keys = [_key(each) for each in missing]
+        self._said = {key: said for key, said in self._said.items() if key in keys}
+        due = [
+            text
+            for key, text in zip(keys, missing)
+            if key in self._last and now_s - self._said.get(key, -1e9) >= self._again_after_s
+        ]
+        self._last = keys
+        self._said.update({_key(text): now_s for text in due})
+        return ' '.join(due)
+
+
+def _key(text: str) -> str:
+    return text[:20]

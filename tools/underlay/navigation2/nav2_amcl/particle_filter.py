@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Adaptive Monte Carlo localisation: a set of weighted poses that follows the robot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from nav2_amcl.clusters import best_cluster, Cluster
+from nav2_amcl.laser_models import LaserModel
+from nav2_amcl.motion_models import MotionModel, MotionNoise, Pose
+from nav2_amcl.occupancy_map import FloatArray, OccupancyMap
+from nav2_amcl.resampling import draw_systematically, needed_size
+from nav2_amcl.scan_projection import Beams
+import numpy as np
+
+__all__ = ['FilterOptions', 'ParticleFilter']
+
+
+_LEAST_EFFECTIVE = 0.02
+"""The least share of particles that matter after a scan."""
+
+_HALVINGS = 10
+
+
+@dataclass(frozen=True)
+class FilterOptions:
+    """How many particles there are, and when some are drawn anew from the whole map."""
+
+    min_particles: int = 500
+    max_particles: int = 2000
+    kld_error: float = 0.05
+    kld_quantile: float = 0.99
+    alpha_slow: float = 0.0
+    alpha_fast: float = 0.0
+    free_cell_step: int = 1
+    global_factor: int = 10
+    """How many times `max_particles` are drawn anywhere, for the first scan to choose from."""
+
+
+class ParticleFilter:
+    """
+    Particles, and what odometry and scans make of them.
+
+    Source: Thrun, Burgard, Fox: Probabilistic Robotics, 2005, table 8.3 (augmented MCL), with
+    KLD sampling (D. Fox 2003). Its `options` may be replaced at any time.
+
+    Parameters
+    ----------
+    options
+        Sizes and recovery.
+    random
+        The source of randomness.
+
+    """
+
+    def __init__(self, options: FilterOptions, random: np.random.Generator) -> None:
+        self.options = options
+        self._random = random
+        self.particles: FloatArray = np.zeros((1, 3))
+        """(N, 3) array of x, y (m) and yaw (rad) in the frame of the map."""
+        self.weights: FloatArray = np.ones(1)
+        """(N,) array with the sum 1."""
+        self._slow = self._fast = 0.0
+
+    def start_at(self, pose: Pose, covariance: FloatArray) -> None:
+        """
+        Draw all particles around a pose.
+
+        Parameters
+        ----------
+        pose
+            x, y (m) and yaw (rad).
+        covariance
+            The (3, 3) matrix of these; negative eigenvalues are taken for zero.
+
+        """
+        values, vectors = np.linalg.eigh(0.5 * (covariance + covariance.T))
+        spread = vectors * np.sqrt(np.maximum(values, 0.0))
+        drawn = self._random.normal(size=(self.options.max_particles, 3))
+        self._replace(np.asarray(pose) + drawn @ spread.T)
+
+    def start_anywhere(self, grid: OccupancyMap) -> None:
+        """
+        Draw particles from the whole free space of a map.
+
+        They are more than `max_particles` until the next `resample`, so that some are near
+        enough to the robot for the first scan to tell.
+        """
+        count = self.options.max_particles * self.options.global_factor
+        step = self.options.free_cell_step
+        self._replace(grid.sample_free_poses(count, self._random, step))
+
+    def move(self, model: MotionModel, before: Pose, after: Pose, noise: MotionNoise) -> None:
+        """Let the particles follow a motion in the frame of odometry."""
+        self.particles = model.move(self.particles, before, after, noise, self._random)
+
+    def weigh(self, model: LaserModel, beams: Beams) -> None:
+        """Weigh the particles by how likely a scan is; one that says nothing changes nothing."""
+        logs = model.log_likelihoods(self.particles, beams)
+        if not logs.any():
+            return
+        highest = float(logs.max())
+        average = float(np.log(self.weights @ np.exp(logs - highest))) + highest
+        # The averages are per beam, so that their ratio means the same for all scans.
+        self._follow(float(np.exp(average / max(len(beams.ranges), 1))))
+        self.weights = _weighed(self.weights, logs - highest)
+
+    def resample(self, grid: OccupancyMap) -> None:
+        """Draw the particles anew by their weights, as many as their spread needs."""
+        options, random = self.options, self._random
+        limits = options.min_particles, options.max_particles
+        count = needed_size(
+            self.particles, self.weights, limits, options.kld_error, options.kld_quantile, random
+        )
+        drawn = self.particles[draw_systematically(self.weights, count, random)]
+        lost = random.random(count) < self.recovery_share
+        if lost.any():
+            fresh = grid.sample_free_poses(int(lost.sum()), random, options.free_cell_step)
+            drawn[lost] = fresh
+        self.particles, self.weights = drawn, np.full(count, 1.0 / count)
+
+    @property
+    def recovery_share(self) -> float:
+        """Return what share of the particles `resample` draws from the whole map."""
+        if self._slow <= 0.0 or self.options.alpha_slow <= 0.0:
+            return 0.0
+        return max(0.0, 1.0 - self._fast / self._slow)
+
+    def estimate(self) -> Cluster:
+        """Return the heaviest cluster: where the robot probably is."""
+        return best_cluster(self.particles, self.weights)
+
+    def _follow(self, likelihood: float) -> None:
+        """Filter the average likelihood slowly and fast; the fast one falls when it is lost."""
+        options = self.options
+        if self._slow <= 0.0:
+            self._slow = self._fast = likelihood
+        self._slow += options.alpha_slow * (likelihood - self._slow)
+        self._fast += options.alpha_fast * (likelihood - self._fast)
+
+    def _replace(self, particles: FloatArray) -> None:
+        self.particles = particles
+        self.weights = np.full(len(particles), 1.0 / len(particles))
+        self._slow = self._fast = 0.0
+
+
+def _weighed(weights: FloatArray, logs: FloatArray) -> FloatArray:
+    """
+    Return weights times likelihoods, with the sum 1, so that enough particles matter.
+
+    Where few particles get all the weight, they are too far apart for the scan, as after a start
+    anywhere: the likelihoods are then raised to the power below 1 that leaves an effective number
+    of `_LEAST_EFFECTIVE` of them.
+    """
+    power = 1.0
+    found = _normalised(weights, logs)
+    if _effective_share(found) >= _LEAST_EFFECTIVE:
+        return found
+    low = 0.0
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + power)
+        found = _normalised(weights, middle * logs)
+        if _effective_share(found) < _LEAST_EFFECTIVE:
+            power = middle
+        else:
+            low = middle
+    return _normalised(weights, low * logs)
+
+
+def _normalised(weights: FloatArray, logs: FloatArray) -> FloatArray:
+    scaled: FloatArray = weights * np.exp(logs)
+    scaled /= scaled.sum()
+    return scaled
+
+
+def _effective_share(weights: FloatArray) -> float:
+    return 1.0 / (len(weights) * float(weights @ weights))

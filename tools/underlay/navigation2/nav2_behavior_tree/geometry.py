@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Measure and cut paths: (N, 3) arrays of x, y (m) and yaw (rad)."""
+
+from __future__ import annotations
+
+from nav2_util.geometry import Pose2D
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ['distances_along_m', 'nearest_index', 'path_length_m', 'remaining_m', 'within']
+
+FloatArray = npt.NDArray[np.float64]
+
+
+def distances_along_m(poses: FloatArray) -> FloatArray:
+    """Return (N,) how far along the path each pose is, in m."""
+    if not len(poses):
+        return np.zeros(0)
+    steps = np.hypot(*np.diff(poses[:, :2], axis=0).T)
+    return np.concatenate(([0.0], np.cumsum(steps)))
+
+
+def path_length_m(poses: FloatArray) -> float:
+    """Return the length of a path in m."""
+    return float(distances_along_m(poses)[-1]) if len(poses) else 0.0
+
+
+def nearest_index(
+    poses: FloatArray, robot: Pose2D, angular_weight: float = 0.0, start: int = 0
+) -> int:
+    """
+    Return which pose of a path is nearest to the robot.
+
+    Parameters
+    ----------
+    poses
+        (N, 3) array, not empty.
+    robot
+        The pose of the robot in the frame of the path.
+    angular_weight
+        How many m a radian of difference counts.
+    start
+        The first pose that counts.
+
+    """
+    rest = poses[start:]
+    distances = np.hypot(rest[:, 0] - robot.x, rest[:, 1] - robot.y)
+    if angular_weight:
+        turn = np.abs((rest[:, 2] - robot.yaw + np.pi) % (2.0 * np.pi) - np.pi)
+        distances = distances + angular_weight * turn
+    return start + int(np.argmin(distances))
+
+
+def remaining_m(poses: FloatArray, robot: Pose2D) -> float:
+    """Return the length of a path in m from the pose that is nearest to the robot."""
+    if not len(poses):
+        return 0.0
+    along = distances_along_m(poses)
+    return float(along[-1] - along[nearest_index(poses, robot)])
+
+
+def within(poses: FloatArray, at: int, forward_m: float, backward_m: float) -> tuple[int, int]:
+    """
+    Return the first pose, and the one after the last, that are near a pose along the path.
+
+    Parameters
+    ----------
+    poses
+        (N, 3) array, not empty.
+    at
+        The pose from which distances count.
+    forward_m, backward_m
+        The distances in m; a negative one ahead has no limit.
+
+    """
+    along = distances_along_m(poses)
+    first = int(np.searchsorted(along, along[at] - backward_m, 'left'))
+    if forward_m < 0.0:
+        return first, len(poses)
+    return first, int(np.searchsorted(along, along[at] + forward_m, 'right'))

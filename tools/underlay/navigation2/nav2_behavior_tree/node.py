@@ -1,0 +1,292 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The base of all nodes of a tree: behaviours of py_trees that tick as those of BehaviorTree.CPP.
+
+They differ from py_trees' own in that a parent ticks its children itself and resets them, that a
+node keeps its state until then, and that it can be skipped. The tools of py_trees that look at
+trees (display, visitors, `BehaviourTree`) work with them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+from nav2_behavior_tree.blackboard import Blackboard
+from nav2_behavior_tree.ports import Binding, convert, Port
+from nav2_behavior_tree.scripting import Script
+from nav2_behavior_tree.status import (
+    Failure,
+    NodeStatus,
+    PY_TREES_STATUS,
+    StatusChange,
+    TreeError,
+)
+from nav2_util.errors import NavigationError
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+
+__all__ = ['Control', 'Decorator', 'NodeConfig', 'TreeContext', 'TreeNode']
+
+IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED = tuple(NodeStatus)
+_MISSING = object()
+
+
+@dataclass
+class TreeContext:
+    """
+    What the nodes of a tree share beside the blackboard.
+
+    Parameters
+    ----------
+    now_s
+        The clock of the tree, in s.
+    ros
+        A `RosInterface` for nodes that talk to others; None where there are none.
+
+    """
+
+    now_s: Callable[[], float]
+    ros: Any = None
+    tick: int = 0
+    """How many ticks the tree has had."""
+    is_woken: bool = False
+    """Whether a node asks to be ticked again at once."""
+    changes: list[StatusChange] = field(default_factory=list)
+    """What has changed since somebody took it from here."""
+    failure: Failure | None = None
+    """Why the last action, service or condition failed that knows why."""
+
+
+@dataclass(frozen=True)
+class NodeConfig:
+    """What the builder of a tree gives to a node."""
+
+    type_name: str
+    name: str
+    uid: int
+    context: TreeContext
+    blackboard: Blackboard
+    bindings: dict[str, Binding]
+    scripts: dict[str, Script]
+    file: str
+    line: int
+
+
+class TreeNode(Behaviour):
+    """
+    A node. Subclasses override `on_tick`, and `on_halt` if something has to be stopped.
+
+    Parameters
+    ----------
+    config
+        Its name, ports and place.
+
+    """
+
+    ports: ClassVar[dict[str, Port]] = {}
+    """Its attributes in an XML file."""
+    least_children: ClassVar[int] = 0
+    most_children: ClassVar[int] = 0
+
+    def __init__(self, config: NodeConfig) -> None:
+        super().__init__(config.name)
+        self.config, self.context, self.blackboard = config, config.context, config.blackboard
+        self.state = IDLE
+        self.is_fresh = True
+        """Whether this tick is the first one after at least one tick without it."""
+        self._last_tick = -2
+        scripts = config.scripts
+        self._before = {name: scripts[name] for name in PRECONDITIONS if name in scripts}
+        self._after = {name: scripts[name] for name in POSTCONDITIONS if name in scripts}
+
+    def on_tick(self) -> NodeStatus:
+        """Work for one tick, without waiting for anything."""
+        raise NotImplementedError
+
+    def on_halt(self) -> None:
+        """Stop what goes on; called only while the node is running."""
+
+    def on_new_goal(self) -> None:
+        """Forget what was counted or timed for another goal; the node may be running."""
+
+    def execute_tick(self) -> NodeStatus:
+        """Tick the node, and return its new state; SKIPPED is not kept."""
+        tick = self.context.tick
+        self.is_fresh = self.state is IDLE and tick - self._last_tick > 1
+        self._last_tick = tick
+        status = self._check_preconditions() if self._before else None
+        if status is None:
+            try:
+                status = self.on_tick()
+            except TreeError:
+                raise
+            except NavigationError as error:
+                self.fail(str(error))
+                status = FAILURE
+        if self._after and (status is SUCCESS or status is FAILURE):
+            self._run_after('_onSuccess' if status is SUCCESS else '_onFailure', '_post')
+        if status is not SKIPPED:
+            self.set_state(status)
+        return status
+
+    def halt_node(self) -> None:
+        """Stop the node while it runs."""
+        self.on_halt()
+        self._run_after('_onHalted')
+
+    def set_state(self, state: NodeStatus) -> None:
+        """Keep a state, and note that it has changed."""
+        if state is not self.state:
+            context, config = self.context, self.config
+            context.changes.append(
+                StatusChange(context.now_s(), self.name, config.uid, self.state, state)
+            )
+            self.state = state
+            self.status = PY_TREES_STATUS[state]
+
+    def fail(self, message: str, code: int = 0) -> None:
+        """Note why the node fails, for whoever tells it a person."""
+        self.feedback_message = message
+        self.context.failure = Failure(self.name, code, message)
+
+    def input(self, name: str) -> Any:  # noqa: A003, RUF100
+        """
+        Return the value of a port; None if it is neither set nor has a default.
+
+        Raises
+        ------
+        TreeError
+            Its key has a value that cannot be one of this port.
+
+        """
+        key, value, kind = self.config.bindings[name]
+        if key is None:
+            return value
+        value = self.blackboard.get(key, _MISSING)
+        if value is _MISSING:
+            return self._default(name)
+        if value.__class__ is str and kind != 'text' and kind != 'any':
+            try:
+                return convert(value, kind)
+            except ValueError as error:
+                raise self.error(f"The value of '{{{key}}}' for '{name}' {error}.") from error
+        return value
+
+    def required(self, name: str) -> Any:
+        """
+        Return the value of a port that the node cannot do without.
+
+        Raises
+        ------
+        NavigationError
+            Its key has no value; the node fails then.
+
+        """
+        value = self.input(name)
+        if value is None:
+            key = self.config.bindings[name].key
+            raise NavigationError(
+                f"'{self.name}' needs '{name}', and nothing has set '{{{key or name}}}' yet."
+            )
+        return value
+
+    def output(self, name: str, value: Any) -> None:
+        """Write the value of a port, if it is bound to a key."""
+        key = self.config.bindings[name].key
+        if key is not None:
+            self.blackboard.set(key, value)
+
+    def error(self, message: str) -> TreeError:
+        """Return an error at the place of this node in its file."""
+        return TreeError(message, self.config.file, self.config.line)
+
+    def _default(self, name: str) -> Any:
+        port = self.ports.get(name)
+        if port is None or not isinstance(port.default, str) or port.default.startswith('{'):
+            return None if port is None or isinstance(port.default, str) else _plain(port.default)
+        return convert(port.default, port.kind)
+
+    def _check_preconditions(self) -> NodeStatus | None:
+        """Return what the preconditions say in place of a tick."""
+        for name, script in self._before.items():
+            if self.state is IDLE:
+                holds = bool(script(self.blackboard))
+                if holds and name != '_while':
+                    return _INSTEAD[name]
+                if not holds and name == '_while':
+                    return SKIPPED
+            elif self.state is RUNNING and name == '_while' and not script(self.blackboard):
+                self.halt_node()
+                self.set_state(IDLE)
+                return SKIPPED
+        return None
+
+    def _run_after(self, *names: str) -> None:
+        for name in names:
+            if name in self._after:
+                self._after[name](self.blackboard)
+
+    def update(self) -> Status:
+        """Tick as py_trees does."""
+        return PY_TREES_STATUS[self.execute_tick()]
+
+    def tick(self) -> Iterator[Behaviour]:
+        """Tick as py_trees does."""
+        self.execute_tick()
+        yield self
+
+    def stop(self, new_status: Status) -> None:
+        """Halt as py_trees does."""
+        if self.state is RUNNING:
+            self.halt_node()
+        self.set_state(IDLE)
+
+
+def _plain(default: Any) -> Any:
+    return default if isinstance(default, (int, float, bool)) else None
+
+
+_INSTEAD = {'_failureIf': FAILURE, '_successIf': SUCCESS, '_skipIf': SKIPPED}
+PRECONDITIONS = ('_failureIf', '_successIf', '_skipIf', '_while')
+POSTCONDITIONS = ('_onHalted', '_onFailure', '_onSuccess', '_post')
+
+
+class Control(TreeNode):
+    """A node with children."""
+
+    least_children = 1
+    most_children = 10_000
+    children: list[TreeNode]
+
+    def halt_child(self, child: TreeNode) -> None:
+        """Stop a child if it runs, and make it idle."""
+        if child.state is RUNNING:
+            child.halt_node()
+        child.set_state(IDLE)
+
+    def halt_children(self) -> None:
+        """Stop all children, and make them idle."""
+        for child in self.children:
+            self.halt_child(child)
+
+    def on_halt(self) -> None:
+        """Stop all children."""
+        self.halt_children()
+
+    def finish(self, status: NodeStatus) -> NodeStatus:
+        """Make all children idle, and return a state."""
+        self.halt_children()
+        return status
+
+
+class Decorator(Control):
+    """A node with one child."""
+
+    most_children = 1
+
+    @property
+    def child(self) -> TreeNode:
+        """Return the child."""
+        return self.children[0]

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Conditions about the robot: where it is, how it moves, its battery, its transforms."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from nav2_behavior_tree.node import NodeConfig, TreeNode
+from nav2_behavior_tree.nodes.conditions import outcome
+from nav2_behavior_tree.ports import in_port, Port, REQUIRED
+from nav2_behavior_tree.registry import register
+from nav2_behavior_tree.status import NodeStatus
+from nav2_util import Pose2D
+from sensor_msgs.msg import BatteryState
+
+__all__ = [
+    'DistanceTraveled',
+    'GoalReached',
+    'IsBatteryCharging',
+    'IsBatteryLow',
+    'IsStuck',
+    'TransformAvailable',
+]
+
+SUCCESS, FAILURE = NodeStatus.SUCCESS, NodeStatus.FAILURE
+_FRAMES: dict[str, Port] = {
+    'global_frame': in_port('text', '', "The frame to measure in; empty: the navigator's."),
+    'robot_base_frame': in_port('text', '', "The robot's frame; empty: the navigator's."),
+}
+_BRAKE_LIMIT_M_S2 = -10.0
+
+
+@register()
+class GoalReached(TreeNode):
+    """Succeeds if the robot is near the goal."""
+
+    ports: ClassVar[dict[str, Port]] = {'goal': in_port('pose', '{goal}', 'The goal.'), **_FRAMES}
+
+    def __init__(self, config: NodeConfig) -> None:
+        super().__init__(config)
+        self._tolerance_m = config.context.ros.parameter(
+            'goal_reached_tol', 0.25, 'How near GoalReached means, in m.'
+        )
+
+    def on_tick(self) -> NodeStatus:
+        """Measure the distance."""
+        frame, ros = self.input('global_frame'), self.context.ros
+        robot = ros.robot_pose(frame, self.input('robot_base_frame'))
+        goal = ros.pose_in(self.required('goal'), frame)
+        return outcome(robot.distance_to(goal) <= self._tolerance_m)
+
+
+@register()
+class DistanceTraveled(TreeNode):
+    """Succeeds each time when the robot has gone some way."""
+
+    ports: ClassVar[dict[str, Port]] = {
+        'distance': in_port('number', '1.0', 'The way in m.'),
+        **_FRAMES,
+    }
+
+    def __init__(self, config: NodeConfig) -> None:
+        super().__init__(config)
+        self._start = Pose2D(0.0, 0.0, 0.0)
+
+    def on_tick(self) -> NodeStatus:
+        """Measure the way; the first time it begins."""
+        robot: Pose2D = self.context.ros.robot_pose(
+            self.input('global_frame'), self.input('robot_base_frame')
+        )
+        if self.is_fresh:
+            self._start = robot
+            return FAILURE
+        if self._start.distance_to(robot) < self.input('distance'):
+            return FAILURE
+        self._start = robot
+        return SUCCESS
+
+
+@register()
+class TransformAvailable(TreeNode):
+    """Succeeds if the transform between two frames is known; once it was, it counts as known."""
+
+    ports: ClassVar[dict[str, Port]] = {
+        'parent': in_port('text', REQUIRED, 'The parent frame.'),
+        'child': in_port('text', REQUIRED, 'The child frame.'),
+    }
+
+    def __init__(self, config: NodeConfig) -> None:
+        super().__init__(config)
+        self._was_found = False
+
+    def on_tick(self) -> NodeStatus:
+        """Look it up."""
+        if not self._was_found:
+            self._was_found = self.context.ros.can_transform(
+                self.required('parent'), self.required('child')
+            )
+        return outcome(self._was_found)
+
+
+@register()
+class IsStuck(TreeNode):
+    """Succeeds if the robot brakes harder than it can by itself: it has hit something."""
+
+    def on_tick(self) -> NodeStatus:
+        """Look at the acceleration."""
+        return outcome(self.context.ros.acceleration_m_s2() < _BRAKE_LIMIT_M_S2)
+
+
+@register()
+class IsBatteryLow(TreeNode):
+    """Succeeds if the charge of the battery, or its voltage, is low."""
+
+    ports: ClassVar[dict[str, Port]] = {
+        'min_battery': in_port('number', REQUIRED, 'The limit: 0 to 1, or V.'),
+        'battery_topic': in_port('text', '/battery_status', 'The topic.'),
+        'is_voltage': in_port('boolean', 'false', 'Whether the limit is in V.'),
+    }
+
+    def __init__(self, config: NodeConfig) -> None:
+        super().__init__(config)
+        self._battery = config.context.ros.latest(BatteryState, self.input('battery_topic'))
+
+    def on_tick(self) -> NodeStatus:
+        """Look at the battery; nothing is low while nothing is known."""
+        battery = self._battery.message
+        if battery is None:
+            return FAILURE
+        value = battery.voltage if self.input('is_voltage') else battery.percentage
+        return outcome(value <= self.input('min_battery'))
+
+
+@register()
+class IsBatteryCharging(TreeNode):
+    """Succeeds while the battery is being charged."""
+
+    ports: ClassVar[dict[str, Port]] = {
+        'battery_topic': in_port('text', '/battery_status', 'The topic.')
+    }
+
+    def __init__(self, config: NodeConfig) -> None:
+        super().__init__(config)
+        self._battery = config.context.ros.latest(BatteryState, self.input('battery_topic'))
+
+    def on_tick(self) -> NodeStatus:
+        """Look at the battery."""
+        battery = self._battery.message
+        charging = BatteryState.POWER_SUPPLY_STATUS_CHARGING
+        return outcome(battery is not None and battery.power_supply_status == charging)

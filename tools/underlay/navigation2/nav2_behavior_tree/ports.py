@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ports of nodes: their types, defaults, and how texts of an XML file become their values."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+import math
+import re
+from typing import Any, NamedTuple
+
+from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import Path
+
+__all__ = ['REQUIRED', 'Binding', 'Port', 'bind', 'in_port', 'out_port']
+
+_KEY = re.compile(r'\{\s*([@\w./=-]+)\s*\}')
+_POSE_PARTS = 9
+
+
+class _Required:
+    """The default of a port that an XML file has to set."""
+
+
+REQUIRED = _Required()
+
+
+@dataclass(frozen=True)
+class Port:
+    """
+    An attribute of a node in an XML file.
+
+    Parameters
+    ----------
+    kind
+        The type of its value, one of those in `CONVERTERS`.
+    default
+        Its value if nobody sets it: a text as it would stand in the file (`{goal}`, `1.0`), None,
+        or REQUIRED.
+    description
+        What it is for.
+    is_output
+        Whether the node writes it.
+
+    """
+
+    kind: str
+    default: Any
+    description: str
+    is_output: bool = False
+
+
+def in_port(kind: str, default: Any, description: str) -> Port:
+    """Return a port that the node reads."""
+    return Port(kind, default, description)
+
+
+def out_port(kind: str, description: str, default: Any = None) -> Port:
+    """Return a port that the node writes."""
+    return Port(kind, default, description, is_output=True)
+
+
+class Binding(NamedTuple):
+    """What stands for a port: the key of a blackboard, or a value."""
+
+    key: str | None
+    value: Any
+    kind: str
+
+
+def bind(name: str, port: Port, text: str | None) -> Binding:
+    """
+    Return what a text, or the default where there is none, stands for.
+
+    Raises
+    ------
+    ValueError
+        It cannot be the value of that port; the text ends a sentence that begins with the port.
+
+    """
+    source = port.default if text is None else text
+    if source is REQUIRED:
+        raise ValueError('is missing')
+    if not isinstance(source, str):
+        return Binding(None, source, port.kind)
+    match = _KEY.fullmatch(source.strip())
+    if match:
+        return Binding(name if match[1] == '=' else match[1], None, port.kind)
+    if port.is_output:
+        if source and text is not None:
+            raise ValueError(
+                f"has to be a key of the blackboard such as '{{{name}}}', not a value"
+            )
+        return Binding(None, None, port.kind)
+    return Binding(None, convert(source, port.kind), port.kind)
+
+
+def convert(text: str, kind: str) -> Any:
+    """
+    Return the value of a kind that a text stands for.
+
+    Raises
+    ------
+    ValueError
+        It stands for none.
+
+    """
+    try:
+        return CONVERTERS[kind](text)
+    except ValueError as error:
+        raise ValueError(f"has to be {_NAMES.get(kind, kind)}, and is '{text}'") from error
+
+
+def _boolean(text: str) -> bool:
+    values = {'true': True, '1': True, 'false': False, '0': False}
+    if text.strip().lower() not in values:
+        raise ValueError(text)
+    return values[text.strip().lower()]
+
+
+def _whole(text: str) -> int:
+    return int(text.strip(), 0) if text.strip().lower().startswith('0x') else int(text)
+
+
+def _natural(text: str) -> int:
+    value = _whole(text)
+    if value < 0:
+        raise ValueError(text)
+    return value
+
+
+def _number(text: str) -> float:
+    value = float(text)
+    if math.isnan(value):
+        raise ValueError(text)
+    return value
+
+
+def _codes(text: str) -> frozenset[int]:
+    return frozenset(_whole(each) for each in re.split('[;,]', text) if each.strip())
+
+
+def _pose(parts: list[str]) -> PoseStamped:
+    """Read stamp;frame;x;y;z;qx;qy;qz;qw, as Nav2 writes poses."""
+    if len(parts) != _POSE_PARTS:
+        raise ValueError(parts)
+    pose = PoseStamped()
+    stamp = int(parts[0])
+    pose.header.stamp.sec, pose.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
+    pose.header.frame_id = parts[1].strip()
+    at, turned = pose.pose.position, pose.pose.orientation
+    at.x, at.y, at.z = map(float, parts[2:5])
+    turned.x, turned.y, turned.z, turned.w = map(float, parts[5:])
+    return pose
+
+
+def _poses(text: str) -> list[PoseStamped]:
+    parts = text.split(';') if text.strip() else []
+    starts = range(0, len(parts), _POSE_PARTS)
+    return [_pose(parts[slice(at, at + _POSE_PARTS)]) for at in starts]
+
+
+def _path(text: str) -> Path:
+    stamp, frame, *parts = text.split(';')
+    path = Path(poses=_poses(';'.join(parts)))
+    path.header.stamp.sec, path.header.stamp.nanosec = divmod(int(stamp), 1_000_000_000)
+    path.header.frame_id = frame.strip()
+    return path
+
+
+CONVERTERS: dict[str, Callable[[str], Any]] = {
+    'text': str,
+    'any': str,
+    'number': _number,
+    'whole': _whole,
+    'natural': _natural,
+    'milliseconds': _natural,
+    'boolean': _boolean,
+    'codes': _codes,
+    'pose': lambda text: _pose(text.split(';')),
+    'poses': _poses,
+    'path': _path,
+}
+_NAMES = {
+    'number': 'a number',
+    'whole': 'a whole number',
+    'natural': 'a whole number from 0 on',
+    'milliseconds': 'a whole number of milliseconds',
+    'boolean': "'true' or 'false'",
+    'codes': 'a list of codes such as 100;103',
+    'pose': "a key of the blackboard or 'stamp;frame;x;y;z;qx;qy;qz;qw'",
+    'poses': "a key of the blackboard or poses 'stamp;frame;x;y;z;qx;qy;qz;qw', one after another",
+    'path': 'a key of the blackboard',
+}

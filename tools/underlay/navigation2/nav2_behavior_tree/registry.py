@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which types of nodes there are, by the names that XML files use."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import importlib
+
+from nav2_behavior_tree.node import TreeNode
+from nav2_util.plugins import did_you_mean
+
+__all__ = ['node_type', 'register', 'registered_types', 'unknown_type']
+
+_TYPES: dict[str, type[TreeNode]] = {}
+_MODULES = (
+    'behavior_actions',
+    'branches',
+    'composites',
+    'conditions',
+    'control',
+    'decorators',
+    'leaves',
+    'navigation_actions',
+    'path_actions',
+    'pace',
+    'plugin_selectors',
+    'robot_conditions',
+    'services',
+)
+_RENAMED = {
+    'SequenceStar': 'SequenceWithMemory',
+    'SubTreePlus': 'SubTree',
+    'RetryUntilSuccesful': 'RetryUntilSuccessful',
+    'BlackboardCheckInt': 'Precondition',
+    'BlackboardCheckDouble': 'Precondition',
+    'BlackboardCheckString': 'Precondition',
+}
+_MISSING = {
+    'ManualSelector': 'nobody could answer it',
+    'ConsumeQueue': 'nodes of BehaviorTree.CPP that are deprecated are left out',
+}
+
+
+def register(*names: str) -> Callable[[type[TreeNode]], type[TreeNode]]:
+    """Return a decorator that makes a class known under names of an XML file."""
+
+    def keep(kind: type[TreeNode]) -> type[TreeNode]:
+        for name in names or (kind.__name__,):
+            _TYPES[name] = kind
+        return kind
+
+    return keep
+
+
+def registered_types() -> dict[str, type[TreeNode]]:
+    """Return all types of nodes by their names."""
+    for module in _MODULES:
+        importlib.import_module(f'nav2_behavior_tree.nodes.{module}')
+    return _TYPES
+
+
+def node_type(name: str) -> type[TreeNode] | None:
+    """Return the class of a type of nodes, if there is one."""
+    return registered_types().get(name)
+
+
+def unknown_type(name: str, further: list[str]) -> str:
+    """Return the sentence that there is no such type, and what was probably meant."""
+    if name in _RENAMED:
+        return f"BehaviorTree.CPP v4 has no '{name}'; it is '{_RENAMED[name]}' there."
+    if name in _MISSING:
+        return f"The node type '{name}' is not available: {_MISSING[name]}."
+    meant = did_you_mean(name, [*_TYPES, *further], 0.6)
+    return f"There is no node type '{name}'.{meant}"

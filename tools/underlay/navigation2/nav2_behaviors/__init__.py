@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Behaviours of a robot that plan no path: spin, back up, drive on, wait, and help to drive."""
+
+from nav2_behaviors.behavior_server import BehaviorServer
+from nav2_behaviors.plugins import behavior_types
+from nav2_behaviors.timed_behavior import TimedBehavior
+
+__all__ = ['BehaviorServer', 'TimedBehavior', 'behavior_types']

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The node that offers the behaviours as actions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from nav2_behaviors.collision_checker import CollisionChecker
+from nav2_behaviors.plugins import behavior_type, DEFAULT_TYPES
+from nav2_behaviors.timed_behavior import TimedBehavior
+from nav2_util import ConfigurationError, LifecycleNode, parameter, ParameterSet
+from nav2_util.twist import TwistPublisher, Velocity
+
+__all__ = ['BehaviorServer', 'BehaviorServerParameters']
+
+
+@dataclass(frozen=True)
+class BehaviorServerParameters:
+    """The parameters of the behaviour server."""
+
+    behavior_plugins: list[str] = parameter(
+        list(DEFAULT_TYPES), 'The names of the behaviours, and of their actions.'
+    )
+    cycle_frequency: float = parameter(10.0, 'Cycles of a behaviour a second.', low=0.1, high=1000)
+    local_costmap_topic: str = parameter(
+        'local_costmap/costmap_raw', 'Where the costmap around the robot comes from.'
+    )
+    global_costmap_topic: str = parameter(
+        'global_costmap/costmap_raw', 'Where the costmap of the whole map comes from.'
+    )
+    local_footprint_topic: str = parameter(
+        'local_costmap/published_footprint',
+        'Where the footprint for the local costmap comes from.',
+    )
+    global_footprint_topic: str = parameter(
+        'global_costmap/published_footprint', 'Where that for the global costmap comes from.'
+    )
+    local_frame: str = parameter('odom', 'The frame in which the robot moves smoothly.')
+    global_frame: str = parameter('map', 'The frame of the map.')
+    robot_base_frame: str = parameter('base_link', 'The frame of the robot.')
+    transform_tolerance: float = parameter(
+        0.1, "How much older than 1 s the robot's pose may be (s).", low=0.0
+    )
+    enable_stamped_cmd_vel: bool = parameter(
+        False, 'Whether velocities are TwistStamped instead of Twist.', read_only=True
+    )
+
+
+class BehaviorServer(LifecycleNode):
+    """
+    Offers behaviours as actions: by default spin, backup, drive_on_heading, assisted_teleop, wait.
+
+    Parameters
+    ----------
+    node_name, options
+        As for `LifecycleNode`.
+
+    """
+
+    def __init__(self, node_name: str = 'behavior_server', **options: Any) -> None:
+        super().__init__(node_name, **options)
+        self.told: ParameterSet[BehaviorServerParameters]
+        """The parameters."""
+        self.velocities: TwistPublisher
+        """Publishes on `cmd_vel`."""
+        self.behaviors: dict[str, TimedBehavior] = {}
+        self._global_checker: CollisionChecker | None = None
+
+    def configure(self) -> None:
+        """Read the parameters; make the behaviours and what they share."""
+        self.told = self.parameters.declare(BehaviorServerParameters)
+        told = self.told.current
+        names = told.behavior_plugins
+        if not names or len(set(names)) < len(names):
+            raise ConfigurationError(
+                "The parameter 'behavior_plugins' has to name at least one behaviour, and each "
+                f'once; it is {names}.'
+            )
+        self.velocities = TwistPublisher(
+            self, 'cmd_vel', told.enable_stamped_cmd_vel, told.robot_base_frame
+        )
+        self.local_checker = CollisionChecker(
+            self, told.local_costmap_topic, told.local_footprint_topic, told.robot_base_frame
+        )
+        _ = self.transforms  # listens from now on
+        for name in names:
+            kind = self.parameters.declare_value(
+                f'{name}.plugin', DEFAULT_TYPES.get(name, ''), 'The type of the behaviour.'
+            )
+            self.behaviors[name] = behavior_type(name, kind)(self, name)
+
+    def deactivate(self) -> None:
+        """Stop the robot, if a behaviour moves it."""
+        if any(behavior.server.is_running for behavior in self.behaviors.values()):
+            self.velocities.publish(Velocity())
+
+    def cleanup(self) -> None:
+        """Forget the behaviours."""
+        self.behaviors, self._global_checker = {}, None
+
+    @property
+    def global_checker(self) -> CollisionChecker:
+        """Look up the global costmap, which is subscribed to when a behaviour wants it first."""
+        if self._global_checker is None:
+            told = self.told.current
+            self._global_checker = CollisionChecker(
+                self, told.global_costmap_topic, told.global_footprint_topic, told.robot_base_frame
+            )
+        return self._global_checker

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The behaviours that drive the robot straight ahead, or straight back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+from typing import Any
+
+from nav2_behaviors.motion import drive_speed, motion_ahead
+from nav2_behaviors.timed_behavior import LookAheadParameters, TimedBehavior
+from nav2_msgs.action import BackUp as BackUpAction
+from nav2_msgs.action import DriveOnHeading as DriveOnHeadingAction
+from nav2_util import parameter
+from nav2_util.twist import Velocity
+
+__all__ = ['BackUp', 'DriveOnHeading', 'DriveParameters']
+
+
+@dataclass(frozen=True)
+class DriveParameters:
+    """The parameters of driving, `<name of the behaviour>.*`."""
+
+    acceleration_limit: float = parameter(
+        2.5, 'How fast the speed grows (m/s^2); 0 for at once.', low=0.0
+    )
+    deceleration_limit: float = parameter(
+        -2.5, 'How fast the speed shrinks, negative (m/s^2); 0 for at once.', high=0.0
+    )
+    minimum_speed: float = parameter(
+        0.1, 'The least speed at which the robot moves (m/s).', low=0.0
+    )
+
+
+class DriveOnHeading(TimedBehavior):
+    """Drives the robot straight on by a distance, as long as there is room."""
+
+    action = DriveOnHeadingAction
+
+    def configure(self) -> None:
+        """Declare the parameters."""
+        self._look = self.node.parameters.declare(LookAheadParameters)
+        self._limits = self.node.parameters.declare(DriveParameters, prefix=self.name)
+
+    def begin(self, goal: Any) -> None:
+        """Check the target and take note of where the way begins."""
+        target, speed = goal.target, goal.speed
+        if not all(map(math.isfinite, (target.x, target.y, target.z, speed))):
+            raise self.abort('INVALID_INPUT', 'The target and the speed have to be finite.')
+        if target.y or target.z:
+            raise self.abort(
+                'INVALID_INPUT',
+                f"'{self.name}' drives along x only; y and z of the target have to be 0, and are "
+                f'{target.y:g} and {target.z:g} m.',
+            )
+        self._distance_m, self._speed = self._command(target.x, speed)
+        self._last_speed = 0.0
+        self._start = self.pose()
+
+    def step(self, elapsed_s: float) -> bool:
+        """Drive on, slower at the start and near the end."""
+        limits = self._limits.current
+        driven_m = self._start.distance_to(self.pose())
+        self.server.publish_feedback(self.action.Feedback(distance_traveled=driven_m))
+        remaining_m = self._distance_m - driven_m
+        if remaining_m <= 0.0:
+            return True
+        period_s = 1.0 / self.node.told.current.cycle_frequency
+        speed = drive_speed(
+            self._speed,
+            self._last_speed,
+            remaining_m,
+            acceleration=limits.acceleration_limit,
+            deceleration=-limits.deceleration_limit,
+            minimum_speed=limits.minimum_speed,
+            period_s=period_s,
+        )
+        velocity = Velocity(x=math.copysign(speed, self._speed))
+        horizon_s = self._look.current.simulate_ahead_time
+        _, poses = motion_ahead(velocity, horizon_s, period_s, remaining_m / speed)
+        self.check_ahead(poses)
+        self._last_speed = speed
+        self.drive(velocity)
+        return False
+
+    def _command(self, x: float, speed: float) -> tuple[float, float]:
+        """Return the distance in m and the speed with its sign; ActionAborted if they disagree."""
+        if (x > 0.0) != (speed > 0.0) or (x and not speed):
+            raise self.abort(
+                'INVALID_INPUT',
+                f"The signs of the target's x, {x:g} m, and of the speed, {speed:g} m/s, have to "
+                'be the same, and the speed not 0.',
+            )
+        return abs(x), speed
+
+
+class BackUp(DriveOnHeading):
+    """Drives the robot straight back by a distance; signs of the goal do not matter."""
+
+    action = BackUpAction
+
+    def _command(self, x: float, speed: float) -> tuple[float, float]:
+        if x and not speed:
+            raise self.abort('INVALID_INPUT', 'The speed must not be 0.')
+        return abs(x), -abs(speed)

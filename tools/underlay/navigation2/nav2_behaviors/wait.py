@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The behaviour that waits."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from nav2_behaviors.timed_behavior import duration_message, seconds, TimedBehavior
+from nav2_msgs.action import Wait as WaitAction
+
+__all__ = ['Wait']
+
+
+class Wait(TimedBehavior):
+    """Lets the robot stand for a time."""
+
+    action = WaitAction
+
+    def time_allowance_s(self, goal: Any) -> float:
+        """Return that there is no limit."""
+        return 0.0
+
+    def begin(self, goal: Any) -> None:
+        """Take note of how long to wait."""
+        self._duration_s = seconds(goal.time)
+
+    def step(self, elapsed_s: float) -> bool:
+        """Tell how long it will still take."""
+        left_s = max(self._duration_s - elapsed_s, 0.0)
+        self.server.publish_feedback(WaitAction.Feedback(time_left=duration_message(left_s)))
+        return left_s == 0.0

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Navigates through poses to the last one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from geometry_msgs.msg import PoseStamped
+from nav2_bt_navigator.navigator import Navigator
+from nav2_msgs.action import NavigateThroughPoses
+
+__all__ = ['NavigateThroughPosesNavigator']
+
+
+class NavigateThroughPosesNavigator(Navigator):
+    """Offers `navigate_through_poses`."""
+
+    action = NavigateThroughPoses
+    default_file = 'navigate_through_poses_w_replanning_and_recovery.xml'
+    file_parameter = 'default_nav_through_poses_bt_xml'
+    first_code = 9100
+
+    def goals_of(self, goal: Any) -> list[PoseStamped]:
+        """Return the poses."""
+        return list(goal.poses)
+
+    def write_goal(self, blackboard: Any, poses: list[PoseStamped]) -> None:
+        """Write the poses."""
+        blackboard.set(self.node.settings.current.goals_blackboard_id, poses)
+
+    def fill_feedback(self, feedback: Any, blackboard: Any) -> None:
+        """Write how many poses are left."""
+        goals = blackboard.get(self.node.settings.current.goals_blackboard_id, [])
+        feedback.number_of_poses_remaining = len(goals)

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Navigates to a pose, as an action or as a topic asks."""
+
+from __future__ import annotations
+
+from typing import Any, TYPE_CHECKING
+
+from geometry_msgs.msg import PoseStamped
+from nav2_behavior_tree.ros_interface import SYSTEM_DEFAULT
+from nav2_bt_navigator.navigator import Navigator
+from nav2_msgs.action import NavigateToPose
+from rclpy.action import ActionClient
+
+if TYPE_CHECKING:
+    from nav2_bt_navigator.bt_navigator import BtNavigator
+
+__all__ = ['NavigateToPoseNavigator']
+
+
+class NavigateToPoseNavigator(Navigator):
+    """Offers `navigate_to_pose`, and starts it for each pose on `goal_pose`."""
+
+    action = NavigateToPose
+    default_file = 'navigate_to_pose_w_replanning_and_recovery.xml'
+    file_parameter = 'default_nav_to_pose_bt_xml'
+    first_code = 9000
+
+    def __init__(self, node: BtNavigator, name: str) -> None:
+        super().__init__(node, name)
+        self._client = ActionClient(node, NavigateToPose, name)
+        node.create_subscription(PoseStamped, 'goal_pose', self._go, SYSTEM_DEFAULT)
+
+    def _go(self, pose: PoseStamped) -> None:
+        self._client.send_goal_async(NavigateToPose.Goal(pose=pose))
+
+    def close(self) -> None:
+        """Stop what runs, and destroy the client."""
+        super().close()
+        self._client.destroy()
+
+    def goals_of(self, goal: Any) -> list[PoseStamped]:
+        """Return the pose."""
+        return [goal.pose]
+
+    def write_goal(self, blackboard: Any, poses: list[PoseStamped]) -> None:
+        """Write the pose."""
+        blackboard.set(self.node.settings.current.goal_blackboard_id, poses[0])

@@ -1,0 +1,258 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The base of the navigators: an action whose goals are reached by a behavior tree."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar, TYPE_CHECKING
+
+from geometry_msgs.msg import PoseStamped
+from nav2_behavior_tree import BehaviorTree, NodeStatus, TreeError
+from nav2_bt_navigator.outcome import failure_reason
+from nav2_bt_navigator.progress import PathProgress, time_left_s
+from nav2_bt_navigator.tree_files import find_tree_file
+from nav2_util import ActionAborted, ConfigurationError, Pose2D, TransformError
+from nav2_util.geometry import make_pose_stamped
+from nav2_util.services import wait_for
+from nav2_util.timing import steady_clock
+from rclpy.duration import Duration
+from rclpy.task import Future
+
+if TYPE_CHECKING:
+    from nav2_bt_navigator.bt_navigator import BtNavigator
+
+__all__ = ['Navigator']
+
+_FEEDBACK_PERIOD_S = 0.1
+_LOOK_S, _PATIENCE = 0.1, 50
+"""How often it is looked where the robot is, before it is said that nobody knows."""
+
+
+@dataclass
+class _Run:
+    """A navigation: its tree, file and end, and when it began, in s of the node's clock."""
+
+    tree: BehaviorTree
+    file: str
+    end: Future[None]
+    start_s: float = 0.0
+    feedback_s: float = -1.0
+
+
+class Navigator:
+    """
+    Offers an action, and ticks a tree while one of its goals runs.
+
+    Parameters
+    ----------
+    node
+        The node.
+    name
+        The name of the action.
+
+    """
+
+    action: ClassVar[Any]
+    default_file: ClassVar[str]
+    file_parameter: ClassVar[str]
+    first_code: ClassVar[int]
+    """The error codes: this one is unknown, then: bad tree, no transform, timeout, bad goal."""
+
+    def __init__(self, node: BtNavigator, name: str) -> None:
+        self.node, self.name = node, name
+        self._progress = PathProgress()
+        self._run: _Run | None = None
+        self._check_default_tree()
+        self.server = node.offer_action(
+            self.action, name, self._work, takes_over=True, check_goal=self._check_goal
+        )
+
+    def close(self) -> None:
+        """Stop what runs, while the clients of its actions are there."""
+        if self._run is not None:
+            self._run.tree.halt()
+            self._run.tree.take_changes()
+
+    def goals_of(self, goal: Any) -> list[PoseStamped]:
+        """Return the poses of a goal of the action."""
+        raise NotImplementedError
+
+    def write_goal(self, blackboard: Any, poses: list[PoseStamped]) -> None:
+        """Write the poses where the tree looks for them."""
+        raise NotImplementedError
+
+    def fill_feedback(self, feedback: Any, blackboard: Any) -> None:
+        """Write what only this action tells."""
+
+    def _default(self) -> str:
+        given = getattr(self.node.settings.current, self.file_parameter)
+        return find_tree_file(given or self.default_file)
+
+    def _file_of(self, goal: Any) -> str:
+        return find_tree_file(goal.behavior_tree) if goal.behavior_tree else self._default()
+
+    def _check_default_tree(self) -> None:
+        """Make the tree once, so that its errors are seen now and its clients find servers."""
+        try:
+            self._make_tree(self._default())
+        except TreeError as error:
+            raise ConfigurationError(f"The tree of '{self.name}' is not right. {error}") from error
+
+    def _make_tree(self, file: str) -> BehaviorTree:
+        document = self.node.files.read(file)
+        for warning in document.warnings:
+            self.node.get_logger().warning(warning, once=True)
+        return BehaviorTree(document, self.node.ros.now_s, self.node.ros)
+
+    def _check_goal(self, goal: Any) -> str | None:
+        for other in self.node.navigators:
+            if other is not self and other.server.is_running:
+                return f"'{other.name}' is running; cancel it first"
+        return None
+
+    async def _work(self, goal: Any) -> None:
+        await self._find_robot()
+        run = self._run = self._begin(goal)
+        period_s = 1e-3 * self.node.settings.current.bt_loop_duration
+        # A timer ticks the tree: to wake this coroutine for each tick would cost as much again.
+        # Its clock always runs: goals are canceled also while a simulation stands.
+        timer = self.node.create_timer(period_s, self.step, clock=steady_clock())
+        try:
+            self.step()
+            await run.end
+        except TreeError as error:
+            raise ActionAborted(self.first_code, str(error)) from error
+        finally:
+            self._run = None
+            self.node.destroy_timer(timer)
+            run.tree.halt()
+            self.node.log.publish(run.tree.take_changes())
+
+    def step(self) -> None:
+        """Tick the tree of the goal that runs, and note if it is over or has to end."""
+        run = self._run
+        if run is None or run.end.done():
+            return
+        try:
+            self.server.check()
+            self._check_inhibition()
+            if self.server.is_preempt_requested:
+                self._take_over(run)
+            if self._tick(run) is not NodeStatus.RUNNING:
+                run.end.set_result(None)
+        except Exception as error:
+            run.end.set_exception(error)
+
+    async def _find_robot(self) -> None:
+        """Wait a while for the first transforms: a stack that was just started has none."""
+        for _ in range(_PATIENCE):
+            self.server.check()
+            self._check_inhibition()
+            try:
+                self.node.ros.robot_pose()
+            except TransformError:
+                await wait_for(self.node, Future(), _LOOK_S)
+            else:
+                return
+
+    def _check_inhibition(self) -> None:
+        if self.node.inhibition:
+            raise ActionAborted(self.first_code, self.node.inhibition)
+
+    def _begin(self, goal: Any) -> _Run:
+        file = self._file_of(goal)
+        try:
+            tree = self._make_tree(file)
+        except TreeError as error:
+            raise ActionAborted(self.first_code + 1, str(error)) from error
+        run = _Run(tree, file, Future(executor=self.node.executor))
+        self._set_goal(run, goal)
+        return run
+
+    def _take_over(self, run: _Run) -> None:
+        """Give a newer goal to the tree, or end the old one if that has another tree."""
+        goal = self.server.pending_goal()
+        if self._file_of(goal) != run.file:
+            raise ActionAborted(self.first_code, 'A newer goal with another tree took its place.')
+        try:
+            self._set_goal(run, goal)
+        except ActionAborted as error:
+            self.server.reject_pending(error.code, str(error))
+        else:
+            self.server.accept_pending()
+            run.tree.renew()
+
+    def _set_goal(self, run: _Run, goal: Any) -> None:
+        """Write a goal to the blackboard; ActionAborted says why it is not possible."""
+        poses = self.goals_of(goal)
+        if not poses:
+            raise ActionAborted(self.first_code + 4, 'The goal has no poses. Give at least one.')
+        settings, board = self.node.settings.current, run.tree.blackboard
+        try:
+            robot = self.node.ros.robot_pose()
+            poses = [self._in_global_frame(pose) for pose in poses]
+        except TransformError as error:
+            raise ActionAborted(
+                self.first_code + 2, f'The robot cannot navigate. {error}'
+            ) from error
+        self.write_goal(board, poses)
+        board.set('number_recoveries', 0)
+        board.set('initial_pose_received', True)
+        for name in self._error_names():
+            board.set(name, 0)
+        run.start_s = self.node.ros.now_s()
+        run.tree.context.failure = None
+        end = poses[-1].pose.position
+        self.node.get_logger().info(
+            f"'{self.name}': from ({robot.x:.2f}, {robot.y:.2f}) to ({end.x:.2f}, {end.y:.2f}) "
+            f"in '{settings.global_frame}'."
+        )
+
+    def _in_global_frame(self, pose: PoseStamped) -> PoseStamped:
+        frame = self.node.settings.current.global_frame
+        planar: Pose2D = self.node.ros.pose_in(pose, frame)
+        if pose.header.frame_id == frame:
+            return pose
+        return make_pose_stamped(planar, frame, pose.header.stamp)
+
+    def _error_names(self) -> list[str]:
+        settings = self.node.settings.current
+        prefixed = [f'{each}_error_code' for each in settings.error_code_name_prefixes]
+        return [*settings.error_code_names, *prefixed]
+
+    def _tick(self, run: _Run) -> NodeStatus:
+        """Tick the tree; ActionAborted says why it has failed."""
+        status = run.tree.tick()
+        self.node.log.publish(run.tree.take_changes())
+        if status is NodeStatus.RUNNING:
+            self._tell(run)
+        elif status is not NodeStatus.SUCCESS:
+            code, message = failure_reason(run.tree, self._error_names())
+            raise ActionAborted(code or self.first_code, message)
+        return status
+
+    def _tell(self, run: _Run) -> None:
+        """Publish feedback, ten times a second."""
+        ros, board = self.node.ros, run.tree.blackboard
+        now_s = ros.watchdog_s()
+        if now_s - run.feedback_s < _FEEDBACK_PERIOD_S:
+            return
+        run.feedback_s = now_s
+        try:
+            robot = ros.robot_pose()
+        except TransformError:
+            return
+        settings = self.node.settings.current
+        path = board.get(settings.path_blackboard_id)
+        way_m = self._progress.remaining_m(path, robot)
+        passed_s = max(ros.now_s() - run.start_s, 0.0)
+        left_s = time_left_s(way_m, ros.speed_m_s())
+        feedback = self.action.Feedback(
+            current_pose=make_pose_stamped(robot, settings.global_frame, ros.stamp()),
+            navigation_time=Duration(seconds=passed_s).to_msg(),
+            estimated_time_remaining=Duration(seconds=left_s).to_msg(),
+            number_of_recoveries=board.get('number_recoveries', 0),
+            distance_remaining=way_m,
+        )
+        self.fill_feedback(feedback, board)
+        self.server.publish_feedback(feedback)

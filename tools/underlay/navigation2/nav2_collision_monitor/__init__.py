@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Stops the robot, or slows it down, where sensors see something near."""
+
+from nav2_collision_monitor.actions import act_in_zone, Action, ActionType, most_careful, Zone
+from nav2_collision_monitor.approach import collision_time
+from nav2_collision_monitor.collision_detector_node import CollisionDetector
+from nav2_collision_monitor.collision_monitor_node import CollisionMonitor
+from nav2_collision_monitor.shapes import Circle, parse_points, Polygon
+
+__all__ = [
+    'Action',
+    'ActionType',
+    'Circle',
+    'CollisionDetector',
+    'CollisionMonitor',
+    'Polygon',
+    'Zone',
+    'act_in_zone',
+    'collision_time',
+    'most_careful',
+    'parse_points',
+]

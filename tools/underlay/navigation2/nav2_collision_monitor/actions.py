@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the zones around the robot do with its velocity."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+import math
+
+from nav2_collision_monitor.approach import collision_time
+from nav2_collision_monitor.shapes import FloatArray, Shape
+from nav2_util.twist import Velocity
+
+__all__ = ['Action', 'ActionType', 'Zone', 'act_in_zone', 'most_careful']
+
+STOPPED = Velocity()
+
+
+class ActionType(IntEnum):
+    """What is done with a velocity; the values of `nav2_msgs/CollisionMonitorState`."""
+
+    DO_NOTHING = 0
+    STOP = 1
+    SLOWDOWN = 2
+    APPROACH = 3
+    LIMIT = 4
+
+
+@dataclass(frozen=True)
+class Action:
+    """A velocity that may be driven, why, and because of which zone."""
+
+    kind: ActionType
+    velocity: Velocity
+    zone: str = ''
+
+
+@dataclass(frozen=True)
+class Zone:
+    """A zone at the moment when it is looked at; parameters as in the documentation of Nav2."""
+
+    name: str
+    kind: ActionType
+    shape: Shape
+    min_points: int = 4
+    slowdown_ratio: float = 0.5
+    linear_limit: float = 0.5
+    angular_limit: float = 0.5
+    time_before_collision: float = 2.0
+    simulation_time_step: float = 0.1
+
+
+def act_in_zone(zone: Zone, points: FloatArray, command: Velocity) -> Action:
+    """
+    Return what one zone does with a commanded velocity.
+
+    Parameters
+    ----------
+    zone
+        Its shape, what it does and its limits.
+    points
+        (N, 2) obstacles in m in the base frame.
+    command
+        The commanded velocity.
+
+    """
+    if zone.kind is ActionType.APPROACH:
+        return _approach(zone, points, command)
+    if zone.kind is ActionType.DO_NOTHING or not is_occupied(zone, points):
+        return Action(ActionType.DO_NOTHING, command)
+    if zone.kind is ActionType.STOP:
+        return Action(zone.kind, STOPPED, zone.name)
+    if zone.kind is ActionType.SLOWDOWN:
+        return Action(zone.kind, command.scaled(zone.slowdown_ratio), zone.name)
+    ratio = min(
+        _ratio(zone.linear_limit, command.linear), _ratio(zone.angular_limit, abs(command.yaw))
+    )
+    if ratio >= 1.0:
+        return Action(ActionType.DO_NOTHING, command)
+    return Action(zone.kind, command.scaled(ratio), zone.name)
+
+
+def is_occupied(zone: Zone, points: FloatArray) -> bool:
+    """Return whether enough of (N, 2) points are inside a zone."""
+    if len(points) < zone.min_points:
+        return False
+    return int(zone.shape.contains(points).sum()) >= zone.min_points
+
+
+def most_careful(actions: Sequence[Action], command: Velocity) -> Action:
+    """Return the action with the lowest speed; a stop goes before all others."""
+    chosen = Action(ActionType.DO_NOTHING, command)
+    for each in actions:
+        if each.kind is ActionType.STOP:
+            return each
+        if each.kind is not ActionType.DO_NOTHING and (
+            chosen.kind is ActionType.DO_NOTHING
+            or _effort(each.velocity) < _effort(chosen.velocity)
+        ):
+            chosen = each
+    return chosen
+
+
+def _approach(zone: Zone, points: FloatArray, command: Velocity) -> Action:
+    """Keep the time until the collision at least `time_before_collision`."""
+    time_s = collision_time(
+        points,
+        zone.shape,
+        command,
+        min_points=zone.min_points,
+        horizon_s=zone.time_before_collision,
+        step_s=zone.simulation_time_step,
+    )
+    if time_s is None or time_s >= zone.time_before_collision:
+        return Action(ActionType.DO_NOTHING, command)
+    ratio = time_s / zone.time_before_collision
+    return Action(ActionType.APPROACH, command.scaled(ratio), zone.name)
+
+
+def _ratio(limit: float, speed: float) -> float:
+    return 1.0 if speed <= limit else limit / speed
+
+
+def _effort(velocity: Velocity) -> float:
+    return math.hypot(velocity.x, velocity.y, velocity.yaw)

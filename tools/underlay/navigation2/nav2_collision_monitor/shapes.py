@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Shapes around the robot: which points are inside, in the robot's base frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import json
+import math
+from typing import Union
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ['Circle', 'Polygon', 'Shape', 'checked_corners', 'parse_points']
+
+FloatArray = npt.NDArray[np.float64]
+BoolArray = npt.NDArray[np.bool_]
+_CIRCLE_CORNERS = 32
+
+
+@dataclass(frozen=True)
+class Circle:
+    """A circle around the origin of the base frame."""
+
+    radius_m: float
+
+    @property
+    def reach_m(self) -> float:
+        """Return the greatest distance of its outline from the origin."""
+        return self.radius_m
+
+    @property
+    def outline(self) -> FloatArray:
+        """Return a polygon that looks like it: (N, 2) array in m."""
+        angles = np.linspace(0.0, 2.0 * math.pi, _CIRCLE_CORNERS, endpoint=False)
+        return self.radius_m * np.column_stack([np.cos(angles), np.sin(angles)])
+
+    def contains(self, points: FloatArray) -> BoolArray:
+        """Return which of (..., 2) points in m are inside."""
+        inside = np.einsum('...i,...i', points, points) <= self.radius_m**2
+        return np.asarray(inside, dtype=np.bool_)
+
+
+@dataclass(frozen=True)
+class Polygon:
+    """A polygon, convex or not, given by its corners: (N, 2) array in m."""
+
+    corners: FloatArray
+
+    @property
+    def reach_m(self) -> float:
+        """Return the greatest distance of its outline from the origin."""
+        return float(np.hypot(self.corners[:, 0], self.corners[:, 1]).max())
+
+    @property
+    def outline(self) -> FloatArray:
+        """Return the corners."""
+        return self.corners
+
+    def contains(self, points: FloatArray) -> BoolArray:
+        """
+        Return which of (..., 2) points in m are inside.
+
+        A point is inside if a ray from it along x crosses the outline an odd number of times
+        (Shimrat, Algorithm 112, 1962); points that are beyond the corners are not looked at.
+        """
+        flat = points.reshape(-1, 2)
+        inside = np.zeros(len(flat), dtype=np.bool_)
+        low, high = self.corners.min(axis=0), self.corners.max(axis=0)
+        near = np.flatnonzero(np.all((flat >= low) & (flat <= high), axis=1))
+        x, y = flat[near, 0], flat[near, 1]
+        odd = np.zeros(len(near), dtype=np.bool_)
+        for (x1, y1), (x2, y2) in zip(self.corners, np.roll(self.corners, -1, axis=0)):
+            if y1 != y2:
+                crossing = x1 + (y - y1) * ((x2 - x1) / (y2 - y1))
+                odd ^= ((y1 > y) != (y2 > y)) & (x < crossing)
+        inside[near] = odd
+        return inside.reshape(points.shape[:-1])
+
+
+Shape = Union[Circle, Polygon]
+
+
+def parse_points(text: str) -> FloatArray:
+    """
+    Return the corners of a polygon that a parameter gives, as `[[0.3, 0.2], [0.3, -0.2], ...]`.
+
+    Parameters
+    ----------
+    text
+        A list of pairs of x and y in m in the base frame.
+
+    Returns
+    -------
+    numpy.ndarray
+        (N, 2) array, N at least 3.
+
+    Raises
+    ------
+    ValueError
+        It is no such list; the text goes on after 'The points'.
+
+    """
+    try:
+        values = json.loads(text)
+    except ValueError as error:
+        raise ValueError(f'are no list of pairs as "[[0.3, 0.2], ...]": {error}') from error
+    if not isinstance(values, list) or not all(_is_pair(each) for each in values):
+        raise ValueError(f'have to be a list of pairs as "[[0.3, 0.2], ...]", and are "{text}"')
+    return checked_corners(np.asarray(values, dtype=np.float64).reshape(-1, 2))
+
+
+def checked_corners(corners: FloatArray) -> FloatArray:
+    """Return (N, 2) corners; ValueError says why they are no polygon, after 'The points'."""
+    if len(corners) < 3:
+        raise ValueError(f'have to be at least 3, and are {len(corners)}')
+    if not np.all(np.isfinite(corners)):
+        raise ValueError('have to be finite numbers')
+    return corners
+
+
+def _is_pair(value: object) -> bool:
+    return (
+        isinstance(value, list)
+        and len(value) == 2
+        and all(isinstance(each, (int, float)) and not isinstance(each, bool) for each in value)
+    )

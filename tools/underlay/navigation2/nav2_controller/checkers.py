@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether the robot has reached its goal, and whether it still gets ahead."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+from typing import TYPE_CHECKING
+
+from nav2_controller.control import Velocity
+from nav2_util.geometry import angle_between, Pose2D
+from nav2_util.parameters import parameter
+
+if TYPE_CHECKING:
+    from nav2_controller.plugins import PluginContext
+
+__all__ = [
+    'GoalChecker',
+    'PoseProgressChecker',
+    'PositionGoalChecker',
+    'ProgressChecker',
+    'SimpleGoalChecker',
+    'SimpleProgressChecker',
+    'StoppedGoalChecker',
+]
+
+_LATER = {
+    'path_length_tolerance': 'the goal counts as reached wherever on the path the robot is',
+    'symmetric_yaw_tolerance': 'only the orientation of the goal itself counts',
+    'xy_goal_tolerance_buffer': 'a position that was reached stays so until a new goal',
+}
+
+
+@dataclass(frozen=True)
+class SimpleProgressParameters:
+    """The parameters of SimpleProgressChecker."""
+
+    required_movement_radius: float = parameter(
+        0.5, 'How far in m the robot has to move within the time.', low=0.0
+    )
+    movement_time_allowance: float = parameter(
+        10.0, 'The time in s within which it has to move.', low=0.0
+    )
+
+
+@dataclass(frozen=True)
+class PoseProgressParameters(SimpleProgressParameters):
+    """The parameters of PoseProgressChecker."""
+
+    required_movement_angle: float = parameter(
+        0.5, 'Or how far in rad it has to turn within the time.', low=0.0
+    )
+
+
+@dataclass(frozen=True)
+class PositionGoalParameters:
+    """The parameters of PositionGoalChecker."""
+
+    xy_goal_tolerance: float = parameter(
+        0.25, 'The distance in m from the goal that is near enough.', low=0.0
+    )
+    stateful: bool = parameter(
+        True, 'Whether a position once reached counts, while the robot still turns.'
+    )
+
+
+@dataclass(frozen=True)
+class SimpleGoalParameters(PositionGoalParameters):
+    """The parameters of SimpleGoalChecker."""
+
+    yaw_goal_tolerance: float = parameter(
+        0.25, "The angle in rad from the goal's orientation that is near enough.", low=0.0
+    )
+
+
+@dataclass(frozen=True)
+class StoppedGoalParameters(SimpleGoalParameters):
+    """The parameters of StoppedGoalChecker."""
+
+    trans_stopped_velocity: float = parameter(
+        0.25, 'The speed in m/s below which the robot has stopped.', low=0.0
+    )
+    rot_stopped_velocity: float = parameter(
+        0.25, 'The angular velocity in rad/s below which it has stopped.', low=0.0
+    )
+
+
+class ProgressChecker:
+    """The base of checkers of progress."""
+
+    def reset(self) -> None:
+        """Start anew, with a new goal."""
+
+    def check(self, pose: Pose2D, now_s: float) -> bool:
+        """Whether the robot at a pose, at a time in s, still gets ahead."""
+        raise NotImplementedError
+
+    def reason(self) -> str:
+        """Return how little the robot has moved, as a sentence."""
+        return 'The robot does not get ahead.'
+
+
+class SimpleProgressChecker(ProgressChecker):
+    """Expects that the robot moves by a distance within a time."""
+
+    kind = SimpleProgressParameters
+
+    def __init__(self, context: PluginContext) -> None:
+        self._parameters = context.declare(self.kind)
+        self._start: tuple[Pose2D, float] | None = None
+
+    def reset(self) -> None:
+        """Start anew, with a new goal."""
+        self._start = None
+
+    def check(self, pose: Pose2D, now_s: float) -> bool:
+        """Whether the robot still gets ahead."""
+        if self._start is None or now_s < self._start[1] or self._has_moved(self._start[0], pose):
+            self._start = pose, now_s
+            return True
+        return now_s - self._start[1] <= self._parameters.current.movement_time_allowance
+
+    def reason(self) -> str:
+        """Return how little the robot has moved, as a sentence."""
+        current = self._parameters.current
+        return (
+            f'The robot did not move by {current.required_movement_radius:g} m within '
+            f'{current.movement_time_allowance:g} s. It may be stuck.'
+        )
+
+    def _has_moved(self, start: Pose2D, pose: Pose2D) -> bool:
+        return start.distance_to(pose) > self._parameters.current.required_movement_radius
+
+
+class PoseProgressChecker(SimpleProgressChecker):
+    """Expects that the robot moves by a distance or turns by an angle within a time."""
+
+    kind = PoseProgressParameters
+
+    def _has_moved(self, start: Pose2D, pose: Pose2D) -> bool:
+        current = self._parameters.current
+        assert isinstance(current, PoseProgressParameters)
+        turned = abs(angle_between(start.yaw, pose.yaw)) > current.required_movement_angle
+        return turned or super()._has_moved(start, pose)
+
+
+class GoalChecker:
+    """The base of checkers of the goal."""
+
+    def reset(self) -> None:
+        """Start anew, with a new goal."""
+
+    def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
+        """Whether the goal is reached."""
+        raise NotImplementedError
+
+    def tolerances(self) -> tuple[float, float]:
+        """Return how far from the goal in m, and from its orientation in rad, is near enough."""
+        raise NotImplementedError
+
+
+class PositionGoalChecker(GoalChecker):
+    """Expects that the robot is near the goal, whatever its orientation."""
+
+    kind = PositionGoalParameters
+
+    def __init__(self, context: PluginContext) -> None:
+        self._parameters = context.declare(self.kind)
+        context.unsupported(_LATER)
+        self._is_there = False
+
+    def reset(self) -> None:
+        """Start anew, with a new goal."""
+        self._is_there = False
+
+    def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
+        """Whether the goal is reached."""
+        current = self._parameters.current
+        near = pose.distance_to(goal) <= current.xy_goal_tolerance
+        self._is_there = near or (self._is_there and current.stateful)
+        return self._is_there
+
+    def tolerances(self) -> tuple[float, float]:
+        """Return how far in m and rad from the goal is near enough."""
+        return self._parameters.current.xy_goal_tolerance, math.pi
+
+
+class SimpleGoalChecker(PositionGoalChecker):
+    """Expects that the robot is near the goal and has its orientation."""
+
+    kind = SimpleGoalParameters
+
+    def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
+        """Whether the goal is reached."""
+        turn = abs(angle_between(pose.yaw, goal.yaw))
+        return super().is_reached(pose, goal, velocity) and turn <= self.tolerances()[1]
+
+    def tolerances(self) -> tuple[float, float]:
+        """Return how far in m and rad from the goal is near enough."""
+        current = self._parameters.current
+        assert isinstance(current, SimpleGoalParameters)
+        return current.xy_goal_tolerance, current.yaw_goal_tolerance
+
+
+class StoppedGoalChecker(SimpleGoalChecker):
+    """Expects that the robot stands at the goal."""
+
+    kind = StoppedGoalParameters
+
+    def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
+        """Whether the goal is reached."""
+        current = self._parameters.current
+        assert isinstance(current, StoppedGoalParameters)
+        return (
+            super().is_reached(pose, goal, velocity)
+            and velocity.linear <= current.trans_stopped_velocity
+            and abs(velocity.yaw) <= current.rot_stopped_velocity
+        )

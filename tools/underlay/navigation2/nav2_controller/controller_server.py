@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The controller server: hosts controllers and checkers, and the local costmap."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from nav2_controller.checkers import GoalChecker, ProgressChecker
+from nav2_controller.control import Controller, SpeedLimit, Velocity
+from nav2_controller.displays import DisplayPublisher
+from nav2_controller.follow_path import PathFollower
+from nav2_controller.odometry import OdometryMonitor
+from nav2_controller.parameters import ServerParameters, UNSUPPORTED
+from nav2_controller.plugins import (
+    CONTROLLERS,
+    GOAL_CHECKERS,
+    PluginContext,
+    PROGRESS_CHECKERS,
+)
+from nav2_costmap_2d.costmap_node import Costmap2DROS, make_costmap
+from nav2_msgs.action import FollowPath
+from nav2_msgs.msg import SpeedLimit as SpeedLimitMessage
+from nav2_util.actions import ActionServer
+from nav2_util.errors import ConfigurationError
+from nav2_util.lifecycle_node import LifecycleNode
+from nav2_util.parameters import ParameterSet
+from nav2_util.plugins import find_plugin
+from nav2_util.timing import now_s
+from nav2_util.twist import TwistPublisher
+from rclpy.lifecycle import TransitionCallbackReturn
+
+__all__ = ['ControllerServer']
+
+_DEFAULT_KINDS = {
+    'FollowPath': 'dwb_core::DWBLocalPlanner',
+    'progress_checker': 'nav2_controller::SimpleProgressChecker',
+    'goal_checker': 'nav2_controller::SimpleGoalChecker',
+}
+
+
+class ControllerServer(LifecycleNode):
+    """
+    Follows paths with `follow_path`, by velocities on `cmd_vel`.
+
+    Parameters
+    ----------
+    node_name
+        Its name, unless it is remapped.
+    options
+        The further keyword arguments of `rclpy.node.Node`.
+
+    """
+
+    settings: ParameterSet[ServerParameters]
+    server: ActionServer
+    odometry: OdometryMonitor
+    displays: DisplayPublisher
+
+    def __init__(self, node_name: str = 'controller_server', **options: Any) -> None:
+        super().__init__(node_name, **options)
+        self.costmap: Costmap2DROS = make_costmap(self, 'local_costmap')
+        self.period_s = 0.05
+        self.controllers: dict[str, Controller] = {}
+        self.goal_checkers: dict[str, GoalChecker] = {}
+        self.progress_checkers: dict[str, ProgressChecker] = {}
+        self._velocities: TwistPublisher | None = None
+
+    def configure(self) -> None:
+        """Make the plugins, and what the node publishes and listens to."""
+        self.settings = self.parameters.declare(ServerParameters)
+        self.parameters.declare_unsupported(UNSUPPORTED)
+        current = self.settings.current
+        self.period_s = 1.0 / current.controller_frequency
+        if current.use_realtime_priority:
+            self.get_logger().warning(
+                "The parameter 'use_realtime_priority' has no effect: all nodes of a process run "
+                'with its priority.'
+            )
+        _require('local costmap', 'configured', self.costmap.trigger_configure())
+        extent = 0.5 * max(self.costmap.grid.size_x_m, self.costmap.grid.size_y_m)
+        context = PluginContext(self.parameters, '', self.period_s, extent)
+        for made, names, kinds, what in (
+            (
+                self.progress_checkers,
+                self._older_name('progress_checker_plugin', current.progress_checker_plugins),
+                PROGRESS_CHECKERS,
+                'progress checker',
+            ),
+            (
+                self.goal_checkers,
+                self._older_name('goal_checker_plugin', current.goal_checker_plugins),
+                GOAL_CHECKERS,
+                'goal checker',
+            ),
+            (self.controllers, current.controller_plugins, CONTROLLERS, 'controller'),
+        ):
+            self._make_plugins(made, names, kinds, what, context)
+        self._velocities = TwistPublisher(
+            self, 'cmd_vel', current.enable_stamped_cmd_vel, self.costmap.base_frame
+        )
+        self.displays = DisplayPublisher(self)
+        self.odometry = OdometryMonitor(
+            self, current.odom_topic, current.odom_duration, lambda: now_s(self)
+        )
+        self.create_subscription(
+            SpeedLimitMessage, current.speed_limit_topic, self._limit_speed, 10
+        )
+        _ = self.transforms
+        follower = PathFollower(self)
+        self.server = self.offer_action(FollowPath, 'follow_path', follower.work, takes_over=True)
+
+    def activate(self) -> None:
+        """Activate the local costmap."""
+        _require('local costmap', 'activated', self.costmap.trigger_activate())
+
+    def deactivate(self) -> None:
+        """Stop the robot, and the local costmap."""
+        self.publish_velocity(Velocity())
+        self.costmap.trigger_deactivate()
+
+    def cleanup(self) -> None:
+        """Let go of the plugins, and clean up the costmap."""
+        self._velocities = None
+        for made in (self.controllers, self.goal_checkers, self.progress_checkers):
+            made.clear()
+        self.costmap.trigger_cleanup()
+
+    def publish_velocity(self, velocity: Velocity) -> None:
+        """Publish a velocity command in the base frame."""
+        if self._velocities is not None:
+            self._velocities.publish(velocity)
+
+    def _older_name(self, name: str, names: list[str]) -> list[str]:
+        """Return names of plugins; the one that an older parameter names if there is one."""
+        if name not in self._parameter_overrides:
+            return names
+        return [str(self.parameters.declare_value(name, names[0], 'The name of one checker.'))]
+
+    def _make_plugins(
+        self,
+        made: dict[str, Any],
+        names: list[str],
+        kinds: Mapping[str, str],
+        what: str,
+        context: PluginContext,
+    ) -> None:
+        made.clear()
+        if not names:
+            raise ConfigurationError(f'There has to be at least one {what}.')
+        for name in names:
+            default = _DEFAULT_KINDS.get(name, '')
+            kind = self.parameters.declare_value(
+                f'{name}.plugin', default, f'The type of the {what}.'
+            )
+            if not kind:
+                raise ConfigurationError(
+                    f"The parameter '{name}.plugin' is not set. It is the type of the {what}: "
+                    f'one of {", ".join(sorted(kinds))}.'
+                )
+            made[name] = find_plugin(kinds, kind, what)(context.named(name))
+            self.get_logger().info(f"The {what} '{name}' is {kind}.")
+
+    def _limit_speed(self, message: SpeedLimitMessage) -> None:
+        limit = None
+        if message.speed_limit > 0.0:
+            limit = SpeedLimit(float(message.speed_limit), bool(message.percentage))
+        for controller in self.controllers.values():
+            controller.speed_limit = limit
+
+
+def _require(what: str, done: str, outcome: TransitionCallbackReturn) -> None:
+    if outcome is not TransitionCallbackReturn.SUCCESS:
+        raise ConfigurationError(f'The {what} could not be {done}; it has said why.')

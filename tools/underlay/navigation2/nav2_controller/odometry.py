@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How fast the robot is, by the mean of the newest odometry."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+from nav2_controller.control import Velocity
+from nav2_util.odometry import subscribe_velocity
+
+__all__ = ['OdometryMonitor']
+
+
+class OdometryMonitor:
+    """
+    Keeps the newest velocities.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    topic
+        Where Odometry comes from.
+    duration_s
+        Over what time velocities are averaged.
+    now_s
+        Returns the time in s.
+
+    """
+
+    def __init__(
+        self, node: Any, topic: str, duration_s: float, now_s: Callable[[], float]
+    ) -> None:
+        self._duration_s, self._now_s = duration_s, now_s
+        self._found: deque[tuple[float, Velocity]] = deque()
+        self.topic = topic
+        subscribe_velocity(node, topic, self._receive)
+
+    def velocity(self, thresholds: Velocity = Velocity()) -> Velocity:
+        """Return the mean velocity, components below a threshold as 0; 0 if none is known."""
+        count = len(self._found)
+        if not count:
+            return Velocity()
+        means = (sum(each[1][k] for each in self._found) / count for k in range(3))
+        return Velocity(*(v if abs(v) >= low else 0.0 for v, low in zip(means, thresholds)))
+
+    @property
+    def age_s(self) -> float | None:
+        """Return the time in s since the newest one came; None if none ever came."""
+        return self._now_s() - self._found[-1][0] if self._found else None
+
+    def _receive(self, _: float, velocity: tuple[float, float, float]) -> None:
+        now = self._now_s()
+        if self._found and now < self._found[-1][0]:
+            self._found.clear()
+        self._found.append((now, Velocity(*velocity)))
+        while now - self._found[0][0] > self._duration_s:
+            self._found.popleft()

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which plugins there are, by their official names, and what they are made with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+import math
+from typing import Any, Protocol, TypeVar
+
+from nav2_util.parameters import ParameterSet
+
+__all__ = [
+    'CONTROLLERS',
+    'GOAL_CHECKERS',
+    'PROGRESS_CHECKERS',
+    'ParameterSource',
+    'PluginContext',
+]
+
+KindT = TypeVar('KindT')
+
+CONTROLLERS = {
+    'dwb_core::DWBLocalPlanner': 'dwb_core.local_planner:DWBLocalPlanner',
+    'nav2_graceful_controller::GracefulController': (
+        'nav2_graceful_controller.graceful_controller:GracefulController'
+    ),
+    'nav2_mppi_controller::MPPIController': 'nav2_mppi_controller.controller:MPPIController',
+    'nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController': (
+        'nav2_regulated_pure_pursuit_controller.controller:RegulatedPurePursuitController'
+    ),
+    'nav2_rotation_shim_controller::RotationShimController': (
+        'nav2_rotation_shim_controller.controller:RotationShimController'
+    ),
+}
+PROGRESS_CHECKERS = {
+    'nav2_controller::SimpleProgressChecker': 'nav2_controller.checkers:SimpleProgressChecker',
+    'nav2_controller::PoseProgressChecker': 'nav2_controller.checkers:PoseProgressChecker',
+}
+GOAL_CHECKERS = {
+    'nav2_controller::SimpleGoalChecker': 'nav2_controller.checkers:SimpleGoalChecker',
+    'nav2_controller::StoppedGoalChecker': 'nav2_controller.checkers:StoppedGoalChecker',
+    'nav2_controller::PositionGoalChecker': 'nav2_controller.checkers:PositionGoalChecker',
+}
+
+
+class ParameterSource(Protocol):
+    """Declares parameters; `nav2_util.parameters.ParameterServer` is one."""
+
+    def declare(self, kind: type[KindT], prefix: str = '') -> ParameterSet[KindT]:
+        """Declare all parameters of a dataclass."""
+
+    def declare_value(self, name: str, default: Any, description: str) -> Any:
+        """Declare a single parameter; return its value."""
+
+    def declare_unsupported(self, names: Mapping[str, str], prefix: str = '') -> None:
+        """Name parameters that have no effect."""
+
+
+@dataclass(frozen=True)
+class PluginContext:
+    """What a plugin is made with: its name, its parameters, and what it has to fit."""
+
+    source: ParameterSource
+    name: str
+    """The prefix of its parameters, such as FollowPath."""
+    period_s: float = 0.05
+    """The period in which it is called."""
+    costmap_extent_m: float = 1.5
+    """Half of the larger side of the local costmap."""
+
+    def declare(self, kind: type[KindT], below: str = '') -> ParameterSet[KindT]:
+        """Declare the parameters of a dataclass, below the name and perhaps a further one."""
+        return self.source.declare(kind, self._prefix(below))
+
+    def value(self, name: str, default: Any, description: str) -> Any:
+        """Declare a single parameter; return its value."""
+        return self.source.declare_value(f'{self.name}.{name}', default, description)
+
+    def unsupported(self, names: Mapping[str, str], below: str = '') -> None:
+        """Name parameters that have no effect, and what happens instead."""
+        self.source.declare_unsupported(names, self._prefix(below))
+
+    def search_distance(self) -> float:
+        """Declare `max_robot_pose_search_dist`; return it in m, infinite for -1."""
+        found = float(
+            self.value(
+                'max_robot_pose_search_dist',
+                self.costmap_extent_m,
+                'How far in m along the path the nearest pose is searched; -1: everywhere.',
+            )
+        )
+        return math.inf if found < 0.0 else found
+
+    def transform_tolerance(self, default_s: float = 0.1) -> float:
+        """Declare `transform_tolerance`; return it in s."""
+        return float(
+            self.value(
+                'transform_tolerance',
+                default_s,
+                "How old in s the robot's pose may be; never less than 0.5 s.",
+            )
+        )
+
+    def named(self, name: str) -> PluginContext:
+        """Return the same for a plugin of another name."""
+        return replace(self, name=name)
+
+    def _prefix(self, below: str) -> str:
+        return f'{self.name}.{below}' if below else self.name

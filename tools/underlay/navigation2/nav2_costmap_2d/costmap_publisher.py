@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Publishes a costmap: the whole to newcomers and when it moves, else what has changed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, TYPE_CHECKING
+
+from geometry_msgs.msg import PolygonStamped
+from map_msgs.msg import OccupancyGridUpdate
+from nav2_costmap_2d.costmap_messages import (
+    make_costmap_message,
+    make_costmap_update,
+    make_grid,
+    make_grid_update,
+    make_polygon,
+)
+from nav2_costmap_2d.footprint import transformed
+from nav2_costmap_2d.grid import Costmap2D
+from nav2_costmap_2d.layers import Layer, Region
+from nav2_msgs.msg import Costmap, CostmapUpdate
+from nav2_util.geometry import Pose2D
+from nav2_util.qos import LATCHED
+from nav_msgs.msg import OccupancyGrid
+from rclpy.event_handler import PublisherEventCallbacks
+from rclpy.qos import QoSProfile
+
+if TYPE_CHECKING:
+    from nav2_costmap_2d.costmap_node import Costmap2DROS
+
+__all__ = ['CostmapPublisher']
+
+
+class _Topic:
+    """A topic of a costmap, and perhaps one of its updates."""
+
+    def __init__(
+        self,
+        node: Costmap2DROS,
+        name: str,
+        kinds: tuple[Any, Any | None],
+        make: Callable[[Costmap2D], Any],
+        make_update: Callable[[Costmap2D, Region], Any],
+    ) -> None:
+        self._make, self._make_update = make, make_update
+        self._has_newcomers = True
+        self._publisher = node.create_publisher(
+            kinds[0],
+            name,
+            LATCHED,
+            event_callbacks=PublisherEventCallbacks(matched=self._greet),
+        )
+        self._updates: Any = None
+        if kinds[1] is not None:
+            self._updates = node.create_publisher(kinds[1], f'{name}_updates', LATCHED)
+
+    def publish(
+        self, find: Callable[[], Costmap2D | None], region: Region | None, is_whole: bool
+    ) -> None:
+        """Publish what those who listen do not know of the costmap that is found."""
+        if self._has_newcomers or (region is not None and (is_whole or self._updates is None)):
+            if self._publisher.get_subscription_count() and (grid := find()) is not None:
+                self._publisher.publish(self._make(grid))
+                self._has_newcomers = False
+        elif region is not None and self._updates.get_subscription_count():
+            grid = find()
+            if grid is not None:
+                self._updates.publish(self._make_update(grid, region))
+
+    def _greet(self, status: Any) -> None:
+        """Take note of who has begun to listen: the last message is old for them."""
+        self._has_newcomers |= status.total_count_change > 0
+
+
+class CostmapPublisher:
+    """
+    Publishes a costmap and its layers to those who listen; of layers always the whole.
+
+    Parameters
+    ----------
+    node
+        The costmap's node.
+    layers
+        The layers.
+
+    """
+
+    def __init__(self, node: Costmap2DROS, layers: Sequence[Layer]) -> None:
+        self._node = node
+        kinds = (OccupancyGridUpdate, CostmapUpdate)
+        self._topics = self._make_topics('costmap', 'master', kinds)
+        self._layers = [
+            (layer, self._make_topics(layer.name, layer.name, (None, None)))
+            for layer in layers
+            if layer.costs(node.grid) is not None
+        ]
+        self._footprint = node.create_publisher(
+            PolygonStamped, 'published_footprint', QoSProfile(depth=1)
+        )
+        self._region: Region | None = None
+        self._place: tuple[Any, ...] = ()
+
+    def _make_topics(self, topic: str, layer: str, kinds: tuple[Any, Any]) -> list[_Topic]:
+        """Return the topics with costs from 0 to 100, and with the costs themselves."""
+        node = self._node
+        return [
+            _Topic(
+                node,
+                topic,
+                (OccupancyGrid, kinds[0]),
+                lambda grid: make_grid(grid, *self._header(), node.settings.map_vis_z),
+                lambda grid, region: make_grid_update(grid, region, *self._header()),
+            ),
+            _Topic(
+                node,
+                f'{topic}_raw',
+                (Costmap, kinds[1]),
+                lambda grid: make_costmap_message(grid, *self._header(), layer),
+                lambda grid, region: make_costmap_update(grid, region, *self._header()),
+            ),
+        ]
+
+    def add(self, region: Region | None) -> None:
+        """Take note of what has changed."""
+        self._region = self._region if region is None else region.union(self._region)
+
+    def publish(self, grid: Costmap2D) -> None:
+        """Publish what has changed since the last time."""
+        place = (grid.cells.shape, grid.resolution, grid.origin_x, grid.origin_y)
+        is_whole = place != self._place or self._node.settings.always_send_full_costmap
+        if place != self._place:
+            self._place, self._region = place, Region.whole(grid)
+        region = None if self._region is None else self._region.clipped(grid)
+        for topic in self._topics:
+            topic.publish(lambda: grid, region, is_whole)
+        for layer, topics in self._layers:
+            for topic in topics:
+                topic.publish(partial(layer.costs, grid), region, is_whole)
+        self._region = None
+
+    def publish_footprint(self, robot: Pose2D) -> None:
+        """Publish the outline of the robot in the frame of the costmap."""
+        if not self._footprint.get_subscription_count():
+            return
+        message = PolygonStamped(polygon=make_polygon(transformed(self._node.footprint, *robot)))
+        message.header.frame_id, message.header.stamp = self._header()
+        self._footprint.publish(message)
+
+    def _header(self) -> tuple[str, Any]:
+        return self._node.global_frame, self._node.get_clock().now().to_msg()

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A grid of costs: which cell is where, and what it costs to be there."""
+
+from __future__ import annotations
+
+import math
+from typing import TypeVar
+
+from nav2_costmap_2d.costs import FREE_SPACE, LETHAL_OBSTACLE
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ['CellArray', 'Costmap2D', 'FloatArray', 'shift_cells']
+
+CellArray = npt.NDArray[np.uint8]
+FloatArray = npt.NDArray[np.float64]
+ScalarT = TypeVar('ScalarT', np.uint8, np.float64)
+
+
+def shift_cells(
+    cells: npt.NDArray[ScalarT], dx: int, dy: int, default: float
+) -> npt.NDArray[ScalarT]:
+    """
+    Return what is in cells after the origin of their grid has moved.
+
+    Parameters
+    ----------
+    cells
+        (rows, columns) of what each cell has.
+    dx, dy
+        The motion of the origin in cells.
+    default
+        What cells get that were outside.
+
+    """
+    moved = np.full_like(cells, default)
+    rows, columns = cells.shape
+    if abs(dx) < columns and abs(dy) < rows:
+        into = slice(max(-dy, 0), rows - max(dy, 0)), slice(max(-dx, 0), columns - max(dx, 0))
+        kept = slice(max(dy, 0), rows + min(dy, 0)), slice(max(dx, 0), columns + min(dx, 0))
+        moved[into] = cells[kept]
+    return moved
+
+
+class Costmap2D:
+    """
+    Costs of square cells that are parallel to the axes of a frame.
+
+    Parameters
+    ----------
+    size_x, size_y
+        The number of columns (along x) and rows (along y).
+    resolution
+        The side of a cell in m.
+    origin_x, origin_y
+        The outer corner of cell [0, 0] in m.
+    default_cost
+        What all cells cost at first.
+    cells
+        The costs themselves, in place of `default_cost`: shape (size_y, size_x), not copied.
+
+    """
+
+    def __init__(
+        self,
+        size_x: int,
+        size_y: int,
+        resolution: float,
+        origin_x: float,
+        origin_y: float,
+        default_cost: int = FREE_SPACE,
+        cells: CellArray | None = None,
+    ) -> None:
+        self.resolution = float(resolution)
+        self.origin_x, self.origin_y = float(origin_x), float(origin_y)
+        if cells is None:
+            cells = np.full((size_y, size_x), default_cost, dtype=np.uint8)
+        elif cells.shape != (size_y, size_x):
+            raise ValueError(f'{size_x} x {size_y} cells cannot be of shape {cells.shape}.')
+        self.cells: CellArray = cells
+        """The costs: row 0 is at `origin_y`, column 0 at `origin_x`."""
+
+    @property
+    def size_x(self) -> int:
+        """Return the number of columns."""
+        return int(self.cells.shape[1])
+
+    @property
+    def size_y(self) -> int:
+        """Return the number of rows."""
+        return int(self.cells.shape[0])
+
+    @property
+    def size_x_m(self) -> float:
+        """Return the extent along x in m."""
+        return self.size_x * self.resolution
+
+    @property
+    def size_y_m(self) -> float:
+        """Return the extent along y in m."""
+        return self.size_y * self.resolution
+
+    def copy(self) -> Costmap2D:
+        """Return a grid of the same costs that may be changed."""
+        return self.with_cells(self.cells.copy())
+
+    def with_cells(self, cells: CellArray) -> Costmap2D:
+        """Return a grid at the same place with other costs, which are not copied."""
+        return Costmap2D(
+            self.size_x, self.size_y, self.resolution, self.origin_x, self.origin_y, cells=cells
+        )
+
+    def world_to_map(self, x: float, y: float) -> tuple[int, int] | None:
+        """Return the column and row of the cell at a point in m; None if that is outside."""
+        u, v = (x - self.origin_x) / self.resolution, (y - self.origin_y) / self.resolution
+        if 0.0 <= u < self.size_x and 0.0 <= v < self.size_y:
+            return int(u), int(v)
+        return None
+
+    def map_to_world(self, mx: int, my: int) -> tuple[float, float]:
+        """Return the centre of a cell in m, given its column and row."""
+        return (
+            self.origin_x + (mx + 0.5) * self.resolution,
+            self.origin_y + (my + 0.5) * self.resolution,
+        )
+
+    def world_to_map_array(self, xy: npt.ArrayLike) -> npt.NDArray[np.int64]:
+        """
+        Return the cells of points.
+
+        Parameters
+        ----------
+        xy
+            (..., 2) array of finite x and y in m.
+
+        Returns
+        -------
+        (..., 2) array of columns and rows, also beyond the grid: negative, or `size_x` and more.
+
+        """
+        origin = (self.origin_x, self.origin_y)
+        return np.floor((np.asarray(xy, float) - origin) / self.resolution).astype(np.int64)
+
+    def map_to_world_array(self, cells: npt.ArrayLike) -> FloatArray:
+        """Return the (..., 2) centres in m of cells, given as (..., 2) columns and rows."""
+        origin = (self.origin_x, self.origin_y)
+        return (np.asarray(cells, float) + 0.5) * self.resolution + origin
+
+    def cost_at(self, x: float, y: float) -> int:
+        """Return the cost at a point in m: LETHAL_OBSTACLE outside."""
+        cell = self.world_to_map(x, y)
+        return LETHAL_OBSTACLE if cell is None else int(self.cells[cell[1], cell[0]])
+
+    def costs_at(self, xy: npt.ArrayLike, outside: int = LETHAL_OBSTACLE) -> CellArray:
+        """
+        Return the costs at points.
+
+        Parameters
+        ----------
+        xy
+            (..., 2) array of x and y in m.
+        outside
+            The cost of points that are not in the grid.
+
+        Returns
+        -------
+        (...) array of costs.
+
+        """
+        points = np.asarray(xy, float)
+        u = (points[..., 0] - self.origin_x) * (1.0 / self.resolution)
+        v = (points[..., 1] - self.origin_y) * (1.0 / self.resolution)
+        inside = (u >= 0.0) & (u < self.size_x) & (v >= 0.0) & (v < self.size_y)
+        is_all = bool(inside.all())
+        if not is_all:
+            u, v = np.where(inside, u, 0.0), np.where(inside, v, 0.0)
+        found: CellArray = self.cells.take(v.astype(np.intp) * self.size_x + u.astype(np.intp))
+        return found if is_all else np.where(inside, found, np.uint8(outside))
+
+    def snapped(self, x: float, y: float) -> tuple[int, int]:
+        """Return how many whole cells, along x and y, the origin is to move towards a point."""
+        return (
+            math.floor((x - self.origin_x) / self.resolution),
+            math.floor((y - self.origin_y) / self.resolution),
+        )
+
+    def shifted(self, dx: int, dy: int, default_cost: int) -> Costmap2D:
+        """
+        Return a grid of the same size, moved by whole cells, with the costs of the same places.
+
+        Parameters
+        ----------
+        dx, dy
+            The motion of the origin in cells.
+        default_cost
+            The cost of cells that were outside.
+
+        """
+        moved = shift_cells(self.cells, dx, dy, default_cost)
+        return Costmap2D(
+            self.size_x,
+            self.size_y,
+            self.resolution,
+            self.origin_x + dx * self.resolution,
+            self.origin_y + dy * self.resolution,
+            cells=moved,
+        )

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How costs decay with the distance from obstacles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import functools
+import math
+
+import cv2
+from nav2_costmap_2d.costs import (
+    FREE_SPACE,
+    INSCRIBED_INFLATED_OBSTACLE,
+    LETHAL_OBSTACLE,
+    NO_INFORMATION,
+)
+from nav2_costmap_2d.grid import CellArray, Costmap2D
+from nav2_costmap_2d.layers import Region
+import numpy as np
+
+__all__ = ['Inflation', 'decayed_cost']
+
+
+def decayed_cost(distance_m: float, inscribed_radius_m: float, scaling: float) -> int:
+    """
+    Return the cost at a distance in m from the nearest obstacle.
+
+    Parameters
+    ----------
+    distance_m
+        From the centre of the obstacle's cell.
+    inscribed_radius_m
+        Up to this distance the robot collides.
+    scaling
+        How fast the cost decays beyond, in 1/m: the `cost_scaling_factor`.
+
+    """
+    if distance_m <= 0.0:
+        return LETHAL_OBSTACLE
+    if distance_m <= inscribed_radius_m:
+        return INSCRIBED_INFLATED_OBSTACLE
+    decay = math.exp(-scaling * (distance_m - inscribed_radius_m))
+    return int((INSCRIBED_INFLATED_OBSTACLE - 1) * decay)
+
+
+@functools.lru_cache(maxsize=16)
+def _cost_table(
+    reach: int, resolution: float, inscribed_radius_m: float, scaling: float
+) -> CellArray:
+    """Return the cost for each square of a distance in cells."""
+    distances = np.sqrt(np.arange(reach * reach + 2)) * resolution
+    decays = np.exp(-scaling * np.maximum(distances - inscribed_radius_m, 0.0))
+    table = ((INSCRIBED_INFLATED_OBSTACLE - 1) * decays).astype(np.uint8)
+    table[distances <= inscribed_radius_m] = INSCRIBED_INFLATED_OBSTACLE
+    table[0] = LETHAL_OBSTACLE
+    table[-1] = FREE_SPACE
+    return table
+
+
+@dataclass(frozen=True)
+class Inflation:
+    """Raises the costs around obstacles."""
+
+    inflation_radius_m: float
+    inscribed_radius_m: float
+    scaling: float
+    """In 1/m."""
+    inflates_unknown: bool = False
+    """Whether unknown cells get every cost above zero; otherwise only those of a collision."""
+    inflates_around_unknown: bool = False
+    """Whether unknown cells count as obstacles."""
+
+    def reach(self, resolution: float) -> int:
+        """Return how many cells around an obstacle are inflated."""
+        return math.ceil(self.inflation_radius_m / resolution - 1e-9)
+
+    def apply(self, grid: Costmap2D, region: Region) -> None:
+        """
+        Inflate a region of a costmap, in place.
+
+        Parameters
+        ----------
+        grid
+            Obstacles around the region count, too.
+        region
+            The cells to write.
+
+        """
+        reach = self.reach(grid.resolution)
+        around = region.grown(reach).clipped(grid)
+        if reach <= 0 or around is None:
+            return
+        window = grid.cells[around.slices]
+        is_free = window != LETHAL_OBSTACLE
+        if self.inflates_around_unknown:
+            is_free &= window != NO_INFORMATION
+        if is_free.all():
+            return
+        distances = cv2.distanceTransform(
+            is_free.view(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE
+        )
+        inner = (
+            slice(region.y - around.y, region.y_end - around.y),
+            slice(region.x - around.x, region.x_end - around.x),
+        )
+        table = _cost_table(reach, grid.resolution, self.inscribed_radius_m, self.scaling)
+        near = np.minimum(distances[inner], reach + 1.0)
+        # Squares of distances between centres of cells are whole numbers.
+        squares = np.rint(near * near).astype(np.int32)
+        costs = table.take(squares, mode='clip')
+        self._write(grid.cells[region.slices], costs)
+
+    def _write(self, cells: CellArray, costs: CellArray) -> None:
+        unknown = cells == NO_INFORMATION
+        if not unknown.any():
+            np.maximum(cells, costs, out=cells)
+            return
+        least = FREE_SPACE + 1 if self.inflates_unknown else INSCRIBED_INFLATED_OBSTACLE
+        known = np.where(unknown & (costs >= least), costs, np.maximum(cells, costs))
+        if self.inflates_around_unknown:
+            known[unknown & (costs == LETHAL_OBSTACLE)] = NO_INFORMATION
+        cells[...] = known

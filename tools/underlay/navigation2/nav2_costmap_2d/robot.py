@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a costmap knows of its robot: its shape, and where it is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from geometry_msgs.msg import Polygon, PolygonStamped
+from nav2_costmap_2d.costmap_messages import corners_of
+from nav2_costmap_2d.footprint import Footprint
+from nav2_util.geometry import Pose2D
+from nav2_util.timing import now_s
+from nav2_util.transforms import TransformError
+import numpy as np
+
+if TYPE_CHECKING:
+    from nav2_costmap_2d.costmap_node import Costmap2DROS
+
+__all__ = ['Robot']
+
+_QUIET_S = 5.0
+
+
+class Robot:
+    """
+    Keeps the shape of the robot, which may come from a topic, and finds the robot.
+
+    Parameters
+    ----------
+    node
+        The costmap's node.
+    on_change
+        Called with another shape.
+
+    """
+
+    def __init__(self, node: Costmap2DROS, on_change: Callable[[Footprint], None]) -> None:
+        self._node, self._on_change = node, on_change
+        self._started_s = 0.0
+        self._is_known = False
+        self.shape = Footprint.of_radius(0.1)
+        """The newest shape."""
+
+    def listen(self) -> None:
+        """Take shapes from the topic `footprint`."""
+        if self._node.settings.subscribe_to_stamped_footprint:
+            self._node.create_subscription(
+                PolygonStamped, 'footprint', lambda stamped: self._take(stamped.polygon), 10
+            )
+        else:
+            self._node.create_subscription(Polygon, 'footprint', self._take, 10)
+
+    def set_shape(self, shape: Footprint) -> None:
+        """Take another shape."""
+        old, self.shape = self.shape, shape
+        is_same = (
+            shape.is_circular == old.is_circular
+            and shape.points.shape == old.points.shape
+            and np.allclose(shape.points, old.points)
+        )
+        if not is_same:
+            self._on_change(shape)
+
+    def await_pose(self) -> None:
+        """Begin to wait for the first pose."""
+        self._started_s, self._is_known = now_s(self._node), False
+
+    def find(self) -> Pose2D | None:
+        """Return where the robot is in the frame of the costmap; say so if that is not known."""
+        try:
+            pose = self._node.robot_pose()
+        except TransformError as error:
+            waited_s = now_s(self._node) - self._started_s
+            log = self._node.get_logger()
+            if self._is_known or waited_s > self._node.settings.initial_transform_timeout:
+                log.error(str(error), throttle_duration_sec=_QUIET_S)
+            else:
+                log.info(f'Waiting: {error}', throttle_duration_sec=_QUIET_S)
+            return None
+        self._is_known = True
+        return pose
+
+    def _take(self, polygon: Polygon) -> None:
+        points = corners_of(polygon)
+        if len(points) < 3 or not np.isfinite(points).all():
+            self._node.get_logger().error(
+                f'A footprint has at least three corners; this one has {len(points)} and is not '
+                'used.'
+            )
+            return
+        self.set_shape(Footprint.of_points(points, self._node.settings.footprint_padding))

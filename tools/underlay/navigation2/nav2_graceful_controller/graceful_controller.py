@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The graceful controller: smooth arcs to poses ahead on the path."""
+
+from __future__ import annotations
+
+import math
+
+from nav2_controller.control import (
+    Command,
+    Controller,
+    ControlState,
+    Displays,
+    NoValidControl,
+    Velocity,
+)
+from nav2_controller.plugins import PluginContext
+from nav2_controller.tracking import path_lengths, transform_poses
+from nav2_graceful_controller.parameters import GracefulParameters, UNSUPPORTED
+from nav2_graceful_controller.smooth_control_law import SmoothControlLaw
+from nav2_util.errors import ConfigurationError
+from nav2_util.geometry import angle_between, Pose2D, wrap_angle
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ['GracefulController']
+
+FloatArray = npt.NDArray[np.float64]
+
+_TARGETS = 5
+
+
+class GracefulController(Controller):
+    """
+    Drives to the farthest pose of the path that a smooth control law reaches without collision.
+
+    Source: J. J. Park, B. Kuipers, A Smooth Control Law for Graceful Motion of Differential
+    Wheeled Mobile Robots in 2D Environment, ICRA 2011.
+    """
+
+    def __init__(self, context: PluginContext) -> None:
+        self._parameters = context.declare(GracefulParameters)
+        context.unsupported(UNSUPPORTED)
+        self.search_distance_m = context.search_distance()
+        self.transform_tolerance_s = context.transform_tolerance()
+        self._has_set_off = self._is_at_goal = False
+        current = self._parameters.current
+        if current.initial_rotation and current.allow_backward:
+            raise ConfigurationError(
+                f"'{context.name}.initial_rotation' and '{context.name}.allow_backward' exclude "
+                'each other: a robot that turns to its path never drives backward. '
+                'Set one of them to false.'
+            )
+
+    def new_plan(self, *, is_new_goal: bool) -> None:
+        """Follow another path from now on."""
+        if is_new_goal:
+            self._has_set_off = self._is_at_goal = False
+
+    def compute(self, state: ControlState) -> Command:
+        """Compute the velocity for the next period."""
+        p = self._parameters.current
+        ratio = self.limit_ratio(p.v_linear_max)
+        self._is_at_goal |= state.goal_distance_m <= state.xy_tolerance_m and (
+            state.is_goal_in_plan and state.remaining_m <= 4.0 * state.xy_tolerance_m
+        )
+        if self._is_at_goal and p.prefer_final_rotation:
+            angle = angle_between(state.pose.yaw, state.goal.yaw)
+            return self._turn(state, angle, p)
+        plan = _with_orientations(state.plan_in_base(), state, p)
+        lengths = path_lengths(plan)
+        for index in _targets(plan, lengths, p):
+            target = Pose2D(*map(float, plan[index]))
+            heading = math.atan2(target.y, target.x)
+            backward = p.allow_backward and abs(heading) > 0.5 * math.pi
+            if p.initial_rotation and not self._has_set_off:
+                if abs(heading) > p.initial_rotation_tolerance:
+                    return self._turn(state, heading, p)
+                self._has_set_off = True
+            law = _law(p, ratio, state)
+            way = law.simulate(target, state.surroundings.grid.resolution, 0.05, backward=backward)
+            poses = transform_poses(way, state.pose)
+            if p.use_collision_detection and state.surroundings.collisions(poses).any():
+                continue
+            v, w = law.velocity(target, backward=backward)
+            shown = Displays(
+                local_plan=poses,
+                motion_target=state.pose @ target,
+                slowdown_radius_m=p.slowdown_radius,
+            )
+            return Command(Velocity(v, yaw=w), shown)
+        raise NoValidControl(
+            'Every way to a pose of the path within the lookahead distance hits an obstacle. '
+            'Plan another way.'
+        )
+
+    def _turn(self, state: ControlState, angle: float, p: GracefulParameters) -> Command:
+        """Turn in place by an angle in rad."""
+        count = max(math.ceil(abs(angle) / p.in_place_collision_resolution), 1)
+        poses = np.tile(np.array(state.pose), (count + 1, 1))
+        poses[:, 2] += np.linspace(0.0, angle, count + 1)
+        if p.use_collision_detection and state.surroundings.collisions(poses).any():
+            raise NoValidControl('The robot would hit an obstacle when it turns in place.')
+        w = p.rotation_scaling_factor * angle * p.v_angular_max
+        w = math.copysign(min(max(abs(w), p.v_angular_min_in_place), p.v_angular_max), angle)
+        return Command(Velocity(yaw=w), Displays(local_plan=poses, is_rotating=True))
+
+
+def _law(p: GracefulParameters, ratio: float, state: ControlState) -> SmoothControlLaw:
+    v_max = p.v_linear_max * ratio
+    # Only the goal slows down, and not each target on the way.
+    near = state.is_goal_in_plan and state.remaining_m < p.slowdown_radius
+    if near and p.slowdown_radius > 0.0:
+        v_max = max(v_max * state.remaining_m / p.slowdown_radius, min(p.v_linear_min, v_max))
+    return SmoothControlLaw(
+        k_phi=p.k_phi,
+        k_delta=p.k_delta,
+        beta=p.beta,
+        lambda_=p.lambda_,
+        v_min=min(p.v_linear_min, v_max),
+        v_max=v_max,
+        w_max=p.v_angular_max,
+    )
+
+
+def _targets(plan: FloatArray, lengths: FloatArray, p: GracefulParameters) -> list[int]:
+    """Return the poses to try, the farthest one first."""
+    away = np.hypot(plan[:, 0], plan[:, 1])
+    beyond = np.flatnonzero(away > p.max_lookahead)
+    last = int(beyond[0]) - 1 if len(beyond) else len(plan) - 1
+    last = max(last, 0)
+    first = int(np.searchsorted(lengths, p.min_lookahead))
+    if first >= last:
+        return [last]
+    chosen = np.unique(np.linspace(first, last, _TARGETS).astype(int))
+    return [int(each) for each in chosen[::-1]]
+
+
+def _with_orientations(plan: FloatArray, state: ControlState, p: GracefulParameters) -> FloatArray:
+    """Return (N, 3) poses that face along the path, unless they tell how to drive."""
+    if p.allow_backward or len(plan) < 2:
+        return plan
+    steps = np.diff(plan[:, :2], axis=0)
+    turned = np.array(plan)
+    turned[:-1, 2] = np.arctan2(steps[:, 1], steps[:, 0])
+    if not state.is_goal_in_plan or p.prefer_final_rotation:
+        turned[-1, 2] = turned[-2, 2]
+    else:
+        turned[-1, 2] = wrap_angle(state.goal.yaw - state.pose.yaw)
+    return turned

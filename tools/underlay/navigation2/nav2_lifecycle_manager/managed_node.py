@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One node with a lifecycle, asked through its services."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lifecycle_msgs.msg import State, Transition
+from lifecycle_msgs.srv import ChangeState, GetState
+from nav2_util.errors import NavigationError
+from nav2_util.services import call, ServiceError
+from rclpy.node import Node
+
+__all__ = ['ManagedNode', 'TransitionError']
+
+WORDS = {
+    Transition.TRANSITION_CONFIGURE: 'Configuring',
+    Transition.TRANSITION_ACTIVATE: 'Activating',
+    Transition.TRANSITION_DEACTIVATE: 'Deactivating',
+    Transition.TRANSITION_CLEANUP: 'Cleaning up',
+    Transition.TRANSITION_UNCONFIGURED_SHUTDOWN: 'Shutting down',
+    Transition.TRANSITION_INACTIVE_SHUTDOWN: 'Shutting down',
+    Transition.TRANSITION_ACTIVE_SHUTDOWN: 'Shutting down',
+}
+_SHUTDOWNS = {
+    State.PRIMARY_STATE_UNCONFIGURED: Transition.TRANSITION_UNCONFIGURED_SHUTDOWN,
+    State.PRIMARY_STATE_INACTIVE: Transition.TRANSITION_INACTIVE_SHUTDOWN,
+    State.PRIMARY_STATE_ACTIVE: Transition.TRANSITION_ACTIVE_SHUTDOWN,
+}
+
+
+_AGAIN_S = 1.0
+
+
+class TransitionError(NavigationError):
+    """A node did not go into the state that it was to go into."""
+
+
+class ManagedNode:
+    """
+    Asks for the state of another node, and changes it.
+
+    Parameters
+    ----------
+    node
+        The node that asks.
+    name
+        The name of the other one, relative to the namespace of this one.
+    timeout_s
+        How long an answer may take, in s.
+
+    """
+
+    def __init__(self, node: Node, name: str, timeout_s: float) -> None:
+        self.name = name
+        self._node, self._timeout_s = node, timeout_s
+        self._get = node.create_client(GetState, f'{name}/get_state')
+        self._change = node.create_client(ChangeState, f'{name}/change_state')
+
+    @property
+    def is_there(self) -> bool:
+        """Whether its services are there."""
+        return bool(self._get.service_is_ready() and self._change.service_is_ready())
+
+    async def state(self, timeout_s: float | None = None) -> int:
+        """Return its state, a constant of `lifecycle_msgs/State`; ServiceError without answer."""
+        all_s = left_s = timeout_s or self._timeout_s
+        while left_s > 0.0:
+            try:
+                response: Any = await call(
+                    self._node, self._get, GetState.Request(), min(left_s, _AGAIN_S)
+                )
+                return int(response.current_state.id)
+            except ServiceError:
+                left_s -= _AGAIN_S  # a request is lost while the two are getting to know another
+        raise ServiceError(f"'{self.name}' has not told its state within {all_s:g} s.")
+
+    async def answers(self, timeout_s: float) -> bool:
+        """Return whether it tells its state within a time in s, and takes requests to change."""
+        try:
+            await self.state(timeout_s)
+        except ServiceError:
+            return False
+        return bool(self._change.service_is_ready())
+
+    async def change(self, transition: int) -> None:
+        """
+        Let it go through a transition.
+
+        Raises
+        ------
+        TransitionError
+            It refused, failed or did not answer.
+
+        """
+        self._node.get_logger().info(f'{WORDS[transition]} {self.name}')
+        request = ChangeState.Request(transition=Transition(id=transition))
+        try:
+            response: Any = await call(self._node, self._change, request, self._timeout_s)
+        except ServiceError as error:
+            raise TransitionError(str(error)) from error
+        if not response.success:
+            raise TransitionError(
+                f"'{self.name}' did not do it ({WORDS[transition].lower()}): its own log says why."
+            )
+
+    async def shut_down(self) -> None:
+        """Let it go to its end, from whatever state; TransitionError as for `change`."""
+        try:
+            transition = _SHUTDOWNS.get(await self.state())
+        except ServiceError as error:
+            raise TransitionError(str(error)) from error
+        if transition is not None:
+            await self.change(transition)

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A robot that moves exactly as it is told, in any direction, and where it is in the map."""
+
+from __future__ import annotations
+
+import math
+
+from nav2_util.geometry import Pose2D
+from nav2_util.twist import Velocity
+
+__all__ = ['LoopbackRobot']
+
+_STRAIGHT_RAD = 1e-6
+
+
+class LoopbackRobot:
+    """
+    A robot on a frictionless plane.
+
+    It moves once it was placed in the map. A command holds for `timeout_s` of the time that
+    `step` counts; then the robot stops.
+
+    Parameters
+    ----------
+    timeout_s
+        How long a command holds.
+
+    """
+
+    def __init__(self, timeout_s: float = 1.0) -> None:
+        self.odom = Pose2D(0.0, 0.0, 0.0)
+        """The base in the frame of odometry."""
+        self.map_to_odom: Pose2D | None = None
+        """Odometry in the frame of the map, once the robot was placed."""
+        self._timeout_s = timeout_s
+        self._command = Velocity()
+        self._left_s = 0.0
+
+    @property
+    def velocity(self) -> Velocity:
+        """Return the velocity of the base in its own frame."""
+        return self._command if self._left_s > 0.0 else Velocity()
+
+    @property
+    def pose_in_map(self) -> Pose2D | None:
+        """Where the base is in the map, once it was placed."""
+        return None if self.map_to_odom is None else self.map_to_odom @ self.odom
+
+    def place(self, pose: Pose2D) -> None:
+        """Put the robot at a pose in the map; odometry goes on, as if it were carried."""
+        self.map_to_odom = pose @ self.odom.inverse()
+
+    def command(self, velocity: Velocity) -> None:
+        """Move with a velocity from now on; ignored until the robot was placed."""
+        if self.map_to_odom is not None:
+            self._command, self._left_s = velocity, self._timeout_s
+
+    def step(self, duration_s: float) -> None:
+        """Move on for some time."""
+        velocity = self.velocity
+        self._left_s = max(self._left_s - duration_s, 0.0)
+        if not velocity.is_zero:
+            self.odom = self.odom @ _arc(velocity, duration_s)
+
+
+def _arc(velocity: Velocity, duration_s: float) -> Pose2D:
+    """Return the motion of a constant velocity, in the frame at its beginning."""
+    turn = velocity.yaw * duration_s
+    x, y = velocity.x * duration_s, velocity.y * duration_s
+    if abs(turn) < _STRAIGHT_RAD:
+        return Pose2D(x, y, turn)
+    ahead, aside = math.sin(turn) / turn, (1.0 - math.cos(turn)) / turn
+    return Pose2D(ahead * x - aside * y, aside * x + ahead * y, turn)

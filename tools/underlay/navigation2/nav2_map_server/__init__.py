@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Maps in files, and the servers that publish and save them."""
+
+from nav2_map_server.map_io import MapError, read_map, write_map
+from nav2_map_server.occupancy_map import OccupancyMap
+
+__all__ = ['MapError', 'OccupancyMap', 'read_map', 'write_map']

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What every planner is: a plugin of the planner server that turns two poses into a path."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass
+
+from nav2_costmap_2d.costmap_node import Costmap2DROS
+from nav2_planner.path_shape import headings, resample, round_corners
+from nav2_planner.route import Route
+from nav2_util.geometry import Pose2D
+from nav2_util.lifecycle_node import LifecycleNode
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ['PLANNERS', 'GlobalPlanner', 'Rounding', 'poses_along']
+
+FloatArray = npt.NDArray[np.float64]
+
+PLANNERS = {
+    'nav2_navfn_planner::NavfnPlanner': 'nav2_navfn_planner.navfn_planner:NavfnPlanner',
+    'nav2_smac_planner::SmacPlanner2D': 'nav2_smac_planner.smac_planner_2d:SmacPlanner2D',
+    'nav2_smac_planner::SmacPlannerHybrid': (
+        'nav2_smac_planner.smac_planner_hybrid:SmacPlannerHybrid'
+    ),
+    'nav2_smac_planner::SmacPlannerLattice': (
+        'nav2_smac_planner.smac_planner_lattice:SmacPlannerLattice'
+    ),
+    'nav2_theta_star_planner::ThetaStarPlanner': (
+        'nav2_theta_star_planner.theta_star_planner:ThetaStarPlanner'
+    ),
+}
+"""The places of planners by their official names."""
+
+
+class GlobalPlanner:
+    """
+    A planner.
+
+    Parameters
+    ----------
+    node
+        The planner server; parameters are declared with it, when the planner is made.
+    name
+        The planner's name, the prefix of its parameters, such as GridBased.
+    costmap
+        The global costmap.
+
+    """
+
+    def __init__(self, node: LifecycleNode, name: str, costmap: Costmap2DROS) -> None:
+        self.node, self.name, self.costmap = node, name, costmap
+
+    def create_plan(self, start: Pose2D, goal: Pose2D) -> Generator[None, None, FloatArray]:
+        """
+        Plan a path.
+
+        It yields where others may have their turn, every some ten milliseconds, and may be given
+        up there.
+
+        Parameters
+        ----------
+        start, goal
+            Poses in the frame of the costmap.
+
+        Returns
+        -------
+        (N, 3) poses from the start to the goal, at most a cell apart: x and y in m, yaw in rad.
+
+        Raises
+        ------
+        PlanningError
+            There is none.
+
+        """
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Rounding:
+    """How corners are rounded: the weights of `path_shape.smoothed`, and how often."""
+
+    smooth: float
+    data: float
+    times: int = 1
+
+
+def poses_along(
+    route: Route,
+    start: Pose2D,
+    goal: Pose2D,
+    *,
+    resolution: float,
+    rounding: Rounding | None = None,
+    use_final_approach_orientation: bool = False,
+) -> FloatArray:
+    """
+    Return the poses of a path.
+
+    Parameters
+    ----------
+    route
+        The straight lines that were planned.
+    start, goal
+        Poses in the frame of the costmap.
+    resolution
+        The largest distance of neighbours in m.
+    rounding
+        How to round corners; None leaves them.
+    use_final_approach_orientation
+        Whether the last pose faces where the path leads, and not as the goal.
+
+    Returns
+    -------
+    (N, 3) poses: x and y in m, yaw in rad. All but the last face along the path. The last one is
+    the goal itself if the route reaches it.
+
+    """
+    spacing = resolution / route.cell_m
+    points = resample(route.corners, spacing)
+    if rounding is not None and len(points) > 2:
+        points = round_corners(
+            points, route.weights, rounding.smooth, rounding.data, rounding.times
+        )
+        points = resample(points, spacing)
+    places = route.to_world(points)
+    if len(places) > 1:
+        places[0] = start.x, start.y
+    if route.is_exact:
+        places[-1] = goal.x, goal.y
+    yaws = headings(places, None if use_final_approach_orientation else goal.yaw)
+    if len(places) == 1 and use_final_approach_orientation:
+        yaws[:] = start.yaw
+    return np.column_stack([places, yaws])

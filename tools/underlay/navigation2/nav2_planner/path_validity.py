@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check whether a robot can still follow a path."""
+
+from __future__ import annotations
+
+from nav2_costmap_2d.costs import (
+    INSCRIBED_INFLATED_OBSTACLE,
+    LETHAL_OBSTACLE,
+    NO_INFORMATION,
+)
+from nav2_costmap_2d.footprint import FootprintCollisionChecker
+from nav2_costmap_2d.grid import Costmap2D
+from nav2_util.geometry import Pose2D
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ['invalid_poses']
+
+
+def invalid_poses(
+    costmap: Costmap2D,
+    poses: npt.NDArray[np.float64],
+    footprint: npt.NDArray[np.float64] | None,
+    robot: Pose2D | None,
+) -> npt.NDArray[np.intp]:
+    """
+    Return which poses of a path the robot cannot stand in.
+
+    Parameters
+    ----------
+    costmap
+        The costs. Unknown space is no obstacle; beyond the grid it is one.
+    poses
+        (N, 3) x and y in m, yaw in rad.
+    footprint
+        (M, 2) corners of the robot in m; None for a circular one, whose centre counts.
+    robot
+        Where the robot is: poses before the nearest one are behind it, and do not count.
+
+    Returns
+    -------
+    The indices of poses.
+
+    """
+    first = 0
+    if robot is not None and len(poses):
+        first = int(np.argmin(np.hypot(poses[:, 0] - robot.x, poses[:, 1] - robot.y)))
+    costs = FootprintCollisionChecker(costmap).footprint_costs(poses[first:], footprint)
+    limit = INSCRIBED_INFLATED_OBSTACLE if footprint is None else LETHAL_OBSTACLE
+    return np.flatnonzero((costs >= limit) & (costs != NO_INFORMATION)) + first

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Work that is done in steps, so that others have their turn between them."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from typing import TypeVar
+
+__all__ = ['finish']
+
+ResultT = TypeVar('ResultT')
+
+
+def finish(work: Generator[None, None, ResultT]) -> ResultT:
+    """Do all steps at one go; return the result."""
+    while True:
+        try:
+            next(work)
+        except StopIteration as stop:
+            result: ResultT = stop.value
+            return result

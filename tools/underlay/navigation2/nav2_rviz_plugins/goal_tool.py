@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say where the robot is to go, to the panel of navigation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import math
+from typing import Any
+
+from geometry_msgs.msg import PoseStamped
+from nav2_rviz_plugins.session import NavigationSession, session_of
+from robot_console.namespaces import NAMESPACE
+from rviz_common.context import Context
+from rviz_common.tool import Point, Tool
+from rviz_default_plugins.tools.pose_arrow import heading, PoseArrow
+
+__all__ = ['GoalTool']
+
+
+class GoalTool(Tool):
+    """Sends the robot to a pose, or adds the pose to the waypoints while these are collected."""
+
+    CLASS = 'nav2_rviz_plugins/GoalTool'
+    NAME = 'Nav2 Goal'
+    HINT = 'Press on the ground where it is to go, drag to where it is to look, and release.'
+    PROPERTIES = (NAMESPACE,)
+
+    def __init__(
+        self, context: Context, root: str, given: Mapping[str, Any] | None = None
+    ) -> None:
+        """Take the properties that a file gives."""
+        super().__init__(context, root, given)
+        self._arrow = PoseArrow(context, root)
+
+    def lay_down(self) -> None:
+        """Be in use no longer."""
+        self._arrow.hide()
+
+    def click(self, point: Point) -> bool:
+        """Take a pose that looks along x."""
+        return self._give(point, 0.0)
+
+    def drag(self, start: Point, end: Point, is_over: bool) -> bool:
+        """Show the pose, and take it in the end."""
+        yaw = heading(start, end)
+        self._arrow.show(start, yaw)
+        if not is_over:
+            return False
+        self._arrow.hide()
+        return self._give(start, yaw)
+
+    def _give(self, point: Point, yaw: float) -> bool:
+        """Hand over a pose; return whether the tool is done: not while waypoints are collected."""
+        try:
+            session = self._session()
+        except ImportError as error:
+            self._say(str(error))
+            return True
+        pose = PoseStamped()
+        pose.header.stamp = self.context.node.get_clock().now().to_msg()
+        pose.header.frame_id = self.context.frames.fixed_frame
+        pose.pose.position.x, pose.pose.position.y, pose.pose.position.z = point
+        pose.pose.orientation.z, pose.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+        session.take_pose(pose)
+        return not session.collects
+
+    def _session(self) -> NavigationSession:
+        return session_of(self.context.node, self.values['Namespace'] or None)
+
+    def _say(self, sentence: str) -> None:
+        """Tell people why nothing happens."""
+        if self.context.visualizer is not None:
+            self.context.visualizer.notify(self.NAME, sentence)
+        else:
+            self.context.node.get_logger().error(f'{self.NAME}: {sentence}')

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The lifecycle managers of navigation and localization: whether active, and commands for them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+import time
+from typing import Any, TYPE_CHECKING
+
+from robot_console.service_calls import ServiceCalls
+from std_srvs.srv import Trigger
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ['COMMANDS', 'ManagerWatch', 'command_all']
+
+COMMANDS = {'startup': 0, 'pause': 1, 'resume': 2, 'reset': 3, 'shutdown': 4}
+"""What `nav2_msgs/srv/ManageLifecycleNodes` calls them."""
+ASK_S = 1.0
+PATIENCE_S = 3.0
+COMMAND_S = 60.0
+"""Bringing up a map and costmaps takes a while."""
+ACTIVE, INACTIVE, UNKNOWN = 'active', 'inactive', 'unknown'
+
+
+class ManagerWatch:
+    """What a lifecycle manager says of itself; it is asked once a second."""
+
+    def __init__(self, node: Node, name: str) -> None:
+        """Take the name of the manager, with its namespace."""
+        self.name = name
+        self.state, self.note = UNKNOWN, ''
+        self._node = node
+        self._client = node.create_client(Trigger, f'{name}/is_active')
+        self._future: Any = None
+        self._asked_s = -ASK_S
+
+    @property
+    def is_there(self) -> bool:
+        """Whether there is such a manager."""
+        return bool(self._node.count_services(self._client.srv_name))
+
+    def update(self, now_s: float) -> None:
+        """Take the answer, and ask again."""
+        if self._future is not None:
+            self._take(now_s)
+        elif now_s - self._asked_s >= ASK_S:
+            self._asked_s = now_s
+            self._ask()
+
+    def hurry(self) -> None:
+        """Ask soon, since something has been changed."""
+        self._asked_s = 0.0
+
+    def close(self) -> None:
+        """Ask no longer."""
+        self._node.destroy_client(self._client)
+
+    def told(self) -> dict[str, str]:
+        """Return what the page shows."""
+        return {'state': self.state, 'note': self.note}
+
+    def _ask(self) -> None:
+        if self._client.service_is_ready():
+            self._future = self._client.call_async(Trigger.Request())
+        elif self.is_there:
+            self.state, self.note = UNKNOWN, f'{self._client.srv_name} does not connect.'
+        else:
+            self.state, self.note = UNKNOWN, f'Nobody offers {self._client.srv_name}.'
+
+    def _take(self, now_s: float) -> None:
+        if self._future.done():
+            error = self._future.exception()
+            if error is not None:
+                self.state, self.note = UNKNOWN, str(error)
+            else:
+                self.state = ACTIVE if self._future.result().success else INACTIVE
+                self.note = ''
+        elif now_s - self._asked_s > PATIENCE_S:
+            self._client.remove_pending_request(self._future)
+            self.state, self.note = UNKNOWN, f'{self._client.srv_name} does not answer.'
+        else:
+            return
+        self._future = None
+
+
+def command_all(
+    calls: ServiceCalls,
+    kind: Any,
+    command: str,
+    managers: Sequence[ManagerWatch],
+    say: Callable[[str], None],
+) -> None:
+    """
+    Give a command to one manager after the other, as long as they succeed.
+
+    Parameters
+    ----------
+    calls
+        Calls services, and sees to it that each call ends.
+    kind
+        The class ManageLifecycleNodes.
+    command
+        A name in `COMMANDS`.
+    managers
+        In order: who localizes first, where something is started.
+    say
+        Takes a sentence on how it goes.
+
+    """
+    if not managers:
+        say(f'{command.capitalize()} is done.')
+        return
+    manager, rest = managers[0], managers[1:]
+    begun_s = time.monotonic()
+    say(f'{command.capitalize()}: waiting for {manager.name} ...')
+
+    def answer(response: Any, problem: str) -> None:
+        manager.hurry()
+        took_s = time.monotonic() - begun_s
+        if response is None:
+            say(f'{command.capitalize()} has failed: {problem}')
+        elif not response.success:
+            say(
+                f'{command.capitalize()} has failed after {took_s:.1f} s: {manager.name} could '
+                'not bring all of its nodes there. The Log says which one, and why.'
+            )
+        else:
+            command_all(calls, kind, command, rest, say)
+
+    request = kind.Request(command=COMMANDS[command])
+    calls.call(kind, f'{manager.name}/manage_nodes', request, answer, COMMAND_S)

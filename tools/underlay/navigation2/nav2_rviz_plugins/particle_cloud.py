@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The particles of a localization: where the robot may be, and how likely that is."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from nav2_rviz_plugins.interfaces import interface, MISSING
+from nav2_rviz_plugins.particles import ParticleMessage, read_particles
+import numpy as np
+from numpy.typing import NDArray
+from rviz_common.canvas import Canvas
+from rviz_common.message_display import MessageDisplay
+from rviz_common.properties import Choice, ColorOf, Number, topic_properties
+from rviz_common.status import Level
+from rviz_default_plugins.decoding.geometry import matrices_of, Points
+from rviz_default_plugins.drawing.bodies import add_copies, add_lines
+from rviz_default_plugins.drawing.surfaces import arrow
+
+__all__ = ['ParticleCloud', 'lengths_of']
+
+FLAT, SOLID, AXES = 'Arrow (Flat)', 'Arrow (3D)', 'Axes'
+MOST = 20000
+HEAD = 0.2
+"""The head of an arrow, as a part of its length."""
+
+
+class ParticleCloud(MessageDisplay):
+    """The newest particles of a localization; the likelier one is, the longer is its arrow."""
+
+    CLASS = 'nav2_rviz_plugins/ParticleCloud'
+    PROPERTIES = (
+        *topic_properties('nav2_msgs/msg/ParticleCloud', '/particle_cloud'),
+        Choice('Shape', FLAT, 'What shows a particle.', (FLAT, SOLID, AXES)),
+        ColorOf('Color', (0, 180, 0), 'Colour of the arrows.'),
+        Number('Alpha', 1.0, '0 is transparent; flat arrows are opaque.', 0.0, 1.0),
+        Number('Min Arrow Length', 0.02, 'That of particles of no weight, in metres.', 0.0),
+        Number('Max Arrow Length', 0.3, 'That of the greatest weight, in metres.', 0.0),
+        Number('Head Length', 0.07, 'Length of heads of 3D arrows, in metres.', 0.0),
+        Number('Head Radius', 0.03, 'Radius of heads of 3D arrows, in metres.', 0.0),
+        Number('Shaft Length', 0.23, 'Length of shafts of 3D arrows, in metres.', 0.0),
+        Number('Shaft Radius', 0.01, 'Radius of shafts of 3D arrows, in metres.', 0.0),
+        Number('Axes Length', 0.3, 'Length of axes, in metres.', 0.0),
+        Number('Axes Radius', 0.01, 'Radius of axes, in metres.', 0.0),
+    )
+
+    def start(self) -> None:
+        """Subscribe the topic, if its type is there."""
+        self._canvas = Canvas(self.context.scene, self.root)
+        try:
+            super().start()
+        except ImportError:
+            self.status.say('Topic', Level.ERROR, MISSING)
+
+    def message_type(self, topic: str) -> type:
+        """Return the type of the messages of the topic."""
+        kind: type = interface('msg', 'ParticleCloud')
+        return kind
+
+    def subscribe(self, kind: Any, topic: str, take: Any, *more: Any, **options: Any) -> bool:
+        """Have messages taken as the bytes that came."""
+        return super().subscribe(kind, topic, take, *more, raw=True, **options)
+
+    def take(self, message: Any) -> None:
+        """Read the newest message."""
+        try:
+            super().take(read_particles(message))
+        except ValueError as error:
+            self.say_left_out(error)
+
+    def show(self, message: ParticleMessage) -> None:
+        """Draw all particles as one object."""
+        poses, weights = self._usable(message)
+        with self._canvas.anew():
+            if not len(poses):
+                return
+            positions = poses[:, :3].astype(np.float32)
+            wxyzs = poses[:, [6, 3, 4, 5]].astype(np.float32)
+            self._draw(positions, wxyzs, self._lengths(weights))
+
+    def _usable(self, message: ParticleMessage) -> tuple[NDArray[Any], NDArray[Any]]:
+        """Return poses and weights that can be shown, and say how many cannot."""
+        poses, weights = message.poses, message.weights
+        norms = np.linalg.norm(poses[:, 3:], axis=1)
+        valid = np.isfinite(poses).all(axis=1) & np.isfinite(weights) & (norms > 1e-6)
+        step = max(1, -(-len(poses) // MOST))
+        if lost := int((~valid).sum()):
+            self.status.say(
+                'Particles',
+                Level.WARN,
+                f'{lost} of {len(poses)} particles are left out: they have numbers that are not '
+                'finite, or quaternions of zeros.',
+            )
+        elif step > 1:
+            shown = f'{len(poses[::step])} of {len(poses)} particles are shown.'
+            self.status.say('Particles', Level.WARN, shown)
+        else:
+            self.status.forget('Particles')
+        poses = poses.copy()
+        poses[valid, 3:] /= norms[valid, None]
+        return poses[valid][::step], weights[valid][::step]
+
+    def _lengths(self, weights: NDArray[Any]) -> NDArray[np.float32]:
+        low, high = self.values['Min Arrow Length'], self.values['Max Arrow Length']
+        return lengths_of(weights, low, max(low, high))
+
+    def _draw(self, positions: Points, wxyzs: Points, lengths: NDArray[np.float32]) -> None:
+        shape = self.values['Shape']
+        if shape == FLAT:
+            self._add_flat(positions, wxyzs, lengths)
+        elif shape == SOLID:
+            names = ('Shaft Length', 'Shaft Radius', 'Head Length', 'Head Radius')
+            surface = arrow(*(self.values[name] for name in names))
+            paint = self.values['Color'], self.values['Alpha']
+            add_copies(self._canvas, 'arrows', surface, paint, positions, wxyzs)
+        else:
+            self._canvas.put(
+                'batched_axes',
+                'axes',
+                batched_wxyzs=wxyzs,
+                batched_positions=positions,
+                axes_length=self.values['Axes Length'],
+                axes_radius=self.values['Axes Radius'],
+            )
+
+    def _add_flat(self, positions: Points, wxyzs: Points, lengths: NDArray[np.float32]) -> None:
+        """Add arrows of lines: a shaft and two for the head."""
+        tip, back, side = (1.0, 0.0, 0.0), 1.0 - HEAD, HEAD / 2.0
+        lines = [((0, 0, 0), tip), (tip, (back, side, 0)), (tip, (back, -side, 0))]
+        ends = np.array(lines, np.float32).reshape(-1, 3)
+        turned = ends @ matrices_of(wxyzs).transpose(0, 2, 1)
+        segments = turned * lengths[:, None, None] + positions[:, None]
+        add_lines(
+            self._canvas,
+            'lines',
+            segments.astype(np.float32).reshape(-1, 2, 3),
+            self.values['Color'],
+        )
+
+
+def lengths_of(weights: NDArray[Any], shortest_m: float, longest_m: float) -> NDArray[np.float32]:
+    """
+    Return how long the arrows of particles are, in metres.
+
+    The length is proportional to the weight, as a part of the greatest one; particles of equal
+    weight, as there are after they were drawn anew, have the longest arrow.
+    """
+    greatest = float(weights.max(initial=0.0))
+    parts = weights / greatest if greatest > 0.0 else np.ones_like(weights)
+    lengths: NDArray[np.float32] = np.clip(parts * longest_m, shortest_m, longest_m)
+    return lengths.astype(np.float32)

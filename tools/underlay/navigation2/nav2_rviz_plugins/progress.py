@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is known of a goal, and how that is said; without ROS."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Any
+
+__all__ = ['ACTIONS', 'Goal', 'Phase', 'outcome']
+
+ACTIONS = {
+    'navigate_to_pose': 'Navigate to pose',
+    'navigate_through_poses': 'Navigate through poses',
+    'follow_waypoints': 'Follow waypoints',
+}
+"""The actions that are watched, with their titles."""
+
+
+class Phase(Enum):
+    """How far a goal is."""
+
+    SENDING = 'sending'
+    ACCEPTED = 'accepted'
+    EXECUTING = 'executing'
+    CANCELING = 'canceling'
+    SUCCEEDED = 'succeeded'
+    CANCELED = 'canceled'
+    ABORTED = 'aborted'
+    FAILED = 'failed'
+    """It never got to the server, was refused there, or the server is gone."""
+
+    @property
+    def is_over(self) -> bool:
+        """Whether nothing more is to come."""
+        return self in (Phase.SUCCEEDED, Phase.CANCELED, Phase.ABORTED, Phase.FAILED)
+
+
+PHASES = {
+    1: Phase.ACCEPTED,
+    2: Phase.EXECUTING,
+    3: Phase.CANCELING,
+    4: Phase.SUCCEEDED,
+    5: Phase.CANCELED,
+    6: Phase.ABORTED,
+}
+"""By the numbers of `action_msgs/msg/GoalStatus`."""
+
+
+@dataclass
+class Goal:
+    """A goal of one of the actions, whoever sent it."""
+
+    action: str
+    goal_id: bytes = b''
+    phase: Phase = Phase.SENDING
+    text: str = ''
+    """Why it ended, or what there is to know."""
+    poses: int = 0
+    """How many it has, if it is from this page."""
+    numbers: dict[str, float] = field(default_factory=dict)
+    """The numbers of the newest feedback: metres, seconds, counts."""
+    missed: list[int] = field(default_factory=list)
+    """Waypoints that were not reached, from 0."""
+    is_own: bool = False
+
+    def take_feedback(self, feedback: Any) -> None:
+        """Keep the numbers of a feedback of any of the actions."""
+        for name in ('navigation_time', 'estimated_time_remaining'):
+            if hasattr(feedback, name):
+                duration = getattr(feedback, name)
+                self.numbers[name] = duration.sec + duration.nanosec * 1e-9
+        for name in (
+            'distance_remaining',
+            'number_of_recoveries',
+            'number_of_poses_remaining',
+            'current_waypoint',
+        ):
+            if hasattr(feedback, name):
+                self.numbers[name] = float(getattr(feedback, name))
+
+    def take_result(self, result: Any) -> None:
+        """Keep how it ended."""
+        self.missed = [int(each.index) for each in getattr(result, 'missed_waypoints', ())]
+        code, reason = int(result.error_code), getattr(result, 'error_msg', '')
+        self.text = outcome(self.phase, code, reason, self.missed)
+
+    def told(self) -> dict[str, Any]:
+        """Return what the page shows."""
+        return {
+            'title': ACTIONS[self.action],
+            'action': self.action,
+            'phase': self.phase.value,
+            'over': self.phase.is_over,
+            'text': self.text,
+            'poses': self.poses,
+            'numbers': dict(self.numbers),
+            'missed': list(self.missed),
+            'own': self.is_own,
+        }
+
+
+def outcome(phase: Phase, code: int, reason: str, missed: list[int]) -> str:
+    """
+    Say how a goal ended.
+
+    Parameters
+    ----------
+    phase
+        In which it ended.
+    code, reason
+        The `error_code` and `error_msg` of the result; 0 is no error.
+    missed
+        The waypoints that were not reached, from 0; they are numbered from 1 on the screen.
+
+    """
+    reason = reason.strip()
+    said = []
+    if phase is Phase.ABORTED:
+        said.append(reason or 'The server gave no reason.')
+        if code:
+            said.append(f'(error code {code})')
+    elif reason:
+        said.append(reason)
+    if missed:
+        numbers = ', '.join(str(index + 1) for index in missed)
+        said.append(f'Missed waypoints: {numbers}.')
+    elif phase is Phase.SUCCEEDED and not reason:
+        said.append('The goal is reached.')
+    return ' '.join(said)

@@ -1,0 +1,278 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the goal tool and the panel of navigation share: the goals of one robot."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import Any, TYPE_CHECKING
+from weakref import WeakKeyDictionary
+
+from geometry_msgs.msg import PoseStamped
+from nav2_rviz_plugins.action_watch import ActionWatch
+from nav2_rviz_plugins.interfaces import interface
+from nav2_rviz_plugins.managers import command_all, ManagerWatch
+from nav2_rviz_plugins.progress import ACTIONS, Goal
+from nav2_rviz_plugins.waypoints import waypoint_markers
+from nav2_util.qos import LATCHED
+from nav2_util.timing import steady_clock
+from robot_console.namespaces import below
+from robot_console.service_calls import ServiceCalls
+from visualization_msgs.msg import MarkerArray
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ['NavigationSession', 'close_sessions', 'session_of']
+
+TO_POSE, THROUGH, WAYPOINTS = ACTIONS
+PERIOD_S = 0.1
+LOOK_S = 1.0
+MOST = 200
+"""How many waypoints may be collected."""
+
+
+class NavigationSession:
+    """
+    The goals of one robot: collects, sends and follows them.
+
+    It works in the thread of its node, and stays as long as that does, so that a goal is followed
+    also while another file is loaded.
+    """
+
+    def __init__(self, node: Node, namespace: str = '') -> None:
+        """Begin to follow the actions; raises ImportError if nav2_msgs is not built."""
+        kinds = (
+            interface('action', 'NavigateToPose'),
+            interface('action', 'NavigateThroughPoses'),
+            interface('action', 'FollowWaypoints'),
+        )
+        self._manage = interface('srv', 'ManageLifecycleNodes')
+        self.node, self.namespace = node, namespace
+        self.waypoints: list[PoseStamped] = []
+        self.collects = False
+        """Whether poses that are given become waypoints, and not goals."""
+        self.is_watched = False
+        """Whether somebody wants to know how the lifecycle managers are."""
+        self.note = ''
+        self.markers = MarkerArray()
+        self._calls = ServiceCalls(node)
+        self._actions = {
+            action: ActionWatch(node, self._calls, kind, action, below(namespace, action))
+            for action, kind in zip(ACTIONS, kinds)
+        }
+        self._managers = [
+            ManagerWatch(node, below(namespace, f'lifecycle_manager_{part}'))
+            for part in ('localization', 'navigation')
+        ]
+        self._newest = TO_POSE
+        self._begun = dict.fromkeys(ACTIONS, 0)
+        self._sent: list[PoseStamped] = []
+        self._marked: Any = None
+        topic = below(namespace, 'waypoints')
+        self._publisher = node.create_publisher(MarkerArray, topic, LATCHED)
+        self._looked_s = 0.0
+        self._timer = node.create_timer(PERIOD_S, self.update, clock=steady_clock())
+
+    @property
+    def goal(self) -> Goal | None:
+        """Return the newest goal of all actions."""
+        return self._actions[self._newest].goal
+
+    def take_pose(self, pose: PoseStamped) -> None:
+        """Drive to a pose, or collect it where waypoints are collected."""
+        if not self.collects:
+            self._send(TO_POSE, [pose], pose=pose)
+        elif len(self.waypoints) < MOST:
+            self.waypoints.append(pose)
+        else:
+            self.note = f'No more than {MOST} waypoints can be collected.'
+
+    def collect(self, is_wanted: bool) -> None:
+        """Begin or cease to collect waypoints."""
+        self.collects = is_wanted
+
+    def remove(self, index: int) -> None:
+        """Remove a waypoint."""
+        if 0 <= index < len(self.waypoints):
+            del self.waypoints[index]
+
+    def clear(self) -> None:
+        """Remove all waypoints."""
+        self.waypoints.clear()
+
+    def follow(self, loops: int = 0) -> None:
+        """Have the robot drive to one waypoint after the other, and begin anew so many times."""
+        poses = list(self.waypoints)
+        self._send(WAYPOINTS, poses, poses=poses, number_of_loops=loops)
+
+    def go_through(self) -> None:
+        """Have the robot drive to the last waypoint on a way through the others."""
+        poses = list(self.waypoints)
+        self._send(THROUGH, poses, poses=poses)
+
+    def cancel(self) -> None:
+        """Cancel what is being worked on, whoever wanted it."""
+        watches = [
+            watch
+            for action, watch in self._actions.items()
+            if _is_active(watch.goal) and not self._is_part(action)
+        ]
+        if not watches:
+            self.note = 'There is no goal to cancel.'
+        for watch in watches:
+            watch.cancel(self.say)
+
+    def command(self, command: str) -> None:
+        """Give a command to the lifecycle managers that are there."""
+        managers = [each for each in self._managers if each.is_there]
+        if not managers:
+            names = ' and '.join(each.name for each in self._managers)
+            self.note = f'There is no lifecycle manager: nobody offers services of {names}.'
+            return
+        if command not in ('startup', 'resume'):
+            managers.reverse()  # what navigates rests before what it relies on
+        command_all(self._calls, self._manage, command, managers, self.say)
+
+    def say(self, sentence: str) -> None:
+        """Have a sentence shown."""
+        self.note = sentence
+
+    def update(self) -> None:
+        """Go on with calls, take what has come, and show it."""
+        now_s = time.monotonic()
+        self._calls.update()
+        is_look = now_s - self._looked_s >= LOOK_S
+        if is_look:
+            self._looked_s = now_s
+        for action, watch in self._actions.items():
+            watch.update()
+            if is_look:
+                watch.look()
+            if watch.changed != self._begun[action]:
+                self._begun[action] = watch.changed
+                if not self._is_part(action):
+                    self._newest = action
+        if self.is_watched:
+            for manager in self._managers:
+                manager.update(now_s)
+        self._mark()
+
+    def told(self) -> dict[str, Any]:
+        """Return what the page shows."""
+        localization, navigation = self._managers
+        return {
+            'localization': localization.told(),
+            'navigation': navigation.told(),
+            'there': self._actions[TO_POSE].is_there,
+            'goal': self._goal_told(),
+            'collects': self.collects,
+            'waypoints': [_told(each) for each in self.waypoints],
+            'note': self.note,
+        }
+
+    def close(self) -> None:
+        """End all of it; goals that are worked on go on."""
+        self.node.destroy_timer(self._timer)
+        for watch in self._actions.values():
+            watch.close()
+        for manager in self._managers:
+            manager.close()
+        self._calls.close()
+        self.node.destroy_publisher(self._publisher)
+
+    def _is_part(self, action: str) -> bool:
+        """Whether the goal of an action is only a part of the waypoints that are followed."""
+        goal = self._actions[action].goal
+        follows = action != WAYPOINTS and _is_active(self._actions[WAYPOINTS].goal)
+        return follows and goal is not None and not goal.is_own
+
+    def _goal_told(self) -> dict[str, Any] | None:
+        """Return what the page shows of the goal, with how it is on the way to a waypoint."""
+        goal, part = self.goal, self._actions[TO_POSE].goal
+        if goal is None:
+            return None
+        told = goal.told()
+        if part is not None and goal.action == WAYPOINTS and self._is_part(TO_POSE):
+            told['numbers'] = {**part.numbers, **goal.numbers}
+        return told
+
+    def _send(self, action: str, poses: list[PoseStamped], /, **fields: Any) -> None:
+        if not poses:
+            self.note = 'There are no waypoints: collect some first.'
+            return
+        stamp = self.node.get_clock().now().to_msg()
+        for pose in poses:
+            pose.header.stamp = stamp
+        self.note = ''
+        self._sent = poses
+        self._actions[action].send(len(poses), **fields)
+
+    def _mark(self) -> None:
+        """Publish markers of the goals, if they are others than before."""
+        goal = self.goal
+        current: int | None = None
+        missed: list[int] = []
+        if goal is not None and goal.is_own and goal.action == WAYPOINTS:
+            missed = goal.missed
+            if not goal.phase.is_over:
+                current = int(goal.numbers.get('current_waypoint', 0))
+        poses = self.waypoints
+        is_single = not poses and goal is not None and goal.is_own and goal.action == TO_POSE
+        if is_single and goal is not None and not goal.phase.is_over:
+            poses = self._sent
+        key = [id(each) for each in poses], current, list(missed), is_single
+        if key == self._marked:
+            return
+        self._marked = key
+        self.markers = waypoint_markers(poses, not is_single, current, missed)
+        self._publisher.publish(self.markers)
+
+
+_sessions: WeakKeyDictionary[Node, dict[str, NavigationSession]] = WeakKeyDictionary()
+
+
+def session_of(node: Node, namespace: str | None = None) -> NavigationSession:
+    """
+    Return the session of a robot, which stays as long as the node.
+
+    Parameters
+    ----------
+    node
+        The node of the page.
+    namespace
+        That of the robot; None is the one robot whose session there is, else that without.
+
+    Raises
+    ------
+    ImportError
+        with a sentence, if nav2_msgs is not built.
+
+    """
+    sessions = _sessions.setdefault(node, {})
+    if namespace is None:
+        namespace = next(iter(sessions)) if len(sessions) == 1 else ''
+    if namespace not in sessions:
+        sessions[namespace] = NavigationSession(node, namespace)
+    return sessions[namespace]
+
+
+def close_sessions(node: Node) -> None:
+    """End the sessions of a node before it is destroyed while its process goes on."""
+    for session in _sessions.pop(node, {}).values():
+        session.close()
+
+
+def _is_active(goal: Goal | None) -> bool:
+    return goal is not None and not goal.phase.is_over
+
+
+def _told(pose: PoseStamped) -> dict[str, Any]:
+    at, turn = pose.pose.position, pose.pose.orientation
+    yaw = 2.0 * math.atan2(turn.z, turn.w)
+    return {
+        'x': at.x,
+        'y': at.y,
+        'yaw': math.degrees(math.atan2(math.sin(yaw), math.cos(yaw))),
+        'frame': pose.header.frame_id,
+    }

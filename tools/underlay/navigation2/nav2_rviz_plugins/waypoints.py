@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The markers of goals: an arrow each, and a number where there are several."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import Any
+
+from geometry_msgs.msg import PoseStamped
+from std_msgs.msg import ColorRGBA
+from visualization_msgs.msg import Marker, MarkerArray
+
+__all__ = ['waypoint_markers']
+
+NAMESPACE = 'waypoints'
+ARROW_M = (0.4, 0.08, 0.08)
+DISC_M = (0.24, 0.24, 0.02)
+TEXT_M = 0.22
+TEXT_ABOVE_M = 0.35
+
+WAITING = (0.16, 0.62, 0.95)
+CURRENT = (0.20, 0.80, 0.30)
+MISSED = (0.95, 0.30, 0.25)
+
+
+def waypoint_markers(
+    poses: Sequence[PoseStamped],
+    is_numbered: bool = True,
+    current: int | None = None,
+    missed: Collection[int] = (),
+) -> MarkerArray:
+    """
+    Make the markers of goals, which replace those from before.
+
+    Parameters
+    ----------
+    poses
+        The goals, each in its own frame.
+    is_numbered
+        Whether each has its number, from 1.
+    current, missed
+        Which one the robot drives to, and which it has not reached, from 0.
+
+    """
+    markers = [Marker(ns=NAMESPACE, action=Marker.DELETEALL)]
+    for index, pose in enumerate(poses):
+        color = MISSED if index in missed else CURRENT if index == current else WAITING
+        markers += _markers_of(index, pose, color, is_numbered)
+    return MarkerArray(markers=markers)
+
+
+def _markers_of(index: int, pose: PoseStamped, color: Any, is_numbered: bool) -> list[Marker]:
+    kinds = [(Marker.ARROW, ARROW_M), (Marker.CYLINDER, DISC_M)]
+    if is_numbered:
+        kinds.append((Marker.TEXT_VIEW_FACING, (0.0, 0.0, TEXT_M)))
+    return [
+        _marker(3 * index + place, kind, scale, pose, color, str(index + 1))
+        for place, (kind, scale) in enumerate(kinds)
+    ]
+
+
+def _marker(
+    number: int, kind: int, scale: Any, pose: PoseStamped, color: Any, text: str
+) -> Marker:
+    marker = Marker(ns=NAMESPACE, id=number, type=kind, action=Marker.ADD)
+    marker.header.frame_id = pose.header.frame_id  # without a stamp: where the frame is now
+    at, turn = marker.pose.position, marker.pose.orientation
+    at.x, at.y, at.z = pose.pose.position.x, pose.pose.position.y, pose.pose.position.z
+    given = pose.pose.orientation
+    turn.x, turn.y, turn.z, turn.w = given.x, given.y, given.z, given.w
+    at.z += 0.02
+    marker.scale.x, marker.scale.y, marker.scale.z = scale
+    red, green, blue = color
+    marker.color = ColorRGBA(r=red, g=green, b=blue, a=1.0)
+    if kind == Marker.TEXT_VIEW_FACING:
+        marker.text = text
+        at.z += TEXT_ABOVE_M
+        marker.color = ColorRGBA(r=1.0, g=1.0, b=1.0, a=1.0)
+    return marker

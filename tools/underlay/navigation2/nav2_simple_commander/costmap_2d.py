@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A costmap to look into from Python."""
+
+# ruff: noqa: N802
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+__all__ = ['PyCostmap2D']
+
+
+class PyCostmap2D:
+    """
+    A costmap, as `BasicNavigator.getGlobalCostmap` returns it.
+
+    Parameters
+    ----------
+    occupancy_map
+        A `nav_msgs/OccupancyGrid` or a `nav2_msgs/Costmap`.
+
+    """
+
+    def __init__(self, occupancy_map: Any) -> None:
+        info = getattr(occupancy_map, 'info', None)
+        if info is None:
+            info = occupancy_map.metadata
+            self.size_x, self.size_y = info.size_x, info.size_y
+            self.costmap_timestamp = info.update_time
+        else:
+            self.size_x, self.size_y = info.width, info.height
+            self.costmap_timestamp = info.map_load_time
+        self.resolution = info.resolution
+        self.origin_x = info.origin.position.x
+        self.origin_y = info.origin.position.y
+        self.global_frame_id = occupancy_map.header.frame_id
+        self.costmap = np.asarray(occupancy_map.data).astype(np.uint8)
+
+    def getSizeInCellsX(self) -> int:
+        """Return how many cells it has along x."""
+        return int(self.size_x)
+
+    def getSizeInCellsY(self) -> int:
+        """Return how many cells it has along y."""
+        return int(self.size_y)
+
+    def getSizeInMetersX(self) -> float:
+        """Return how far it is from the centre of the first cell along x to that of the last."""
+        return float((self.size_x - 1 + 0.5) * self.resolution)
+
+    def getSizeInMetersY(self) -> float:
+        """Return how far it is from the centre of the first cell along y to that of the last."""
+        return float((self.size_y - 1 + 0.5) * self.resolution)
+
+    def getOriginX(self) -> float:
+        """Return x of its corner in m."""
+        return float(self.origin_x)
+
+    def getOriginY(self) -> float:
+        """Return y of its corner in m."""
+        return float(self.origin_y)
+
+    def getResolution(self) -> float:
+        """Return the size of a cell in m."""
+        return float(self.resolution)
+
+    def getGlobalFrameID(self) -> str:
+        """Return its frame."""
+        return str(self.global_frame_id)
+
+    def getCostmapTimestamp(self) -> Any:
+        """Return when it was made."""
+        return self.costmap_timestamp
+
+    def getCostXY(self, mx: int, my: int) -> Any:
+        """Return the cost of a cell by its column and row."""
+        return np.uint8(self.costmap[self.getIndex(mx, my)])
+
+    def getCostIdx(self, index: int) -> Any:
+        """Return the cost of a cell by its index."""
+        return np.uint8(self.costmap[index])
+
+    def setCost(self, mx: int, my: int, cost: int) -> None:
+        """Set the cost of a cell by its column and row."""
+        self.costmap[self.getIndex(mx, my)] = np.uint8(cost)
+
+    def mapToWorld(self, mx: int, my: int) -> tuple[float, float]:
+        """Return the centre of a cell in m."""
+        return (
+            self.origin_x + (mx + 0.5) * self.resolution,
+            self.origin_y + (my + 0.5) * self.resolution,
+        )
+
+    def worldToMapValidated(self, wx: float, wy: float) -> tuple[int | None, int | None]:
+        """Return column and row of the cell at a point in m; (None, None) outside."""
+        mx = math.floor((wx - self.origin_x) / self.resolution)
+        my = math.floor((wy - self.origin_y) / self.resolution)
+        if 0 <= mx < self.size_x and 0 <= my < self.size_y:
+            return mx, my
+        return None, None
+
+    worldToMap = worldToMapValidated  # noqa: N815
+
+    def getIndex(self, mx: int, my: int) -> int:
+        """Return the index of a cell by its column and row."""
+        return int(my * self.size_x + mx)

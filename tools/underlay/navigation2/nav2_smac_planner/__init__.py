@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The Smac planners: a search in the plane that minds costs, with smooth paths."""
+
+from nav2_smac_planner.smac_planner_2d import SmacPlanner2D
+from nav2_smac_planner.smac_planner_hybrid import SmacPlannerHybrid
+from nav2_smac_planner.smac_planner_lattice import SmacPlannerLattice
+
+__all__ = ['SmacPlanner2D', 'SmacPlannerHybrid', 'SmacPlannerLattice']

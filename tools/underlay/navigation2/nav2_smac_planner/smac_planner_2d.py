@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The planner `nav2_smac_planner::SmacPlanner2D`."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass
+
+from nav2_costmap_2d.costmap_node import Costmap2DROS
+from nav2_planner.global_planner import GlobalPlanner, poses_along
+from nav2_planner.grid_planner import GridPlanner
+from nav2_planner.route import SearchOptions, weight_table
+from nav2_smac_planner.smoothing import Smoothing, UnsmoothedPlan
+from nav2_util.geometry import Pose2D
+from nav2_util.lifecycle_node import LifecycleNode
+from nav2_util.parameters import parameter
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ['SmacPlanner2D']
+
+_MODELS = ('MOORE', 'VON_NEUMANN', '2D')
+
+
+@dataclass(frozen=True)
+class Smac2DParameters:
+    """The parameters of the search in the plane."""
+
+    tolerance: float = parameter(
+        0.125, 'How far from a goal that cannot be reached the path may end, in m.', low=0.0
+    )
+    downsample_costmap: bool = parameter(
+        False, 'Whether to search in larger cells, each at the highest cost in it.'
+    )
+    downsampling_factor: int = parameter(
+        1, 'How many cells become one along each axis.', low=1, high=100
+    )
+    allow_unknown: bool = parameter(True, 'Whether to plan through unknown space.')
+    max_iterations: int = parameter(
+        1_000_000, 'Give up when more cells than that are expanded; -1 for no limit.'
+    )
+    max_on_approach_iterations: int = parameter(
+        1000, 'The nearest cell within the tolerance is found without iterations.'
+    )
+    motion_model_for_search: str = parameter(
+        'MOORE',
+        'Whether to search in 8 directions or in 4, and pull the path taut afterwards.',
+        choices=_MODELS,
+    )
+    terminal_checking_interval: int = parameter(
+        5000, 'After how many cells a canceled goal is noticed; it is between two paths.', low=1
+    )
+    max_planning_time: float = parameter(2.0, 'Give up after this time in s.', low=0.0)
+    cost_travel_multiplier: float = parameter(
+        2.0, 'How much more a metre costs at the highest cost than in free space.', low=0.0
+    )
+    use_final_approach_orientation: bool = parameter(
+        False, 'Whether the last pose faces along the path, and not as the goal.'
+    )
+
+
+class SmacPlanner2D(GlobalPlanner):
+    """Plans a smooth path for a robot that goes in any direction."""
+
+    def __init__(self, node: LifecycleNode, name: str, costmap: Costmap2DROS) -> None:
+        super().__init__(node, name, costmap)
+        self._parameters = node.parameters.declare(Smac2DParameters, prefix=name)
+        self._smoothing = Smoothing(node, name)
+        self._unsmoothed = UnsmoothedPlan(node)
+        self._planners = {each: GridPlanner(each != 'VON_NEUMANN') for each in _MODELS}
+
+    def create_plan(
+        self, start: Pose2D, goal: Pose2D
+    ) -> Generator[None, None, npt.NDArray[np.float64]]:
+        """Plan a path; see `GlobalPlanner`."""
+        values = self._parameters.current
+        grid = self.costmap.grid
+        options = SearchOptions(
+            weight_table(values.cost_travel_multiplier, allow_unknown=values.allow_unknown),
+            values.tolerance,
+            factor=values.downsampling_factor if values.downsample_costmap else 1,
+            max_cells=max(values.max_iterations, 0),
+            max_time_s=values.max_planning_time,
+        )
+        planner = self._planners[values.motion_model_for_search]
+        route = yield from planner.plan(grid, start, goal, options)
+        self._unsmoothed.publish(route, self.costmap.global_frame)
+        return poses_along(
+            route,
+            start,
+            goal,
+            resolution=grid.resolution,
+            rounding=self._smoothing.rounding,
+            use_final_approach_orientation=values.use_final_approach_orientation,
+        )

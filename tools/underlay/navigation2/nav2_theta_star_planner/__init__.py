@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Theta*: the planner of straight lines in any direction."""
+
+from nav2_theta_star_planner.theta_star_planner import ThetaStarPlanner
+
+__all__ = ['ThetaStarPlanner']

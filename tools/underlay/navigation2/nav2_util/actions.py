@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An action server that works on one goal at a time, in a coroutine."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+import traceback
+from typing import Any, TYPE_CHECKING
+
+from action_msgs.msg import GoalStatus
+from nav2_util.errors import ActionAborted
+import rclpy.action
+from rclpy.action import CancelResponse, GoalResponse
+from rclpy.action.server import ServerGoalHandle
+from rclpy.task import Future
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ['ActionServer', 'GoalCanceled']
+
+_REPLACED = 'A newer goal took its place.'
+
+
+class GoalCanceled(Exception):
+    """The client has canceled the goal."""
+
+
+class ActionServer:
+    """
+    Works on one goal at a time; a newer goal takes the place of the one that runs.
+
+    Parameters
+    ----------
+    node
+        The node that offers the action.
+    kind, name
+        The type of the action and its name.
+    work
+        A coroutine function that reaches a goal, and returns then. It fills `result`,
+        calls `check` at least every 50 ms, and takes over a newer goal with `accept_pending`
+        when `is_preempt_requested`, or returns by `check`, which then ends the old goal.
+    takes_over
+        Whether `work` takes over newer goals; otherwise `check` ends the old one, and `work` is
+        called anew.
+    check_goal
+        Called with a goal before it is accepted; a text that it returns is why it is rejected.
+    result_timeout_s
+        How long the result of a goal is kept for clients that ask later; for ever if negative.
+
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        kind: Any,
+        name: str,
+        work: Callable[[Any], Awaitable[None]],
+        *,
+        takes_over: bool = False,
+        check_goal: Callable[[Any], str | None] | None = None,
+        result_timeout_s: float = 10.0,
+    ) -> None:
+        self.name = name
+        self._node, self._kind = node, kind
+        self.set_work(work, takes_over=takes_over, check_goal=check_goal)
+        self._current: ServerGoalHandle | None = None
+        self._pending: ServerGoalHandle | None = None
+        self._ends: dict[bytes, Future[Any]] = {}
+        self._is_active = self._has_to_end = False
+        self.result: Any = kind.Result()
+        """The result of the goal that runs, for `work` to fill; codes of errors are added."""
+        self._server = rclpy.action.ActionServer(
+            node,
+            kind,
+            name,
+            self._finish,
+            goal_callback=self._consider,
+            handle_accepted_callback=self._accept,
+            cancel_callback=lambda _: CancelResponse.ACCEPT,
+            result_timeout=result_timeout_s,
+        )
+
+    def set_work(
+        self,
+        work: Callable[[Any], Awaitable[None]],
+        *,
+        takes_over: bool = False,
+        check_goal: Callable[[Any], str | None] | None = None,
+    ) -> None:
+        """Change what reaches goals, with the arguments of the class."""
+        self._work, self._takes_over, self._check_goal = work, takes_over, check_goal
+
+    def activate(self) -> None:
+        """Accept goals from now on."""
+        self._is_active = True
+
+    def deactivate(self) -> None:
+        """Reject goals from now on, and end the one that runs at its next `check`."""
+        self._is_active, self._has_to_end = False, self._current is not None
+        self.reject_pending(self._unknown(), self._deactivated)
+
+    def destroy(self) -> None:
+        """End the action; clients get no result of a goal that runs still."""
+        self._is_active, self._has_to_end, self._pending = False, True, None
+        for result in self._server._result_futures.values():
+            result._callbacks = []  # which would send it by the handle that ends here
+        self._server.destroy()
+
+    @property
+    def is_running(self) -> bool:
+        """Whether a goal is being worked on."""
+        return self._current is not None
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether there are goals whose clients have not been told the end."""
+        return bool(self._ends)
+
+    @property
+    def is_cancel_requested(self) -> bool:
+        """Whether the client wants the goal that runs to end, and no newer one has come."""
+        return self._current is not None and self._current.is_cancel_requested
+
+    @property
+    def is_preempt_requested(self) -> bool:
+        """Whether a newer goal waits."""
+        return self._pending is not None
+
+    def pending_goal(self) -> Any:
+        """Return the newer goal that waits, without accepting it; None if there is none."""
+        return None if self._pending is None else self._pending.request
+
+    def check(self) -> None:
+        """
+        Leave `work` if the goal is to end now.
+
+        Raises
+        ------
+        GoalCanceled
+            The client has canceled it.
+        ActionAborted
+            The node is no longer active, or a newer goal is there that `work` does not take over.
+
+        """
+        if self._has_to_end:
+            raise ActionAborted(self._unknown(), self._deactivated)
+        if self._pending is not None and not self._takes_over:
+            raise ActionAborted(self._unknown(), _REPLACED)
+        if self.is_cancel_requested and self._pending is None:
+            raise GoalCanceled
+
+    def accept_pending(self) -> Any:
+        """End the goal that runs, as one whose place was taken; return the newer one."""
+        handle, self._pending = self._pending, None
+        if handle is None:
+            raise RuntimeError('There is no newer goal.')
+        self._end(GoalStatus.STATUS_ABORTED, self._unknown(), _REPLACED)
+        self._current, self.result = handle, self._kind.Result()
+        return handle.request
+
+    def reject_pending(self, code: int, message: str) -> None:
+        """End the newer goal that waits, because it cannot be reached; the old one goes on."""
+        handle, self._pending = self._pending, None
+        if handle is not None:
+            self._settle(handle, GoalStatus.STATUS_ABORTED, self._kind.Result(), code, message)
+
+    def publish_feedback(self, feedback: Any) -> None:
+        """Tell the client of the goal that runs how far it is."""
+        if self._current is not None and self._current.is_active:
+            self._current.publish_feedback(feedback)
+
+    @property
+    def _deactivated(self) -> str:
+        return f"'{self.name}' was deactivated."
+
+    def _unknown(self) -> int:
+        return int(getattr(self._kind.Result, 'UNKNOWN', 1))
+
+    def _consider(self, goal: Any) -> GoalResponse:
+        reason = None if self._is_active else 'the node is not active'
+        if reason is None and self._check_goal is not None:
+            reason = self._check_goal(goal)
+        if reason is None:
+            return GoalResponse.ACCEPT
+        self._node.get_logger().warning(f"Rejected a goal of '{self.name}': {reason}.")
+        return GoalResponse.REJECT
+
+    def _accept(self, handle: ServerGoalHandle) -> None:
+        self._ends[bytes(handle.goal_id.uuid)] = Future(executor=self._node.executor)
+        handle.execute()
+        if self._pending is not None:
+            self.reject_pending(self._unknown(), _REPLACED)
+        self._pending = handle
+        if self._current is None and self._node.executor is not None:
+            self._node.executor.create_task(self._run)
+
+    async def _run(self) -> None:
+        """Work on goals until none is left."""
+        while self._pending is not None and self._current is None:
+            self._current, self._pending = self._pending, None
+            self._has_to_end = False
+            self.result = self._kind.Result()
+            status, code, message = GoalStatus.STATUS_SUCCEEDED, 0, ''
+            try:
+                await self._work(self._current.request)
+            except GoalCanceled:
+                status = GoalStatus.STATUS_CANCELED
+            except ActionAborted as error:
+                status, code, message = GoalStatus.STATUS_ABORTED, error.code, str(error)
+            except Exception as error:
+                self._node.get_logger().error(traceback.format_exc())
+                status, code = GoalStatus.STATUS_ABORTED, self._unknown()
+                message = f"'{self.name}' failed: {type(error).__name__}: {error}"
+            self._end(status, code, message)
+
+    def _end(self, status: int, code: int, message: str) -> None:
+        handle, self._current = self._current, None
+        if handle is not None:
+            self._settle(handle, status, self.result, code, message)
+
+    def _settle(
+        self, handle: ServerGoalHandle, status: int, result: Any, code: int, message: str
+    ) -> None:
+        if code and hasattr(result, 'error_code'):
+            result.error_code, result.error_msg = code, message
+        # Paths are replaced once a second: that is no news.
+        if status == GoalStatus.STATUS_ABORTED and message != _REPLACED:
+            self._node.get_logger().warning(f"Aborted a goal of '{self.name}'. {message}")
+        self._ends[bytes(handle.goal_id.uuid)].set_result((status, result))
+
+    async def _finish(self, handle: ServerGoalHandle) -> Any:
+        """Wait for the end of a goal, and tell its client."""
+        goal_id = bytes(handle.goal_id.uuid)  # it may have ended before this begins
+        status, result = await self._ends[goal_id]
+        del self._ends[goal_id]
+        if status == GoalStatus.STATUS_SUCCEEDED:
+            handle.succeed()
+        elif status == GoalStatus.STATUS_CANCELED and handle.is_cancel_requested:
+            handle.canceled()
+        else:
+            handle.abort()
+        return result

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Poses in the plane, and the messages that carry them; metres and radians (REP-103)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import math
+from typing import NamedTuple
+
+from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion
+from nav_msgs.msg import Path
+import numpy as np
+import numpy.typing as npt
+from std_msgs.msg import Header
+
+__all__ = [
+    'Pose2D',
+    'angle_between',
+    'make_path',
+    'make_pose',
+    'make_pose_stamped',
+    'make_quaternion',
+    'path_poses',
+    'planar_pose',
+    'wrap_angle',
+    'yaw_of',
+]
+
+FloatArray = npt.NDArray[np.float64]
+
+
+class Pose2D(NamedTuple):
+    """A pose in the plane: x and y in m, yaw in rad, counter-clockwise from the x axis."""
+
+    x: float
+    y: float
+    yaw: float
+
+    def __matmul__(self, other: Pose2D) -> Pose2D:
+        """Return a pose that is given in this frame, in the frame in which this one is given."""
+        cos, sin = math.cos(self.yaw), math.sin(self.yaw)
+        return Pose2D(
+            self.x + cos * other.x - sin * other.y,
+            self.y + sin * other.x + cos * other.y,
+            wrap_angle(self.yaw + other.yaw),
+        )
+
+    def inverse(self) -> Pose2D:
+        """Return the pose of the outer frame in this one."""
+        cos, sin = math.cos(self.yaw), math.sin(self.yaw)
+        return Pose2D(
+            -cos * self.x - sin * self.y, sin * self.x - cos * self.y, wrap_angle(-self.yaw)
+        )
+
+    def distance_to(self, other: Pose2D) -> float:
+        """Return the distance of the two positions in m."""
+        return math.hypot(other.x - self.x, other.y - self.y)
+
+
+def wrap_angle(angle_rad: float) -> float:
+    """Return the same angle from -pi, exclusive, to pi."""
+    return math.pi - (math.pi - angle_rad) % (2.0 * math.pi)
+
+
+def angle_between(start_rad: float, end_rad: float) -> float:
+    """Return the shortest turn from one angle to another, from -pi to pi rad."""
+    return wrap_angle(end_rad - start_rad)
+
+
+def yaw_of(quaternion: Quaternion) -> float:
+    """Return the yaw of an orientation in rad."""
+    x, y, z, w = quaternion.x, quaternion.y, quaternion.z, quaternion.w
+    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+def make_quaternion(yaw_rad: float) -> Quaternion:
+    """Return the orientation of a yaw."""
+    return Quaternion(z=math.sin(0.5 * yaw_rad), w=math.cos(0.5 * yaw_rad))
+
+
+def planar_pose(pose: Pose) -> Pose2D:
+    """Return what a pose is in the plane."""
+    return Pose2D(pose.position.x, pose.position.y, yaw_of(pose.orientation))
+
+
+def make_pose(pose: Pose2D) -> Pose:
+    """Return the message of a pose on the ground."""
+    message = Pose(orientation=make_quaternion(pose.yaw))
+    message.position.x, message.position.y = float(pose.x), float(pose.y)
+    return message
+
+
+def make_pose_stamped(pose: Pose2D, frame: str, stamp: object) -> PoseStamped:
+    """Return the stamped message of a pose; the stamp is a `builtin_interfaces/Time`."""
+    message = PoseStamped(pose=make_pose(pose))
+    message.header.frame_id, message.header.stamp = frame, stamp
+    return message
+
+
+def make_path(poses: FloatArray | Iterable[Pose2D], frame: str, stamp: object) -> Path:
+    """
+    Return the message of a path.
+
+    Parameters
+    ----------
+    poses
+        (N, 3) array of x, y (m) and yaw (rad), or poses.
+    frame, stamp
+        The header of the path and of each pose.
+
+    """
+    path = Path()
+    path.header.frame_id, path.header.stamp = frame, stamp
+    rows = np.array([*poses], np.float64).reshape(-1, 3)
+    half_yaws = 0.5 * rows[:, 2]
+    places = rows[:, 0].tolist(), rows[:, 1].tolist()
+    turns = np.sin(half_yaws).tolist(), np.cos(half_yaws).tolist()
+    path.poses = [
+        _stamped_in_plane(x, y, sine, cosine, frame, stamp)
+        for x, y, sine, cosine in zip(*places, *turns)
+    ]
+    return path
+
+
+def _stamped_in_plane(
+    x: float, y: float, sine: float, cosine: float, frame: str, stamp: object
+) -> PoseStamped:
+    # The constructors of messages take ten times as long, which counts for whole paths.
+    make = object.__new__
+    message = make(PoseStamped)
+    header, pose = message._header, message._pose = make(Header), make(Pose)
+    point, turn = pose._position, pose._orientation = make(Point), make(Quaternion)
+    header._stamp, header._frame_id = stamp, frame
+    point._x, point._y, point._z = x, y, 0.0
+    turn._x, turn._y, turn._z, turn._w = 0.0, 0.0, sine, cosine
+    for each in (message, header, pose, point, turn):
+        each._check_fields = False
+    return message
+
+
+def path_poses(path: Path) -> FloatArray:
+    """Return the (N, 3) array of x, y (m) and yaw (rad) of a path."""
+    values = [
+        (p.x, p.y, q.x, q.y, q.z, q.w)
+        for p, q in ((each.pose.position, each.pose.orientation) for each in path.poses)
+    ]
+    px, py, x, y, z, w = np.array(values, np.float64).reshape(-1, 6).T
+    yaws = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+    return np.column_stack([px, py, yaws])

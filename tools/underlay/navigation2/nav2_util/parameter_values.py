@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Values of parameters: which types and limits they have, and how they are converted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import difflib
+import math
+from typing import Any
+
+from rclpy.parameter import Parameter
+
+__all__ = ['Spec', 'check_limits', 'coerced', 'typed_parameter']
+
+
+@dataclass(frozen=True)
+class Spec:
+    """What is known of a parameter beside its name, type and default."""
+
+    description: str
+    low: float | None
+    high: float | None
+    choices: tuple[Any, ...]
+    name: str | None
+    read_only: bool
+
+
+def typed_parameter(name: str, value: Any, like: Any) -> Parameter:
+    """Return a parameter of the type that its default has, also for an empty list."""
+    if isinstance(value, list) and not value:
+        first = like[0] if like else ''
+        kinds = {
+            bool: Parameter.Type.BOOL_ARRAY,
+            int: Parameter.Type.INTEGER_ARRAY,
+            float: Parameter.Type.DOUBLE_ARRAY,
+        }
+        return Parameter(name, kinds.get(type(first), Parameter.Type.STRING_ARRAY), [])
+    return Parameter(name, value=value)
+
+
+def coerced(value: Any, like: Any) -> Any:
+    """Return a value as the type of another one; ValueError says why that cannot be."""
+    if isinstance(like, list):
+        if isinstance(value, (str, bytes)) or not hasattr(value, '__iter__'):
+            raise ValueError(f'has to be a list, and is {value!r}')
+        first = like[0] if like else None
+        return [each if first is None else coerced(each, first) for each in value]
+    if isinstance(like, bool) or isinstance(value, bool):
+        if not (isinstance(like, bool) and isinstance(value, bool)):
+            raise ValueError(f'has to be {_kind(like)}, and is {value!r}')
+        return value
+    if isinstance(like, float) and isinstance(value, int):
+        return float(value)
+    if isinstance(like, int) and isinstance(value, float) and value.is_integer():
+        return int(value)
+    if type(value) is not type(like):
+        raise ValueError(f'has to be {_kind(like)}, and is {value!r}')
+    return value
+
+
+def _kind(value: Any) -> str:
+    names = {bool: 'true or false', int: 'a whole number', float: 'a number', str: 'a text'}
+    return names.get(type(value), type(value).__name__)
+
+
+def check_limits(value: Any, spec: Spec) -> None:
+    """Raise ValueError with the rest of a sentence if a value is not allowed."""
+    for each in value if isinstance(value, list) else [value]:
+        if isinstance(each, float) and math.isnan(each):
+            raise ValueError('has to be a number, and is nan')
+        if spec.choices and each not in spec.choices:
+            close = difflib.get_close_matches(str(each), [str(c) for c in spec.choices], 1, 0.6)
+            meant = f"; did you mean '{close[0]}'?" if close else ''
+            allowed = ', '.join(f"'{choice}'" for choice in spec.choices)
+            raise ValueError(f"has to be one of {allowed}, and is '{each}'{meant}")
+        if spec.low is not None and each < spec.low:
+            raise ValueError(f'has to be at least {spec.low:g}, and is {each:g}')
+        if spec.high is not None and each > spec.high:
+            raise ValueError(f'has to be at most {spec.high:g}, and is {each:g}')

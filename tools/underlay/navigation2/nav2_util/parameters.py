@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Parameters as data: a frozen dataclass names, describes and limits what a node is told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import field, fields, MISSING, replace
+from typing import Any, Generic, TYPE_CHECKING, TypeVar
+
+from nav2_util.errors import ConfigurationError
+from nav2_util.parameter_values import check_limits, coerced, Spec, typed_parameter
+from nav2_util.plugins import did_you_mean
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    SetParametersResult,
+)
+from rclpy.exceptions import InvalidParameterTypeException
+from rclpy.parameter import Parameter
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ['ParameterServer', 'ParameterSet', 'parameter']
+
+ParametersT = TypeVar('ParametersT')
+_HUGE = 1e300
+
+
+def parameter(
+    default: Any,
+    description: str,
+    *,
+    low: float | None = None,
+    high: float | None = None,
+    choices: Sequence[Any] = (),
+    name: str | None = None,
+    read_only: bool = False,
+) -> Any:
+    """
+    Return the field of a dataclass of parameters.
+
+    Parameters
+    ----------
+    default
+        Its value when nobody sets it. Its type is that of the parameter: bool, int, float, str, or
+        a list of one of them; an empty list is one of strings.
+    description
+        What it does, with the unit.
+    low, high
+        The limits of a number, both inclusive.
+    choices
+        All values that it may have.
+    name
+        Its name where that is no name of Python; by default that of the field. It may have dots.
+    read_only
+        Whether it may only be set when the node starts.
+
+    """
+    spec = Spec(description, low, high, tuple(choices), name, read_only)
+    if isinstance(default, list):
+        return field(default_factory=lambda: list(default), metadata={'spec': spec})
+    return field(default=default, metadata={'spec': spec})
+
+
+class ParameterSet(Generic[ParametersT]):
+    """
+    The values of a dataclass of parameters in a node: `current`, a new one after each change.
+
+    Objects keep the set and read `current` when they work, so that `ros2 param set` has effect.
+    """
+
+    def __init__(self, current: ParametersT) -> None:
+        self.current = current
+        self.on_change: Callable[[ParametersT], None] | None = None
+        """Called with the new snapshot after a change; may raise ValueError to refuse it."""
+
+
+class ParameterServer:
+    """
+    Declares the parameters of a node and keeps their snapshots.
+
+    A value of another type, or beyond its limits, is a ConfigurationError with a sentence when the
+    node is configured, and refused with it later.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._sets: dict[str, list[tuple[ParameterSet[Any], str]]] = {}
+        self._by_prefix: dict[tuple[str, type], ParameterSet[Any]] = {}
+        self._complained: set[str] = set()
+        self._unsupported: dict[str, str] = {}
+        node.add_on_set_parameters_callback(self._check)
+
+    def declare(self, kind: type[ParametersT], prefix: str = '') -> ParameterSet[ParametersT]:
+        """
+        Declare all parameters of a dataclass, or return the set if that was done before.
+
+        Parameters
+        ----------
+        kind
+            A frozen dataclass with fields made by `parameter`.
+        prefix
+            What stands before their names and a dot, such as the name of a plugin.
+
+        Raises
+        ------
+        ConfigurationError
+            A value that was given at the start has another type or is not allowed.
+
+        """
+        known = self._by_prefix.get((prefix, kind))
+        if known is not None:
+            return known
+        values: dict[str, Any] = {}
+        names: dict[str, str] = {}
+        for each in fields(kind):  # type: ignore[arg-type]
+            spec: Spec = each.metadata['spec']
+            full = _full(prefix, spec.name or each.name)
+            default = getattr(kind, each.name, None)
+            if default is None and each.default_factory is not MISSING:
+                default = each.default_factory()
+            values[each.name] = self._declare_one(full, default, spec)
+            names[full] = each.name
+        found = ParameterSet(kind(**values))
+        self._by_prefix[prefix, kind] = found
+        for full, name in names.items():
+            self._sets.setdefault(full, []).append((found, name))
+        return found
+
+    def declare_value(self, name: str, default: Any, description: str) -> Any:
+        """Declare a single parameter whose name is only known now; return its value."""
+        if self._node.has_parameter(name):
+            return self._node.get_parameter(name).value
+        return self._declare_one(name, default, Spec(description, None, None, (), None, False))
+
+    def declare_unsupported(self, names: Mapping[str, str], prefix: str = '') -> None:
+        """
+        Say, once for each that is set, that a parameter of Nav2 has no effect here.
+
+        Parameters
+        ----------
+        names
+            The names of parameters and what happens instead, as the rest of a sentence.
+        prefix
+            What stands before the names and a dot.
+
+        """
+        for name, instead in names.items():
+            self._unsupported[_full(prefix, name)] = instead
+
+    def report(self) -> None:
+        """Log which parameters were given that have no effect, and what was probably meant."""
+        given = self._node._parameter_overrides
+        unknown = [
+            name
+            for name in given
+            if not self._node.has_parameter(name) and name not in self._complained
+        ]
+        self._complained.update(unknown)
+        log = self._node.get_logger()
+        for name in sorted(unknown):
+            if name in self._unsupported:
+                log.warning(f"The parameter '{name}' has no effect: {self._unsupported[name]}.")
+            elif not name.startswith('qos_overrides.'):
+                log.warning(f"There is no parameter '{name}'.{self._advice(name)}")
+
+    def _advice(self, name: str) -> str:
+        known = [*self._node._parameters, *self._unsupported]
+        return did_you_mean(name, known, 0.75) or ' It has no effect.'
+
+    def _declare_one(self, name: str, default: Any, spec: Spec) -> Any:
+        if self._node.has_parameter(name):
+            return self._node.get_parameter(name).value
+        given = self._node._parameter_overrides.get(name)
+        if given is not None and given.value is not None:
+            try:
+                value = coerced(given.value, default)
+                check_limits(value, spec)
+            except ValueError as error:
+                raise ConfigurationError(f"The parameter '{name}' {error}.") from error
+            # rclpy takes an integer for no floating-point number; parameter files mix them.
+            self._node._parameter_overrides[name] = typed_parameter(name, value, default)
+        descriptor = ParameterDescriptor(
+            name=name, description=spec.description, read_only=spec.read_only, dynamic_typing=True
+        )
+        if isinstance(default, float) and (spec.low is not None or spec.high is not None):
+            low = -_HUGE if spec.low is None else spec.low
+            high = _HUGE if spec.high is None else spec.high
+            descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+        elif isinstance(default, int) and spec.low is not None and spec.high is not None:
+            descriptor.integer_range = [
+                IntegerRange(from_value=int(spec.low), to_value=int(spec.high))
+            ]
+        if spec.choices:
+            allowed = ', '.join(str(choice) for choice in spec.choices)
+            descriptor.additional_constraints = f'One of {allowed}.'
+        try:
+            declared = self._node.declare_parameter(name, default, descriptor)
+        except InvalidParameterTypeException as error:
+            raise ConfigurationError(str(error)) from error
+        value = declared.value
+        return default if value is None else coerced(value, default)
+
+    def _check(self, parameters: Sequence[Parameter]) -> SetParametersResult:
+        """Refuse values that are not allowed; swap the snapshots of the others."""
+        changed: dict[int, tuple[ParameterSet[Any], dict[str, Any]]] = {}
+        for each in parameters:
+            for found, name in self._sets.get(each.name, ()):
+                try:
+                    value = coerced(each.value, getattr(found.current, name))
+                    check_limits(value, _spec_of(found.current, name))
+                except ValueError as error:
+                    return _refused(f"The parameter '{each.name}' {error}.")
+                changed.setdefault(id(found), (found, {}))[1][name] = value
+        new = [(found, replace(found.current, **values)) for found, values in changed.values()]
+        for found, snapshot in new:
+            if found.on_change is not None:
+                try:
+                    found.on_change(snapshot)
+                except ValueError as error:
+                    return _refused(str(error))
+        for found, snapshot in new:
+            found.current = snapshot
+        return SetParametersResult(successful=True)
+
+
+def _full(prefix: str, name: str) -> str:
+    return f'{prefix}.{name}' if prefix else name
+
+
+def _spec_of(current: Any, name: str) -> Spec:
+    spec: Spec = next(f for f in fields(current) if f.name == name).metadata['spec']
+    return spec
+
+
+def _refused(reason: str) -> SetParametersResult:
+    return SetParametersResult(successful=False, reason=reason)

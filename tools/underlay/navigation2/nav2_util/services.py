@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Services that answer later, and calls that do not wait for ever; both in coroutines."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from typing import Any, TYPE_CHECKING
+
+from nav2_util.errors import NavigationError
+from nav2_util.timing import steady_clock
+from rclpy.task import Future
+
+if TYPE_CHECKING:
+    from rclpy.client import Client
+    from rclpy.node import Node
+    from rclpy.service import Service
+
+__all__ = ['ServiceError', 'call', 'create_async_service', 'wait_for']
+
+_LOOK_S = 0.05
+
+
+class ServiceError(NavigationError):
+    """A service is not there, or has not answered."""
+
+
+def create_async_service(
+    node: Node, kind: Any, name: str, callback: Callable[[Any, Any], Awaitable[Any]]
+) -> Service:
+    """
+    Create a service whose callback is a coroutine function.
+
+    Parameters
+    ----------
+    node, kind, name
+        As for `Node.create_service`.
+    callback
+        Takes request and response, and returns the response when it is there.
+
+    """
+    headers: list[Any] = []
+
+    def begin(request: Any, response: Any) -> None:
+        headers.append((request, response))
+
+    async def answer(request: Any, response: Any, header: Any) -> None:
+        send(await callback(request, response), header)
+
+    def send_later(_: Any, header: Any) -> None:
+        if node.executor is not None:
+            node.executor.create_task(answer, *headers.pop(), header)
+
+    service = node.create_service(kind, name, begin)
+    send = service.send_response
+    service.send_response = send_later
+    return service
+
+
+async def wait_for(node: Node, future: Future[Any], timeout_s: float) -> bool:
+    """Return whether a future is done within a time in s of a clock that nobody sets."""
+    if future.done():
+        return True
+    end: Future[None] = Future(executor=node.executor)
+
+    def finish(_: Any = None) -> None:
+        if not end.done():
+            end.set_result(None)
+
+    timer = node.create_timer(timeout_s, finish, clock=steady_clock())
+    future.add_done_callback(finish)
+    try:
+        await end
+    finally:
+        node.destroy_timer(timer)
+    return bool(future.done())
+
+
+async def call(node: Node, client: Client, request: Any, timeout_s: float) -> Any:
+    """
+    Call a service and return its response.
+
+    Parameters
+    ----------
+    node, client
+        The node whose executor goes on with the coroutine, and its client.
+    request
+        What is sent.
+    timeout_s
+        How long the service and its answer may take to come, together, in s.
+
+    Raises
+    ------
+    ServiceError
+        The service is not there, or does not answer, in this time.
+
+    """
+    left_s = timeout_s
+    while not client.service_is_ready():
+        if left_s <= 0.0:
+            raise ServiceError(f"The service '{client.srv_name}' is not there.")
+        await wait_for(node, Future(), _LOOK_S)
+        left_s -= _LOOK_S
+    answer = client.call_async(request)
+    if not await wait_for(node, answer, max(left_s, _LOOK_S)):
+        client.remove_pending_request(answer)
+        raise ServiceError(
+            f"The service '{client.srv_name}' has not answered within {timeout_s:g} s."
+        )
+    return answer.result()

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where frames are: one buffer of transforms for all nodes of a process."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from nav2_util.errors import NavigationError
+from nav2_util.geometry import planar_pose, Pose2D, yaw_of
+from rclpy.context import Context
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.time import Time
+from tf2_ros import Buffer, TransformException, TransformListener
+
+__all__ = ['TransformError', 'Transforms']
+
+
+class TransformError(NavigationError):
+    """A frame is not known, or not at that time."""
+
+
+class _Shared:
+    """The buffer of a process, and the node that fills it."""
+
+    def __init__(self, node: Node) -> None:
+        self.users = 0
+        self.node = Node(
+            'transform_listener',
+            namespace=node.get_namespace(),
+            context=node.context,
+            # The rules of the process are meant for others, such as the name of its main node.
+            use_global_arguments=False,
+            cli_args=[
+                '--ros-args',
+                *(
+                    word
+                    for topic in ('/tf', '/tf_static')
+                    for word in ('-r', f'{topic}:={node.resolve_topic_name(topic)}')
+                ),
+            ],
+            enable_rosout=False,
+            start_parameter_services=False,
+            parameter_overrides=[
+                Parameter('use_sim_time', value=node.get_parameter('use_sim_time').value)
+            ],
+        )
+        self.buffer = Buffer(node=self.node)
+        self.listener = TransformListener(self.buffer, self.node)
+
+
+_shared: dict[tuple[Context, str], _Shared] = {}
+
+
+class Transforms:
+    """
+    What a node knows of frames; all nodes of a process that listen to the same topics share it.
+
+    Parameters
+    ----------
+    node
+        A node; its topics `tf` and `tf_static` count.
+
+    """
+
+    def __init__(self, node: Any) -> None:
+        self._key = node.context, node.resolve_topic_name('/tf')
+        if self._key not in _shared:
+            _shared[self._key] = _Shared(node)
+        self._entry = _shared[self._key]
+        self._entry.users += 1
+        self._is_open = True
+        self.buffer: Buffer = self._entry.buffer
+        self.node: Node = self._entry.node
+        """The node that listens, which has to be run."""
+
+    def close(self) -> None:
+        """Let go of the buffer; the last user ends its listener."""
+        if not self._is_open:
+            return
+        self._is_open = False
+        self._entry.users -= 1
+        if not self._entry.users:
+            del _shared[self._key]
+            self._entry.listener.unregister()
+            self._entry.node.destroy_node()
+
+    def pose_of(
+        self, frame: str, in_frame: str, time: Time | None = None, not_older_s: float | None = None
+    ) -> Pose2D:
+        """
+        Return where a frame is in another one.
+
+        Parameters
+        ----------
+        frame, in_frame
+            Names of frames.
+        time
+            When; by default the newest time for which it is known.
+        not_older_s
+            Refuse a newest transform that is older than this, in s.
+
+        Raises
+        ------
+        TransformError
+            It is not known.
+
+        """
+        try:
+            found = self.buffer.lookup_transform(in_frame, frame, time or Time())
+        except TransformException as error:
+            raise TransformError(
+                f"The pose of '{frame}' in '{in_frame}' is not known: {error}"
+            ) from error
+        if not_older_s is not None:
+            age = self._entry.node.get_clock().now() - Time.from_msg(
+                found.header.stamp, clock_type=self._entry.node.get_clock().clock_type
+            )
+            if age > Duration(seconds=not_older_s) and found.header.stamp.sec:
+                raise TransformError(
+                    f"The pose of '{frame}' in '{in_frame}' is {age.nanoseconds * 1e-9:.2f} s "
+                    f'old; the limit is {not_older_s:g} s.'
+                )
+        moved = found.transform
+        return Pose2D(moved.translation.x, moved.translation.y, yaw_of(moved.rotation))
+
+    def pose_in(self, pose: Any, in_frame: str) -> Pose2D:
+        """
+        Return a `PoseStamped` in another frame, at its time or, without one, at the newest.
+
+        Raises
+        ------
+        TransformError
+            The frame of the pose is empty, or not known there.
+
+        """
+        frame = pose.header.frame_id
+        if not frame:
+            raise TransformError('The pose has no frame_id. Give it the frame, as map.')
+        planar = planar_pose(pose.pose)
+        if frame == in_frame:
+            return planar
+        return self.pose_of(frame, in_frame, Time()) @ planar

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Velocity commands on topics, as `Twist` or, where `enable_stamped_cmd_vel` is on, stamped."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import math
+from typing import Any, NamedTuple, TYPE_CHECKING
+
+from geometry_msgs.msg import Twist, TwistStamped
+import numpy as np
+import numpy.typing as npt
+from std_msgs.msg import Header
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+__all__ = ['TwistPublisher', 'Velocity', 'subscribe_twist', 'velocity_of']
+
+
+class Velocity(NamedTuple):
+    """A velocity in the plane, in the robot's base frame: x and y in m/s, yaw rate in rad/s."""
+
+    x: float = 0.0
+    y: float = 0.0
+    yaw: float = 0.0
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether it is neither infinite nor not a number."""
+        return math.isfinite(self.x) and math.isfinite(self.y) and math.isfinite(self.yaw)
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether the robot is to stand still."""
+        return not (self.x or self.y or self.yaw)
+
+    @property
+    def linear(self) -> float:
+        """Return the speed without regard to turning, in m/s."""
+        return math.hypot(self.x, self.y)
+
+    def scaled(self, factor: float) -> Velocity:
+        """Return the same motion at another speed."""
+        return Velocity(self.x * factor, self.y * factor, self.yaw * factor)
+
+    def poses_after(self, times_s: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """
+        Return where a robot is that keeps this velocity.
+
+        Parameters
+        ----------
+        times_s
+            (K,) array.
+
+        Returns
+        -------
+        numpy.ndarray
+            (K, 3) poses x, y (m), yaw (rad) in the base frame of now: arcs, or straight lines.
+
+        """
+        yaw = self.yaw * times_s
+        # sin(yaw) / rate and (1 - cos(yaw)) / rate, which also hold without a turn.
+        along = times_s * np.sinc(yaw / math.pi)
+        across = times_s * np.sinc(0.5 * yaw / math.pi) * np.sin(0.5 * yaw)
+        return np.column_stack(
+            [self.x * along - self.y * across, self.x * across + self.y * along, yaw]
+        )
+
+
+def velocity_of(twist: Twist) -> Velocity:
+    """Return what a twist is in the plane."""
+    return Velocity(twist.linear.x, twist.linear.y, twist.angular.z)
+
+
+class TwistPublisher:
+    """
+    Publishes velocities, as messages with or without a header.
+
+    Parameters
+    ----------
+    node
+        The node that publishes.
+    topic
+        Such as `cmd_vel`.
+    is_stamped
+        Whether to publish `TwistStamped` instead of `Twist`.
+    frame
+        The frame of the header where `publish` is given none.
+
+    """
+
+    def __init__(self, node: Node, topic: str, is_stamped: bool, frame: str = 'base_link') -> None:
+        self._node, self._is_stamped, self._frame = node, is_stamped, frame
+        self._publisher = node.create_publisher(TwistStamped if is_stamped else Twist, topic, 1)
+
+    def publish(self, velocity: Velocity, header: Header | None = None) -> None:
+        """Publish a velocity; the header's default is the robot's frame, now."""
+        twist = Twist()
+        twist.linear.x, twist.linear.y = float(velocity.x), float(velocity.y)
+        twist.angular.z = float(velocity.yaw)
+        if not self._is_stamped:
+            self._publisher.publish(twist)
+            return
+        if header is None:
+            header = Header(frame_id=self._frame, stamp=self._node.get_clock().now().to_msg())
+        self._publisher.publish(TwistStamped(header=header, twist=twist))
+
+
+def subscribe_twist(
+    node: Node,
+    topic: str,
+    is_stamped: bool,
+    callback: Callable[[Velocity, Header | None], None],
+) -> None:
+    """
+    Call back with each velocity of a topic, and its header if it has one.
+
+    Velocities that are infinite or not a number are ignored with an error, at most one a second.
+    """
+
+    def receive(message: Any) -> None:
+        velocity = velocity_of(message.twist if is_stamped else message)
+        if velocity.is_finite:
+            callback(velocity, message.header if is_stamped else None)
+            return
+        node.get_logger().error(
+            f"Ignored a velocity of '{topic}' that is not finite: "
+            f'x {velocity.x}, y {velocity.y}, yaw rate {velocity.yaw}.',
+            throttle_duration_sec=1.0,
+        )
+
+    node.create_subscription(TwistStamped if is_stamped else Twist, topic, receive, 1)

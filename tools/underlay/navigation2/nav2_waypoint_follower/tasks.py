@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the robot does at a waypoint: wait, take a photo, wait for a word."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+import os
+from typing import Any
+
+import cv2
+from nav2_util import ConfigurationError, LifecycleNode, NavigationError, Rate
+from nav2_util.parameters import parameter
+from nav2_util.plugins import did_you_mean
+from nav2_util.timing import now_s, steady_clock
+from nav2_waypoint_follower.image import to_bgr
+from rclpy.qos import qos_profile_sensor_data
+from sensor_msgs.msg import Image
+from std_msgs.msg import Empty
+
+__all__ = ['TASKS', 'InputAtWaypoint', 'PhotoAtWaypoint', 'WaitAtWaypoint', 'make_task']
+
+_LOOK_HZ = 20.0
+
+
+@dataclass(frozen=True)
+class _WaitParameters:
+    enabled: bool = parameter(True, 'Whether to wait.')
+    waypoint_pause_duration: int = parameter(0, 'For how long, in ms.', low=0)
+
+
+@dataclass(frozen=True)
+class _PhotoParameters:
+    enabled: bool = parameter(True, 'Whether to take photos.')
+    image_topic: str = parameter('/camera/color/image_raw', 'Where images come from.')
+    save_dir: str = parameter('/tmp/waypoint_images', 'The folder for the photos.')
+    image_format: str = parameter('png', 'Their format: the extension of their names.')
+
+
+@dataclass(frozen=True)
+class _InputParameters:
+    enabled: bool = parameter(True, 'Whether to wait for a word.')
+    timeout: float = parameter(10.0, 'For how long, in s.', low=0.0)
+    input_topic: str = parameter('input_at_waypoint/input', 'The topic, a std_msgs/Empty.')
+
+
+class WaitAtWaypoint:
+    """
+    Waits for some time.
+
+    Parameters
+    ----------
+    node, name
+        The node whose parameters tell how, and what stands before their names.
+
+    """
+
+    def __init__(self, node: LifecycleNode, name: str) -> None:
+        self._node = node
+        self._settings = node.parameters.declare(_WaitParameters, name)
+
+    async def run(self, pose: Any, index: int, check: Callable[[], None]) -> None:
+        """Wait at a waypoint; `check` raises when that has to end."""
+        pause_s = 1e-3 * self._settings.current.waypoint_pause_duration
+        if not self._settings.current.enabled or not pause_s:
+            return
+        end_s = now_s(self._node) + pause_s
+        with Rate(self._node, _LOOK_HZ, clock=steady_clock()) as rate:
+            while now_s(self._node) < end_s:
+                check()
+                await rate.tick()
+
+
+class PhotoAtWaypoint:
+    """
+    Saves what a camera sees.
+
+    Parameters
+    ----------
+    node, name
+        The node whose parameters tell how, and what stands before their names.
+
+    """
+
+    def __init__(self, node: LifecycleNode, name: str) -> None:
+        self._settings = node.parameters.declare(_PhotoParameters, name)
+        settings = self._settings.current
+        self._image: Image | None = None
+        if not settings.enabled:
+            return
+        try:
+            os.makedirs(settings.save_dir, exist_ok=True)
+        except OSError as error:
+            raise ConfigurationError(
+                f"The folder '{settings.save_dir}' of photos cannot be made: {error.strerror}."
+            ) from error
+        node.create_subscription(Image, settings.image_topic, self._keep, qos_profile_sensor_data)
+
+    def _keep(self, image: Image) -> None:
+        self._image = image
+
+    async def run(self, pose: Any, index: int, check: Callable[[], None]) -> None:
+        """
+        Save the newest image as `<waypoint>_<time>.<format>`.
+
+        Raises
+        ------
+        NavigationError
+            There is no image, or it cannot be saved.
+
+        """
+        settings = self._settings.current
+        if not settings.enabled:
+            return
+        image = self._image
+        if image is None:
+            raise NavigationError(f"There was no image on '{settings.image_topic}' to save.")
+        name = f'{index}_{image.header.stamp.sec}.{settings.image_format}'
+        path = os.path.join(settings.save_dir, name)
+        try:
+            pixels = to_bgr(image.data, image.height, image.width, image.step, image.encoding)
+            is_saved = cv2.imwrite(path, pixels)
+        except (ValueError, cv2.error) as error:
+            raise NavigationError(f"The photo '{path}' could not be saved: {error}") from error
+        if not is_saved:
+            raise NavigationError(f"The photo '{path}' could not be saved. Can it be written?")
+
+
+class InputAtWaypoint:
+    """
+    Waits until somebody publishes that it may go on.
+
+    Parameters
+    ----------
+    node, name
+        The node whose parameters tell how, and what stands before their names.
+
+    """
+
+    def __init__(self, node: LifecycleNode, name: str) -> None:
+        self._node = node
+        self._settings = node.parameters.declare(_InputParameters, name)
+        self._count = 0
+        node.create_subscription(Empty, self._settings.current.input_topic, self._hear, 10)
+
+    def _hear(self, _: Empty) -> None:
+        self._count += 1
+
+    async def run(self, pose: Any, index: int, check: Callable[[], None]) -> None:
+        """
+        Wait.
+
+        Raises
+        ------
+        NavigationError
+            Nobody published in time.
+
+        """
+        settings, count = self._settings.current, self._count
+        if not settings.enabled:
+            return
+        end_s = now_s(self._node) + settings.timeout
+        with Rate(self._node, _LOOK_HZ, clock=steady_clock()) as rate:
+            while self._count == count:
+                check()
+                if now_s(self._node) >= end_s:
+                    raise NavigationError(
+                        f"Nothing came on '{settings.input_topic}' within {settings.timeout:g} s."
+                    )
+                await rate.tick()
+
+
+TASKS: dict[str, Any] = {
+    'nav2_waypoint_follower::WaitAtWaypoint': WaitAtWaypoint,
+    'nav2_waypoint_follower::PhotoAtWaypoint': PhotoAtWaypoint,
+    'nav2_waypoint_follower::InputAtWaypoint': InputAtWaypoint,
+}
+"""The plugins by their official names; `/` may stand for `::`."""
+
+
+def make_task(node: LifecycleNode, name: str) -> Any:
+    """
+    Return the task that the parameters of a node name.
+
+    Raises
+    ------
+    ConfigurationError
+        There is no such type.
+
+    """
+    default = 'nav2_waypoint_follower::WaitAtWaypoint' if name == 'wait_at_waypoint' else ''
+    plugin = node.parameters.declare_value(f'{name}.plugin', default, 'The type of the task.')
+    kind = TASKS.get(plugin.replace('/', '::'))
+    if kind is None:
+        meant = did_you_mean(plugin, TASKS, 0.6) or f' There are {", ".join(TASKS)}.'
+        raise ConfigurationError(f"'{name}.plugin' is '{plugin}', which is no task.{meant}")
+    return kind(node, name)

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Which class a component is.
+
+A package registers its components in the index of resources, as C++ packages do, with the class in
+place of the library: the resource `rclcpp_components` has a line such as
+`nav2_amcl::AmclNode;nav2_amcl.amcl_node:AmclNode`. A package of Python may as well name them in
+its setup.py, as entry points of the group `rclcpp_components`.
+"""
+
+from __future__ import annotations
+
+import difflib
+from importlib import import_module
+from importlib.metadata import entry_points
+from typing import Any
+
+from ament_index_python.packages import get_package_prefix, PackageNotFoundError
+from ament_index_python.resources import get_resource
+
+__all__ = ['ComponentError', 'find_component', 'registered_components']
+
+GROUP = 'rclcpp_components'
+
+
+class ComponentError(Exception):
+    """A component cannot be loaded or unloaded; the text says why."""
+
+
+def registered_components(package: str) -> dict[str, str]:
+    """Return the places, as `module:class`, of the components of a package by their names."""
+    found: dict[str, str] = {}
+    for each in entry_points(group=GROUP):
+        if each.name.startswith(f'{package}::'):
+            found[each.name] = each.value
+    try:
+        content, _ = get_resource(GROUP, package)
+    except LookupError:
+        return found
+    for line in content.splitlines():
+        name, _, place = line.partition(';')
+        if name:
+            found[name.strip()] = place.strip()
+    return found
+
+
+def find_component(package: str, name: str) -> Any:
+    """
+    Return the class of a component.
+
+    Parameters
+    ----------
+    package
+        The package that registers it.
+    name
+        Its name there, such as `nav2_amcl::AmclNode`.
+
+    Raises
+    ------
+    ComponentError
+        There is no such component, or its module cannot be imported.
+
+    """
+    components = registered_components(package)
+    if name not in components:
+        raise ComponentError(_why_not(package, name, list(components)))
+    module, _, attribute = components[name].partition(':')
+    if not attribute or '/' in module:
+        raise ComponentError(
+            f"'{name}' is a library of C++ ({components[name]}); this container loads classes of "
+            'Python only'
+        )
+    try:
+        return getattr(import_module(module), attribute)
+    except (ImportError, AttributeError) as error:
+        raise ComponentError(f"'{name}' cannot be imported from '{module}': {error}") from error
+
+
+def _why_not(package: str, name: str, known: list[str]) -> str:
+    if not known:
+        try:
+            get_package_prefix(package)
+        except (PackageNotFoundError, ValueError):
+            return f"Could not find the package '{package}' in the index of resources"
+        return f"The package '{package}' registers no components"
+    close = difflib.get_close_matches(name, known, 1, 0.5)
+    meant = f"Did you mean '{close[0]}'?" if close else f'It has {", ".join(known)}.'
+    return f"Failed to find the class '{name}' in the package '{package}'. {meant}"

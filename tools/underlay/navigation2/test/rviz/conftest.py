@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the tests of the page share can be imported."""
+
+from pathlib import Path
+import sys
+
+sys.path.insert(0, str(Path(__file__).parent))

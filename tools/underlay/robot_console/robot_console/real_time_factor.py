@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How fast the time of a simulated world passes."""
+
+from __future__ import annotations
+
+import math
+import time
+
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from std_msgs.msg import Float64
+
+__all__ = ['RealTimeFactor']
+
+TOPIC = 'real_time_factor'
+STALE_S = 3.0
+"""Simulators say it once a second: one that is silent for longer is paused, or gone."""
+
+
+class RealTimeFactor:
+    """Hears what a simulator says on the topic `real_time_factor`."""
+
+    def __init__(self, node: Node) -> None:
+        """Begin to listen."""
+        self._node = node
+        self._heard: tuple[float, float] | None = None
+        newest = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+        self._subscription = node.create_subscription(Float64, TOPIC, self._hear, newest)
+
+    def factor(self, now_s: float) -> float | None:
+        """Return seconds of the world in a real one, None if nobody has said so lately."""
+        if self._heard is None or now_s - self._heard[0] > STALE_S:
+            return None
+        return self._heard[1]
+
+    def close(self) -> None:
+        """End to listen."""
+        self._node.destroy_subscription(self._subscription)
+
+    def _hear(self, message: Float64) -> None:
+        if math.isfinite(message.data):
+            self._heard = time.monotonic(), message.data

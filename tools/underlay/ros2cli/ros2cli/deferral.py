@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Execute modules when one of their names is first used.
+
+Libraries import all they may ever use. What a command nearly never uses of that takes a third of
+the time in which it starts.
+"""
+
+from __future__ import annotations
+
+from importlib.machinery import ModuleSpec, PathFinder
+from importlib.util import module_from_spec
+import sys
+from threading import RLock
+from types import ModuleType
+from typing import Any
+
+
+def defer(*names: str, **ready: Any) -> None:
+    """
+    Put top-level modules into place that are executed later; those that are loaded stay.
+
+    Parameters
+    ----------
+    names
+        The modules.
+    ready
+        Functions which somebody imports by name, and which the modules are not needed for.
+
+    """
+    for name in names:
+        module = defer_found(PathFinder.find_spec(name))
+        if module is not None:
+            module.__dict__.update(ready)
+
+
+class _Deferred(ModuleType):
+    """A module that is executed when an attribute is asked of it."""
+
+    def __getattr__(self, name: str) -> Any:
+        if name == '__path__':  # asked by the import system, to tell a package from a module
+            raise AttributeError(name)
+        with _lock:
+            if type(self) is _Deferred and self not in _in_execution:
+                _execute(self)
+        if name in self.__dict__:
+            return self.__dict__[name]
+        raise AttributeError(f"module '{self.__name__}' has no attribute '{name}'")
+
+
+_lock = RLock()
+_in_execution: list[ModuleType] = []
+
+
+def _execute(module: ModuleType) -> None:
+    """Make an ordinary module of a deferred one; other threads wait until that is done."""
+    spec = module.__spec__
+    _in_execution.append(module)
+    try:
+        if spec is not None and spec.loader is not None:
+            spec.loader.exec_module(module)
+        module.__class__ = ModuleType
+    finally:
+        _in_execution.remove(module)
+
+
+def defer_found(spec: ModuleSpec | None) -> ModuleType | None:
+    """Put a module into place that is not executed yet; do nothing if it is loaded."""
+    if spec is None or spec.name in sys.modules:
+        return None
+    module = module_from_spec(spec)
+    module.__class__ = _Deferred
+    sys.modules[spec.name] = module
+    return module

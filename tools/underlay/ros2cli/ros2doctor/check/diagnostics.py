@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Check what running nodes say of themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from ros2doctor.api.finding import Finding, Severity
+from ros2doctor.check.graph_check import GraphCheck
+from ros2doctor.facts.diagnostics import Complaint, WARN
+from ros2doctor.facts.graph import Graph
+
+
+class DiagnosticsCheck(GraphCheck):
+    """The check of the topics `diagnostics`."""
+
+    def category(self) -> str:
+        """Return the name."""
+        return 'diagnostics'
+
+    def findings(self, graph: Graph) -> Iterator[Finding]:
+        """Yield what nodes complain of."""
+        yield from diagnostics_findings(graph.complaints)
+
+
+def diagnostics_findings(complaints: Iterable[Complaint]) -> Iterator[Finding]:
+    """Yield one finding for each part of a robot that is not all right."""
+    for each in complaints:
+        yield Finding(
+            Severity.WARNING if each.level == WARN else Severity.ERROR,
+            f"'{each.name}' says: {each.message}",
+            'what this part of the robot does may not be what is expected of it',
+            'to see it as it changes: ros2 topic echo /diagnostics',
+        )

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What running nodes say of themselves on the topics `diagnostics`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib import import_module
+from typing import Any, NamedTuple
+
+DIAGNOSTICS_TYPE = 'diagnostic_msgs/msg/DiagnosticArray'
+WARN = 1
+
+
+class Complaint(NamedTuple):
+    """
+    Something that is not all right.
+
+    :param level: 1 is a warning, more is worse
+    """
+
+    name: str
+    level: int
+    message: str
+
+
+class DiagnosticsListener:
+    """Keeps the newest complaint of each part of a robot."""
+
+    def __init__(self, node: Any) -> None:
+        """Begin without a topic."""
+        self._node = node
+        self._newest: dict[str, Complaint] = {}
+        self._subscriptions: list[Any] = []
+
+    @property
+    def is_listening(self) -> bool:
+        """Tell whether there is any topic to listen to."""
+        return bool(self._subscriptions)
+
+    @property
+    def complaints(self) -> list[Complaint]:
+        """Return what is not all right."""
+        return sorted(each for each in self._newest.values() if each.level >= WARN)
+
+    def listen_to(self, types: Mapping[str, str]) -> None:
+        """Subscribe to those topics that carry diagnostics, where their type is installed."""
+        topics = [topic for topic, name in types.items() if name == DIAGNOSTICS_TYPE]
+        if not topics:
+            return
+        try:
+            message_type = import_module('diagnostic_msgs.msg').DiagnosticArray
+        except ImportError:
+            return
+        from rclpy.qos import QoSProfile, ReliabilityPolicy
+
+        profile = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+        self._subscriptions = [
+            self._node.create_subscription(message_type, topic, self.take, profile)
+            for topic in topics
+        ]
+
+    def take(self, message: Any) -> None:
+        """Take what a node says."""
+        for status in message.status:
+            level = int.from_bytes(status.level, 'little')
+            self._newest[status.name] = Complaint(status.name, level, status.message)

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How interfaces are written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+
+def command_line(interface: Any) -> str:
+    """Return the line of a command interface."""
+    available = 'available' if interface.is_available else 'unavailable'
+    claimed = 'claimed' if interface.is_claimed else 'unclaimed'
+    return f'{interface.name} [{available}] [{claimed}]'
+
+
+def print_lines(title: str, lines: Iterable[str], indent: str = '') -> None:
+    """Print a title, and lines below it."""
+    print(f'{indent}{title}')
+    for line in lines:
+        print(f'{indent}\t{line}')

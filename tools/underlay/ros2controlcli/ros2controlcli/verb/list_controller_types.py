@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 control list_controller_types`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2controlcli.manager import add_manager_arguments, ask
+from ros2controlcli.verb import VerbExtension
+
+
+class ListControllerTypesVerb(VerbExtension):
+    """List controller types and their base classes."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the controller manager."""
+        add_manager_arguments(parser)
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Print a type and its base class a line."""
+        answer = ask(args, 'list_controller_types', 'ListControllerTypes')
+        width = max(map(len, answer.types), default=0)
+        for kind, base_class in zip(answer.types, answer.base_classes):
+            print(f'{kind:<{width}} {base_class}')
+        return None

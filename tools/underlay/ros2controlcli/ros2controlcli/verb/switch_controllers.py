@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The verb `ros2 control switch_controllers`."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2cli.argument_types import positive_number
+from ros2controlcli.manager import add_manager_arguments, ask
+from ros2controlcli.verb import VerbExtension
+
+BEST_EFFORT, STRICT = 1, 2
+
+
+class SwitchControllersVerb(VerbExtension):
+    """Switch controllers in a controller manager."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
+        """Add the controllers, and how they are switched."""
+        for verb in ('deactivate', 'activate'):
+            parser.add_argument(
+                f'--{verb}',
+                nargs='*',
+                default=[],
+                metavar='CONTROLLER',
+                help=f'Name of the controllers to be {verb}d',
+            )
+        parser.add_argument(
+            '--strict', action='store_true', help='Switch all of them, or none if one cannot be'
+        )
+        parser.add_argument(
+            '--activate-asap', action='store_true', help='Activate as soon as that is possible'
+        )
+        parser.add_argument(
+            '--switch-timeout',
+            type=positive_number,
+            default=5.0,
+            metavar='SECONDS',
+            help='Timeout for switching controllers (default: %(default)s)',
+        )
+        add_manager_arguments(parser)
+
+    def main(self, *, args: argparse.Namespace) -> int | str | None:
+        """Switch the controllers; the text of an error says what could not be done."""
+        if not args.activate and not args.deactivate:
+            return 'Name controllers: --activate NAME, --deactivate NAME, or both'
+        from builtin_interfaces.msg import Duration
+
+        seconds = int(args.switch_timeout)
+        answer = ask(
+            args,
+            'switch_controller',
+            'SwitchController',
+            activate_controllers=args.activate,
+            deactivate_controllers=args.deactivate,
+            strictness=STRICT if args.strict else BEST_EFFORT,
+            activate_asap=args.activate_asap,
+            timeout=Duration(sec=seconds, nanosec=int((args.switch_timeout - seconds) * 1e9)),
+        )
+        if not answer.ok:
+            return f'Error switching controllers. {answer.message}'.rstrip()
+        print('Successfully switched controllers')
+        if answer.message:
+            print(answer.message)
+        return None

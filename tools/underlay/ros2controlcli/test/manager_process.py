@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A process that answers as a controller manager does: one that walks, and an arm."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from typing import Any
+
+from controller_manager_msgs.msg import (
+    ChainConnection,
+    ControllerState,
+    HardwareComponentState,
+    HardwareInterface,
+)
+from controller_manager_msgs.srv import (
+    ListControllers,
+    ListControllerTypes,
+    ListHardwareComponents,
+    ListHardwareInterfaces,
+    SwitchController,
+)
+from lifecycle_msgs.msg import State
+import rclpy
+from rclpy.executors import ExternalShutdownException
+
+ARM = 'arm_controller'
+JTC = 'joint_trajectory_controller/JointTrajectoryController'
+
+
+class Manager:
+    """Its answers."""
+
+    def __init__(self, node: Any) -> None:
+        """Offer the services."""
+        self._active = True
+        for kind, name, answer in (
+            (ListControllers, 'list_controllers', self._controllers),
+            (ListControllerTypes, 'list_controller_types', self._types),
+            (ListHardwareComponents, 'list_hardware_components', self._components),
+            (ListHardwareInterfaces, 'list_hardware_interfaces', self._interfaces),
+            (SwitchController, 'switch_controller', self._switch),
+        ):
+            node.create_service(kind, f'controller_manager/{name}', answer)
+
+    def _controllers(self, _: Any, response: Any) -> Any:
+        arm = ControllerState(
+            name=ARM,
+            state='active' if self._active else 'inactive',
+            type=JTC,
+            claimed_interfaces=['elbow/position'] if self._active else [],
+            required_command_interfaces=['elbow/position'],
+            required_state_interfaces=['elbow/position', 'elbow/velocity'],
+            chain_connections=[ChainConnection(name='pid', reference_interfaces=['elbow'])],
+        )
+        response.controller = [arm, ControllerState(name='walk', state='active', type='w/Walk')]
+        return response
+
+    def _types(self, _: Any, response: Any) -> Any:
+        response.types, response.base_classes = [JTC, 'w/Walk'], ['base', 'base']
+        return response
+
+    def _components(self, _: Any, response: Any) -> Any:
+        commands, states = self._both()
+        response.component = [
+            HardwareComponentState(
+                name='robot',
+                type='system',
+                plugin_name='simulation/Backend',
+                rw_rate=100,
+                state=State(id=3, label='active'),
+                command_interfaces=commands,
+                state_interfaces=states,
+            )
+        ]
+        return response
+
+    def _interfaces(self, _: Any, response: Any) -> Any:
+        response.command_interfaces, response.state_interfaces = self._both()
+        return response
+
+    def _both(self) -> tuple[list[HardwareInterface], list[HardwareInterface]]:
+        commands = [
+            HardwareInterface(name='knee/position', is_available=True, is_claimed=True),
+            HardwareInterface(name='elbow/position', is_available=True, is_claimed=self._active),
+            HardwareInterface(name='wheel/velocity'),
+        ]
+        return commands, [HardwareInterface(name=f'{name}/position') for name in ('knee', 'elbow')]
+
+    def _switch(self, request: Any, response: Any) -> Any:
+        strange = {*request.activate_controllers, *request.deactivate_controllers} - {ARM}
+        strict = request.strictness == SwitchController.Request.STRICT
+        response.ok = not strange if strict else strange == set()
+        response.message = f"There is no '{min(strange)}'." if strange else ''
+        if response.ok:
+            self._active = bool(request.activate_controllers)
+        return response
+
+
+def main() -> None:
+    """Answer until a signal comes."""
+    try:
+        rclpy.init()
+        node = rclpy.create_node('host', namespace=sys.argv[1] if sys.argv[1:] else '')
+        manager = Manager(node)
+        print('ready', flush=True)
+        rclpy.spin(node)
+        del manager
+    except (KeyboardInterrupt, ExternalShutdownException):
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        rclpy.try_shutdown()
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests of the verbs of `ros2 control` with a process that answers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from importlib.metadata import entry_points
+import os
+from pathlib import Path
+import subprocess
+import sys
+
+from domain_coordinator import domain_id
+import pytest
+from ros2cli.cli import main
+from ros2controlcli.command.control import ControlCommand
+
+Ros2 = Callable[..., 'subprocess.CompletedProcess[str]']
+PROCESS = Path(__file__).with_name('manager_process.py')
+ACTIVE = (
+    'arm_controller joint_trajectory_controller/JointTrajectoryController  active\n'
+    'walk           w/Walk                                                 active\n'
+)
+INACTIVE = ACTIVE.replace('Controller  active', 'Controller  inactive')
+
+
+@pytest.fixture(scope='module', name='domain')
+def _domain() -> Iterator[str]:
+    """Run a controller manager in a domain of its own."""
+    with domain_id() as domain:
+        variables = {**os.environ, 'ROS_DOMAIN_ID': str(domain)}
+        variables['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+        process = subprocess.Popen(
+            [sys.executable, str(PROCESS)], env=variables, stdout=subprocess.PIPE, text=True
+        )
+        try:
+            assert process.stdout is not None and process.stdout.readline() == 'ready\n'
+            yield str(domain)
+        finally:
+            process.kill()
+            process.communicate()
+
+
+@pytest.fixture(name='control')
+def _control(
+    domain: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> Ros2:
+    """Return what runs a verb where the manager is."""
+    monkeypatch.setenv('ROS_DOMAIN_ID', domain)
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+
+    def run(*words: str) -> subprocess.CompletedProcess[str]:
+        status = main(['control', *words])
+        captured = capsys.readouterr()
+        return subprocess.CompletedProcess(words, status, captured.out, captured.err)
+
+    return run
+
+
+def test_the_command_is_found() -> None:
+    """The installed package offers the command, and all verbs of its table."""
+    (command,) = entry_points(group='ros2cli.command', name='control')
+    assert command.load() is ControlCommand
+    verbs = {point.name: point.load() for point in entry_points(group='ros2controlcli.verb')}
+    assert set(verbs) == set(ControlCommand.VERBS)
+    assert all(verbs[name] is type(entry.create()) for name, entry in ControlCommand.VERBS.items())
+
+
+def test_list_controllers(control: Ros2) -> None:
+    """A controller a line, in columns."""
+    done = control('list_controllers')
+    assert (done.returncode, done.stdout, done.stderr) == (0, ACTIVE, '')
+
+
+def test_list_controllers_with_their_interfaces(control: Ros2) -> None:
+    """Below each controller, what is asked for."""
+    assert (
+        control('list_controllers', '--claimed-interfaces').stdout
+        == ACTIVE.replace(
+            'active\nwalk', 'active\n\tclaimed interfaces:\n\t\telbow/position\nwalk'
+        )
+        + '\tclaimed interfaces:\n'
+    )
+    all_of_it = control('list_controllers', '-v').stdout
+    assert all_of_it.startswith(
+        'arm_controller joint_trajectory_controller/JointTrajectoryController  active\n'
+        '\tclaimed interfaces:\n\t\telbow/position\n'
+        '\trequired state interfaces:\n\t\telbow/position\n\t\telbow/velocity\n'
+        '\trequired command interfaces:\n\t\telbow/position\n'
+        '\tchained interfaces:\n\t\tpid/elbow\n'
+        '\treference interfaces:\n'
+    )
+
+
+def test_list_controller_types(control: Ros2) -> None:
+    """A type a line, with its base class."""
+    assert control('list_controller_types').stdout == (
+        'joint_trajectory_controller/JointTrajectoryController base\n'
+        'w/Walk                                                base\n'
+    )
+
+
+def test_list_hardware_interfaces(control: Ros2) -> None:
+    """Commands say whether they are available and claimed; all are sorted."""
+    done = control('list_hardware_interfaces')
+    assert (done.returncode, done.stderr) == (0, '')
+    assert done.stdout == (
+        'command interfaces\n'
+        '\telbow/position [available] [claimed]\n'
+        '\tknee/position [available] [claimed]\n'
+        '\twheel/velocity [unavailable] [unclaimed]\n'
+        'state interfaces\n'
+        '\telbow/position\n'
+        '\tknee/position\n'
+    )
+
+
+def test_list_hardware_components(control: Ros2) -> None:
+    """A component has its state, and its state interfaces when they are asked for."""
+    text = (
+        'Hardware Component 1\n'
+        '\tname: robot\n'
+        '\ttype: system\n'
+        '\tplugin name: simulation/Backend\n'
+        '\tstate: id=3 label=active\n'
+        '\tread/write rate: 100 Hz\n'
+        '\tis_async: False\n'
+        '\tcommand interfaces\n'
+        '\t\tknee/position [available] [claimed]\n'
+        '\t\telbow/position [available] [claimed]\n'
+        '\t\twheel/velocity [unavailable] [unclaimed]\n'
+    )
+    assert control('list_hardware_components').stdout == text
+    states = '\tstate interfaces\n\t\tknee/position\n\t\telbow/position\n'
+    assert control('list_hardware_components', '--verbose').stdout == text + states
+
+
+def test_switch_controllers(control: Ros2) -> None:
+    """A controller is deactivated and activated again; the list says so."""
+    done = control('switch_controllers', '--deactivate', 'arm_controller')
+    said = 'Successfully switched controllers\n'
+    assert (done.returncode, done.stdout, done.stderr) == (0, said, '')
+    assert control('list_controllers').stdout == INACTIVE
+    assert control('switch_controllers', '--activate', 'arm_controller', '--strict').stdout == said
+    assert control('list_controllers').stdout == ACTIVE
+
+
+def test_switch_what_is_not_there(control: Ros2) -> None:
+    """What the manager cannot switch is an error with its reason."""
+    done = control('switch_controllers', '--activate', 'leg', '--strict')
+    assert (done.returncode, done.stdout) == (1, '')
+    assert done.stderr == "Error switching controllers. There is no 'leg'.\n"
+
+
+def test_switch_nothing(control: Ros2) -> None:
+    """To name no controller is a mistake."""
+    done = control('switch_controllers')
+    assert (done.returncode, done.stdout) == (1, '')
+    assert done.stderr == 'Name controllers: --activate NAME, --deactivate NAME, or both\n'
+
+
+def test_another_manager(control: Ros2) -> None:
+    """A manager that is not there is an error with one that is."""
+    done = control('list_controllers', '-c', 'controller_manger', '--spin-time', '0.5')
+    assert (done.returncode, done.stdout) == (1, '')
+    assert done.stderr == (
+        "There is no controller manager '/controller_manger'\n"
+        "Did you mean '/controller_manager'?\n"
+    )
+
+
+def test_no_manager_at_all(control: Ros2, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where there is no manager, that is said with what to look at."""
+    with domain_id() as domain:
+        monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
+        done = control('list_hardware_interfaces', '--spin-time', '0.5')
+    assert (done.returncode, done.stdout) == (1, '')
+    assert done.stderr == (
+        "There is no controller manager '/controller_manager'\n"
+        'There is none at all: start a robot, or look at ROS_DOMAIN_ID\n'
+    )

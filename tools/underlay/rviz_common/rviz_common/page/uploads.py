@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Limit what browsers upload, which viser keeps in memory until a file is complete.
+
+A browser announces a file with its size and the count of its parts, then sends the parts without
+waiting for an answer. Who may open the page may announce as many files as it likes, and of any
+size: parts of a file that was refused, or that was never announced, are dropped as they come.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from viser._messages import FileTransferPart, FileTransferStartUpload
+
+__all__ = ['LARGEST_UPLOAD_BYTES', 'Uploads']
+
+LARGEST_UPLOAD_BYTES = 10_000_000
+"""The largest file; a configuration has some thousand bytes."""
+MOST_PARTS = 200
+MOST_AT_ONCE = 4
+MEGA = 1_000_000
+
+Refusal = Callable[[FileTransferStartUpload, str], None]
+
+
+@dataclass
+class _Upload:
+    """A file that is on its way: whose it is, and what is still to come."""
+
+    owner: object
+    bytes_left: int
+    parts_left: set[int] = field(default_factory=set)
+
+
+class Uploads:
+    """Admits files to a page: each of limited size, and few at a time."""
+
+    def __init__(self) -> None:
+        self._running: dict[str, _Upload] = {}
+        self.on_refusal: Refusal = lambda start, sentence: None
+        """Called in the page's thread with the announcement of a refused file, and why."""
+
+    def admits(self, message: object, owner: object) -> bool:
+        """
+        Return whether a message is to be handled; it is, if it is none of an upload.
+
+        Parameters
+        ----------
+        message
+            A message of viser, decoded.
+        owner
+            The connection that it came by; `leave` ends what belongs to it.
+
+        """
+        if isinstance(message, FileTransferStartUpload):
+            return self._starts(message, owner)
+        if isinstance(message, FileTransferPart):
+            return self._continues(message, owner)
+        return True
+
+    def leave(self, owner: object) -> None:
+        """Forget the uploads of a connection that has ended."""
+        for key in [key for key, each in self._running.items() if each.owner is owner]:
+            del self._running[key]
+
+    def _starts(self, start: FileTransferStartUpload, owner: object) -> bool:
+        reason = self._objection(start, owner)
+        if reason:
+            self.on_refusal(start, reason)
+            return False
+        if start.part_count:
+            parts = set(range(start.part_count))
+            self._running[start.transfer_uuid] = _Upload(owner, start.size_bytes, parts)
+        return True
+
+    def _objection(self, start: FileTransferStartUpload, owner: object) -> str:
+        """Return why a file is refused, or ''."""
+        if start.size_bytes > LARGEST_UPLOAD_BYTES:
+            return (
+                f'The file has {start.size_bytes / MEGA:.1f} MB, and the largest that can be '
+                f'loaded here has {LARGEST_UPLOAD_BYTES // MEGA} MB. Choose a file that RViz has '
+                'saved.'
+            )
+        if not (0 <= start.size_bytes and 0 <= start.part_count <= MOST_PARTS):
+            return 'The size of the file makes no sense. Load the page again, and try once more.'
+        is_known = start.transfer_uuid in self._running
+        if is_known or any(each.owner is owner for each in self._running.values()):
+            return 'Another file of this page is on its way. Wait for it, or load the page again.'
+        if len(self._running) >= MOST_AT_ONCE:
+            return f'{MOST_AT_ONCE} files are on their way already. Try again in a moment.'
+        return ''
+
+    def _continues(self, part: FileTransferPart, owner: object) -> bool:
+        upload = self._running.get(part.transfer_uuid)
+        if upload is None or upload.owner is not owner or part.part_index not in upload.parts_left:
+            return False
+        upload.parts_left.remove(part.part_index)
+        upload.bytes_left -= len(part.content)
+        if upload.bytes_left < 0:
+            return False  # what is missing from now on keeps the file from ever being complete
+        if not upload.parts_left:
+            del self._running[part.transfer_uuid]
+        return True

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Why nothing comes on a topic, as far as the graph of nodes tells."""
+
+from __future__ import annotations
+
+from typing import Any, TYPE_CHECKING
+
+from rviz_common.topic_names import full_topic_name
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rclpy.qos import QoSProfile
+
+__all__ = ['reason_of_silence']
+
+
+def reason_of_silence(node: Node, kind: Any, topic: str, qos: QoSProfile) -> str:
+    """
+    Return how a sentence goes on that says that no message has come yet.
+
+    Parameters
+    ----------
+    node
+        Whose graph is looked at.
+    kind
+        The class of the messages that are subscribed.
+    topic
+        The topic, as the subscriber names it.
+    qos
+        The quality of service that the subscriber asks for.
+
+    """
+    try:
+        publishers = node.get_publishers_info_by_topic(full_topic_name(node, topic))
+    except Exception:  # rclpy has no one exception for bad names, or for a graph that is lost
+        return '.'
+    if not publishers:
+        return ': nobody publishes there.'
+    reasons = [_reason(each, _type_name(kind), qos) for each in publishers]
+    return next((reason for reason in reasons if reason == _WAITS), reasons[0])
+
+
+_WAITS = ', though somebody publishes there: it may be sent rarely.'
+
+
+def _reason(publisher: Any, type_name: str, qos: QoSProfile) -> str:
+    """Return why nothing comes from a publisher."""
+    from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+
+    who = f'{publisher.node_namespace.rstrip("/")}/{publisher.node_name}'
+    offered = publisher.qos_profile
+    if publisher.topic_type != type_name:
+        return f': {who} publishes {publisher.topic_type} there, and not {type_name}.'
+    keeps = DurabilityPolicy.TRANSIENT_LOCAL
+    if qos.durability == keeps and offered.durability == DurabilityPolicy.VOLATILE:
+        return (
+            f': {who} publishes there with the durability volatile, which does not fit. Set '
+            "'Durability Policy' to Volatile."
+        )
+    if (
+        qos.reliability == ReliabilityPolicy.RELIABLE
+        and offered.reliability == ReliabilityPolicy.BEST_EFFORT
+    ):
+        return (
+            f': {who} publishes there with the reliability best effort, which does not fit. Set '
+            "'Reliability Policy' to Best Effort."
+        )
+    if qos.durability == DurabilityPolicy.VOLATILE and offered.durability == keeps:
+        return (
+            f". {who} keeps what it has published for those who come later: set 'Durability "
+            "Policy' to Transient Local to get it."
+        )
+    return _WAITS
+
+
+def _type_name(kind: Any) -> str:
+    """Return the name of a class of messages, such as `nav_msgs/msg/Path`."""
+    package, _, _ = kind.__module__.partition('.')
+    return f'{package}/msg/{kind.__name__}'

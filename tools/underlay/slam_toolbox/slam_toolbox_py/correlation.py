@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Find where a scan fits best: a search over all poses in a window.
+
+E. Olson, "Real-time correlative scan matching", ICRA 2009: what was seen is smeared to a grid of
+likelihoods, and coarse grids, each cell of which bounds those of a finer one, narrow the search.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+from slam_toolbox_py.poses import FloatArray, rotation, wrap
+
+__all__ = ['CorrelationMatch', 'CorrelationSettings', 'correlate']
+
+_POINTS = 120
+_FULL = 255
+_KEPT = 256
+_COARSEST = 8
+_CHUNK = 400_000
+IntArray = npt.NDArray[np.int32]
+
+
+@dataclass(frozen=True)
+class CorrelationSettings:
+    """The window of a search, its steps, and how much poses far from the guess are disliked."""
+
+    half_window_m: float = 0.25
+    half_window_rad: float = 0.349
+    resolution_m: float = 0.05
+    angle_step_rad: float = 0.0349
+    smear_m: float = 0.1
+    distance_variance: float = 0.5
+    angle_variance: float = 1.0
+    minimum_distance_penalty: float = 0.5
+    minimum_angle_penalty: float = 0.9
+
+
+@dataclass(frozen=True)
+class CorrelationMatch:
+    """The best pose of a search."""
+
+    pose: FloatArray
+    """(3,) pose of the scan."""
+    response: float
+    """The mean likelihood of the points, from 0 to 1."""
+    variance_m2: float
+    """Variance of the position among poses that fit nearly as well."""
+
+
+def correlate(
+    seen: FloatArray, points: FloatArray, guess: FloatArray, settings: CorrelationSettings
+) -> CorrelationMatch:
+    """
+    Find the pose in a window around a guess at which points fit best to those that were seen.
+
+    Parameters
+    ----------
+    seen
+        (M, 2) points in m, in the frame of the guess.
+    points
+        (N, 2) points of the scan in its own frame, in m.
+    guess
+        (3,) pose of the scan.
+    settings
+        The window and its steps.
+
+    """
+    points = points[:: max(1, -(-len(points) // _POINTS))]
+    if not len(points) or not len(seen):
+        return CorrelationMatch(guess.copy(), 0.0, float('inf'))
+    reach = int(np.ceil(settings.half_window_m / settings.resolution_m))
+    count = int(np.ceil(settings.half_window_rad / settings.angle_step_rad))
+    angles = np.linspace(-1.0, 1.0, 2 * count + 1) * settings.half_window_rad
+    step = 1 if reach <= _COARSEST else _COARSEST
+    field, corner = _likelihoods(seen, settings, 2 * (reach + step) + 2)
+    base = _cells_of(points, guess, angles, corner, field.shape, reach + step, settings)
+    axis = np.arange(-reach, reach + 1, step)
+    candidates = np.stack(
+        [each.ravel() for each in np.meshgrid(np.arange(len(angles)), axis, axis, indexing='ij')]
+    ).astype(np.int32)
+    while True:
+        turn, down, right = candidates
+        likelihood = _score(_bounds(field, step), base, turn, down, right) / _FULL
+        disliked = _penalty(angles[turn], right, down, settings)
+        if step == 1:
+            break
+        kept = np.argsort(-likelihood * disliked)[:_KEPT]
+        step //= 2
+        corners = step * np.array([[0, 0, 0, 0], [0, 0, 1, 1], [0, 1, 0, 1]], dtype=np.int32)
+        candidates = (candidates[:, kept, None] + corners[:, None]).reshape(3, -1)
+    score = likelihood * disliked
+    best = int(np.argmax(score))
+    is_close = score >= score[best] - 0.1 * max(score[best], 1e-6)
+    weight = score[is_close] / score[is_close].sum() if score[best] > 0.0 else 0.0
+    offsets = settings.resolution_m * np.stack([right, down], axis=1)
+    spread = (weight * ((offsets - offsets[best])[is_close] ** 2).sum(axis=1)).sum()
+    pose = np.append(guess[:2] + offsets[best], wrap(guess[2] + angles[turn[best]]))
+    return CorrelationMatch(pose, float(likelihood[best]), float(spread))
+
+
+def _likelihoods(
+    seen: FloatArray, settings: CorrelationSettings, margin: int
+) -> tuple[npt.NDArray[np.uint8], FloatArray]:
+    """Return the grid of likelihoods, with a margin of zeros, and its corner in m."""
+    smear = int(np.ceil(3.0 * settings.smear_m / settings.resolution_m))
+    corner = seen.min(axis=0) - (margin + smear) * settings.resolution_m
+    cells = np.floor((seen - corner) / settings.resolution_m).astype(np.intp)
+    columns, rows = cells.max(axis=0) + margin + smear + 1
+    empty = np.full((rows, columns), 255, dtype=np.uint8)
+    empty[cells[:, 1], cells[:, 0]] = 0
+    distance = cv2.distanceTransform(empty, cv2.DIST_L2, 3) * settings.resolution_m
+    distance[distance > 3.0 * settings.smear_m] = np.inf
+    near = np.exp(-0.5 * (distance / settings.smear_m) ** 2)
+    return np.rint(near * _FULL).astype(np.uint8), corner
+
+
+def _cells_of(
+    points: FloatArray,
+    guess: FloatArray,
+    angles: FloatArray,
+    corner: FloatArray,
+    shape: tuple[int, ...],
+    reach: int,
+    settings: CorrelationSettings,
+) -> tuple[IntArray, int]:
+    """Return the flat cells of the points at each angle, and the cells in a row."""
+    turns = np.stack([rotation(guess[2] + angle) for angle in angles])
+    placed = np.einsum('aij,pj->api', turns, points) + guess[:2]
+    cells = np.floor((placed - corner) / settings.resolution_m)
+    columns = np.clip(cells[..., 0], reach, shape[1] - 1 - reach).astype(np.int32)
+    rows = np.clip(cells[..., 1], reach, shape[0] - 1 - reach).astype(np.int32)
+    return rows * np.int32(shape[1]) + columns, shape[1]
+
+
+def _bounds(field: npt.NDArray[np.uint8], step: int) -> npt.NDArray[np.uint8]:
+    """Return the greatest likelihood in the square of `step` cells that begins at each cell."""
+    if step == 1:
+        return field.ravel()
+    kernel = np.ones((step, step), dtype=np.uint8)
+    highest: npt.NDArray[np.uint8] = np.asarray(cv2.dilate(field, kernel, anchor=(0, 0)))
+    return highest.ravel()
+
+
+def _score(
+    field: npt.NDArray[np.uint8],
+    base: tuple[IntArray, int],
+    turn: IntArray,
+    down: IntArray,
+    right: IntArray,
+) -> FloatArray:
+    """Return the mean value of the points for each candidate."""
+    cells, columns = base
+    shift = down * np.int32(columns) + right
+    each = max(1, _CHUNK // cells.shape[1])
+    parts = [slice(i, i + each) for i in range(0, len(turn), each)]
+    sums = [
+        field[cells[turn[part]] + shift[part, None]].sum(axis=1, dtype=np.int32) for part in parts
+    ]
+    mean: FloatArray = np.concatenate(sums) / cells.shape[1]
+    return mean
+
+
+def _penalty(
+    angle: FloatArray, right: IntArray, down: IntArray, settings: CorrelationSettings
+) -> FloatArray:
+    """Return the factors, up to 1, for how far candidates are from the guess."""
+    distance2 = (right.astype(float) ** 2 + down.astype(float) ** 2) * settings.resolution_m**2
+    by_distance = np.exp(-0.5 * distance2 / settings.distance_variance)
+    by_angle = np.exp(-0.5 * angle**2 / settings.angle_variance)
+    factors: FloatArray = np.maximum(by_distance, settings.minimum_distance_penalty) * np.maximum(
+        by_angle, settings.minimum_angle_penalty
+    )
+    return factors

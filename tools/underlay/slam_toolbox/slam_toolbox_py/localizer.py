@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Localize in a finished map: scans are matched with its keyframes, and none is added."""
+
+from __future__ import annotations
+
+import numpy as np
+from slam_toolbox_py.correlation import correlate
+from slam_toolbox_py.mapper import (
+    find_again,
+    has_moved,
+    Mapper,
+    Placement,
+    placement_of,
+    trust_in_odometry,
+)
+from slam_toolbox_py.poses import compose, FloatArray, inverse, relative
+from slam_toolbox_py.refinement import refine, RefinedMatch, Surfaces
+from slam_toolbox_py.scans import Scan
+
+__all__ = ['Localizer']
+
+
+class Localizer:
+    """
+    Follows a robot in a map.
+
+    Parameters
+    ----------
+    mapper
+        The map; it stays as it is.
+    start
+        (3,) pose near which the robot is.
+
+    """
+
+    def __init__(self, mapper: Mapper, start: FloatArray) -> None:
+        self._mapper = mapper
+        self._pose = np.asarray(start, dtype=float)
+        self._starts: list[FloatArray] = [self._pose]
+        self._odometry: FloatArray | None = None
+        self._seen: tuple[tuple[int, ...], Surfaces] = ((), Surfaces([]))
+        self.map_to_odom: FloatArray = np.zeros(3)
+        """(3,) pose of the odometry frame in the map."""
+
+    def start_at(self, *poses: FloatArray) -> None:
+        """Look for the robot near some (3,) poses."""
+        self._starts = [np.asarray(pose, dtype=float) for pose in poses]
+
+    @property
+    def is_searching(self) -> bool:
+        """Whether the next scan is looked for near given poses."""
+        return bool(self._starts)
+
+    def is_due(self, odometry: FloatArray, share: float = 1.0) -> bool:
+        """Whether the robot has moved enough to match a scan; see `Mapper.is_due`."""
+        if self._starts or self._odometry is None:
+            return True
+        return has_moved(self._odometry, odometry, self._mapper.settings, share)
+
+    def add(self, scan: Scan, odometry: FloatArray) -> Placement:
+        """Place a scan that was taken at a (3,) pose of odometry."""
+        settings = self._mapper.settings
+        if self._starts or self._odometry is None:
+            match, _ = find_again(self._mapper, scan, self._starts)
+        else:
+            moved = relative(self._odometry, odometry)
+            guess, trust = compose(self._pose, moved), trust_in_odometry(moved)
+            seen = self._surfaces(guess)
+            start = correlate(seen.points, scan.points, guess, settings.local_search())
+            match = refine(seen, scan, start.pose, guess, trust)
+            if match.response < settings.link_match_minimum_response_fine:
+                match = RefinedMatch(guess, trust, match.response)
+        self._starts, self._pose = [], match.pose
+        self._odometry = np.array(odometry, dtype=float)
+        self.map_to_odom = compose(match.pose, inverse(self._odometry))
+        return placement_of(match)
+
+    def _surfaces(self, pose: FloatArray) -> Surfaces:
+        """Return what was seen near a pose; kept while the same keyframes are near."""
+        near = tuple(sorted(self._mapper.nearest(pose[:2])))
+        if near != self._seen[0]:
+            self._seen = near, self._mapper.surfaces(list(near))
+        return self._seen[1]

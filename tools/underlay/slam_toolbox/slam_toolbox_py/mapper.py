@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Where is the robot, and what has it seen: keyframes, matched one after the other.
+
+A scan is processed when the robot has moved a little. It is matched with the last ones, and
+becomes a node of the pose graph, with an edge to the one before. Loops are closed in
+`loop_closure`, in steps, after that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from slam_toolbox_py.correlation import correlate
+from slam_toolbox_py.pose_graph import Edge, PoseGraph
+from slam_toolbox_py.poses import compose, FloatArray, inverse, relative, wrap
+from slam_toolbox_py.refinement import refine, RefinedMatch, Surfaces
+from slam_toolbox_py.scans import Scan
+from slam_toolbox_py.settings import MapperSettings
+
+__all__ = [
+    'Keyframe',
+    'Mapper',
+    'Placement',
+    'find_again',
+    'has_moved',
+    'placement_of',
+    'trust_in_odometry',
+]
+
+_REFERENCES = 12
+_ANYWHERE = np.diag([1.0, 1.0, 10.0])
+_START_WINDOW_M = 1.0
+
+
+@dataclass(frozen=True)
+class Keyframe:
+    """A scan that the map is made of."""
+
+    scan: Scan
+    odometry: FloatArray
+    """(3,) pose of the base in the odometry frame when it was taken."""
+    stamp_s: float
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Where a scan was taken."""
+
+    pose: FloatArray
+    """(3,) pose of the base in the map."""
+    covariance: FloatArray
+    """(3, 3) of it, in the axes of the base, in m2 and rad2."""
+    response: float
+    """How well it fits to what was seen, from 0 to 1."""
+
+
+def placement_of(match: RefinedMatch) -> Placement:
+    """Return where a scan was taken that has matched."""
+    covariance: FloatArray = np.asarray(np.linalg.inv(match.information), dtype=np.float64)
+    return Placement(match.pose, covariance, match.response)
+
+
+class Mapper:
+    """
+    Places scans, and keeps those that the map is made of.
+
+    Parameters
+    ----------
+    settings
+        How scans are matched; may be replaced at any time.
+
+    """
+
+    def __init__(self, settings: MapperSettings | None = None) -> None:
+        self.settings = settings or MapperSettings()
+        self.graph = PoseGraph()
+        self.keyframes: list[Keyframe] = []
+        self.travelled_m: list[float] = []
+        """The way of the robot up to each keyframe."""
+        self.last_loop = -(10**6)
+        """The keyframe that has closed a loop last."""
+        self.map_to_odom: FloatArray = np.zeros(3)
+        """(3,) pose of the odometry frame in the map."""
+        self._starts: list[FloatArray] = []
+        self._session = 0
+        self._middles: list[FloatArray] = []
+
+    def start_at(self, *poses: FloatArray) -> None:
+        """Take the next scan as one that was taken near one of some (3,) poses in the map."""
+        self._starts = [np.asarray(pose, dtype=float) for pose in poses]
+        self._session = len(self.keyframes)
+
+    @property
+    def is_searching(self) -> bool:
+        """Whether the next scan is looked for near given poses."""
+        return bool(self._starts)
+
+    def is_due(self, odometry: FloatArray, share: float = 1.0) -> bool:
+        """
+        Whether the robot has moved enough for a new keyframe.
+
+        Parameters
+        ----------
+        odometry
+            (3,) pose of the base in the odometry frame.
+        share
+            The share of the least travel that is enough.
+
+        """
+        if not self.keyframes or self._starts:
+            return True
+        return has_moved(self.keyframes[-1].odometry, odometry, self.settings, share)
+
+    def add_known(self, keyframe: Keyframe, pose: FloatArray, travelled_m: float) -> None:
+        """Add a keyframe whose pose is known, without matching it and without an edge."""
+        self.keyframes.append(keyframe)
+        self.travelled_m.append(travelled_m)
+        self.graph.add_node(pose)
+
+    def pose_at(self, odometry: FloatArray) -> FloatArray:
+        """Return the pose of the base in the map, when it has a (3,) pose of odometry."""
+        return compose(self.map_to_odom, odometry)
+
+    def add(self, scan: Scan, odometry: FloatArray, stamp_s: float = 0.0) -> Placement:
+        """
+        Place a scan, and keep it.
+
+        Parameters
+        ----------
+        scan
+            What was seen.
+        odometry
+            (3,) pose of the base in the odometry frame at that time.
+        stamp_s
+            That time.
+
+        """
+        origin, way = None, 0.0
+        if not self.keyframes:
+            start = self._starts[0] if self._starts else np.asarray(odometry, dtype=float)
+            match = RefinedMatch(start, np.diag([1e6, 1e6, 1e6]), 1.0)
+        elif self._starts:
+            match, origin = find_again(self, scan, self._starts)
+        else:
+            match, origin = self._followed(scan, odometry)
+            moved = relative(self.keyframes[-1].odometry, odometry)
+            way = float(np.hypot(moved[0], moved[1]))
+        self._starts = []
+        way += self.travelled_m[-1] if self.keyframes else 0.0
+        self.add_known(Keyframe(scan, np.array(odometry, dtype=float), stamp_s), match.pose, way)
+        if origin is not None:
+            between = relative(self.graph.poses[origin], match.pose)
+            node = len(self.keyframes) - 1
+            self.graph.add_edge(Edge(origin, node, between, match.information))
+        self.follow_graph()
+        return placement_of(match)
+
+    def follow_graph(self) -> None:
+        """Take over where the newest keyframe is, after the graph has changed."""
+        if self.keyframes:
+            last = inverse(self.keyframes[-1].odometry)
+            self.map_to_odom = compose(self.graph.poses[-1], last)
+
+    def surfaces(self, nodes: list[int]) -> Surfaces:
+        """Return what the scans of nodes have seen, where the graph has them now."""
+        return Surfaces([(self.keyframes[i].scan, self.graph.poses[i]) for i in nodes])
+
+    def positions(self) -> FloatArray:
+        """Return the (N, 2) positions of keyframes, by which they are near to each other."""
+        if not self.settings.use_scan_barycenter:
+            return self.graph.poses[:, :2]
+        known = len(self._middles)
+        for each in self.keyframes[known:]:
+            self._middles.append(np.append(each.scan.barycenter, 0.0))
+        return compose(self.graph.poses, np.reshape(self._middles, (-1, 3)))[:, :2]
+
+    def nearest(self, position: FloatArray, count: int = _REFERENCES) -> list[int]:
+        """Return the keyframes that were taken nearest to a (2,) position in the map."""
+        away = np.hypot(*(self.graph.poses[:, :2] - position).T)
+        return [int(i) for i in np.argsort(away, kind='stable')[:count]]
+
+    def _followed(self, scan: Scan, odometry: FloatArray) -> tuple[RefinedMatch, int]:
+        """Match a scan with the last ones, near where odometry tells that it was taken."""
+        last = len(self.keyframes) - 1
+        moved = relative(self.keyframes[-1].odometry, odometry)
+        guess = compose(self.graph.poses[-1], moved)
+        trust = trust_in_odometry(moved)
+        if not self.settings.use_scan_matching:
+            return RefinedMatch(guess, trust, 0.0), last
+        seen = self.surfaces(self._recent())
+        start = correlate(seen.points, scan.points, guess, self.settings.local_search())
+        match = refine(seen, scan, start.pose, guess, trust)
+        if match.response < self.settings.link_match_minimum_response_fine:
+            return RefinedMatch(guess, trust, match.response), last
+        return match, last
+
+    def _recent(self) -> list[int]:
+        """Return the last keyframes that are near enough to the newest one."""
+        first = max(self._session, len(self.keyframes) - self.settings.scan_buffer_size)
+        recent = np.arange(first, len(self.keyframes))
+        away = self.graph.poses[recent, :2] - self.graph.poses[-1, :2]
+        is_near = np.hypot(*away.T) <= self.settings.scan_buffer_maximum_scan_distance
+        return [int(i) for i in recent[is_near]]
+
+
+def has_moved(
+    before: FloatArray, odometry: FloatArray, settings: MapperSettings, share: float
+) -> bool:
+    """Whether a robot has moved by a share of the least travel between (3,) poses."""
+    moved = relative(before, odometry)
+    return bool(
+        np.hypot(moved[0], moved[1]) >= share * settings.minimum_travel_distance
+        or abs(moved[2]) >= share * settings.minimum_travel_heading
+    )
+
+
+def find_again(
+    mapper: Mapper, scan: Scan, guesses: list[FloatArray], half_window_m: float = _START_WINDOW_M
+) -> tuple[RefinedMatch, int]:
+    """
+    Match a scan with those that were taken near poses; return the best match and a keyframe there.
+
+    A match that is not good enough is replaced by the first guess, with little information.
+    """
+    search, found = mapper.settings.loop_search(half_window_m), []
+    for guess in guesses:
+        near = mapper.nearest(guess[:2])
+        seen = mapper.surfaces(near)
+        start = correlate(seen.points, scan.points, guess, search)
+        found.append((refine(seen, scan, start.pose, start.pose, _ANYWHERE), near[0]))
+    match, origin = max(found, key=lambda each: each[0].response)
+    if match.response >= mapper.settings.loop_match_minimum_response_fine:
+        return match, origin
+    near = mapper.nearest(guesses[0][:2])
+    return RefinedMatch(guesses[0], _ANYWHERE, match.response), near[0]
+
+
+def trust_in_odometry(moved: FloatArray) -> FloatArray:
+    """Return the (3, 3) information of a motion, (3,), that odometry tells of."""
+    way, turn = float(np.hypot(moved[0], moved[1])), abs(float(wrap(moved[2])))
+    position = 0.01 + 0.1 * way + 0.02 * turn
+    heading = 0.02 + 0.1 * turn + 0.05 * way
+    return np.diag([position**-2, position**-2, heading**-2])

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Draw scans to an occupancy grid: how often was each cell hit, and how often swept."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+from slam_toolbox_py.poses import FloatArray, transform
+from slam_toolbox_py.scans import Scan
+
+__all__ = ['FREE', 'OCCUPIED', 'UNKNOWN', 'Grid', 'OccupancyCounts']
+
+FREE, OCCUPIED, UNKNOWN = 0, 100, -1
+_GROW_CELLS = 40
+_SHIFT = 6
+
+
+@dataclass(frozen=True)
+class Grid:
+    """An occupancy grid, as `nav_msgs/OccupancyGrid` has it."""
+
+    cells: npt.NDArray[np.int8]
+    """(rows, columns) of FREE, OCCUPIED and UNKNOWN; row 0 at the lowest y."""
+    origin: FloatArray
+    """(2,) outer corner of the cell [0, 0], in m."""
+    resolution_m: float
+
+
+class OccupancyCounts:
+    """
+    Counts of hits and passes, which grow with what is seen.
+
+    Parameters
+    ----------
+    resolution_m
+        Width of a cell.
+
+    """
+
+    def __init__(self, resolution_m: float) -> None:
+        self.resolution_m = resolution_m
+        self._corner = np.zeros(2, dtype=np.int64)
+        """The cell [0, 0], in cells from the origin of the map: x, y."""
+        self._hits = np.zeros((0, 0), dtype=np.int32)
+        self._passes = np.zeros((0, 0), dtype=np.int32)
+
+    def add(self, scan: Scan, pose: FloatArray) -> None:
+        """
+        Count what a scan hits and sweeps.
+
+        The area between the beams, up to a cell before their ends, counts as swept once.
+
+        Parameters
+        ----------
+        scan, pose
+            The scan and its (3,) pose in the map.
+
+        """
+        points = transform(pose, scan.points)
+        sensor = transform(pose, scan.origin[None])
+        outline = transform(pose, scan.outline) - sensor
+        length = np.hypot(*outline.T)
+        shorter = np.maximum(length - self.resolution_m, 0.0) / np.maximum(length, 1e-6)
+        outline = sensor + outline * shorter[:, None]
+        self._cover(np.concatenate([points, outline, sensor]))
+        swept = np.zeros(self._hits.shape, dtype=np.uint8)
+        # A cell's middle has whole coordinates in what OpenCV draws.
+        corners = outline / self.resolution_m - self._corner - 0.5
+        fixed = np.rint(corners * (1 << _SHIFT)).astype(np.int32)
+        cv2.fillPoly(swept, [fixed], 1, lineType=cv2.LINE_8, shift=_SHIFT)
+        cells = np.floor(points / self.resolution_m).astype(np.int64) - self._corner
+        swept[cells[:, 1], cells[:, 0]] = 0
+        self._passes += swept
+        hit = np.zeros(self._hits.shape, dtype=bool)
+        hit[cells[:, 1], cells[:, 0]] = True
+        self._hits += hit
+
+    def grid(self, min_pass_through: int, occupancy_threshold: float) -> Grid | None:
+        """
+        Decide what cells are.
+
+        Parameters
+        ----------
+        min_pass_through
+            Cells that fewer scans have hit or swept are unknown, but those that each of them hit.
+        occupancy_threshold
+            Cells that a greater share of scans has hit are occupied.
+
+        Returns
+        -------
+        The part of the grid that is known; None if none is.
+
+        """
+        seen = self._hits + self._passes
+        rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
+        if not len(rows):
+            return None
+        part = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+        seen, hits = seen[part], self._hits[part]
+        is_occupied = (hits > occupancy_threshold * seen) & (seen > 0)
+        is_known = seen >= min(min_pass_through, int(seen.max()))
+        cells = np.full(seen.shape, UNKNOWN, dtype=np.int8)
+        cells[is_known] = FREE
+        cells[is_occupied & (is_known | (hits == seen))] = OCCUPIED
+        origin = (self._corner + [columns[0], rows[0]]) * self.resolution_m
+        return Grid(cells, origin, self.resolution_m)
+
+    def _cover(self, points: FloatArray) -> None:
+        """Grow the grid so that it holds points, in m."""
+        low = np.floor(points.min(axis=0) / self.resolution_m).astype(np.int64) - 1
+        high = np.floor(points.max(axis=0) / self.resolution_m).astype(np.int64) + 2
+        if not self._hits.size:
+            self._corner = low
+        end = self._corner + self._hits.shape[::-1]
+        before = -(-np.maximum(self._corner - low, 0) // _GROW_CELLS) * _GROW_CELLS
+        after = -(-np.maximum(high - end, 0) // _GROW_CELLS) * _GROW_CELLS
+        if before.any() or after.any():
+            margins = [(int(before[1]), int(after[1])), (int(before[0]), int(after[0]))]
+            self._hits = np.pad(self._hits, margins)
+            self._passes = np.pad(self._passes, margins)
+            self._corner = self._corner - before

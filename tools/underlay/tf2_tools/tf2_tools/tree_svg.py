@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Draw the tree of the frames as an SVG, which any browser shows, without graphviz."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+_MARGIN = 20
+_ROW = 34
+_INDENT = 36
+_BOX_HEIGHT = 24
+_LETTER = 8.5
+_DETAIL_LETTER = 6.5
+
+Frames = Mapping[str, Mapping[str, Any]]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A frame in the drawing: below its parent, and further to the right."""
+
+    frame: str
+    depth: int
+    parent_row: int
+    """The number of the parent's row, -1 for a root."""
+    detail: str
+
+    @property
+    def x(self) -> int:
+        """Return where its box begins, in pixels."""
+        return _MARGIN + self.depth * _INDENT
+
+    @property
+    def width(self) -> float:
+        """Return the width of its box, in pixels."""
+        return len(self.frame) * _LETTER + 20
+
+
+def tree_svg(frames: Frames) -> str:
+    """
+    Return a drawing of all trees, one frame a row.
+
+    :param frames: for each frame that has a parent what `Buffer.all_frames_as_yaml` says of it
+    """
+    rows = list(_rows(frames)) or [Row('no tf data', 0, -1, '')]
+    width = max(row.x + row.width + len(row.detail) * _DETAIL_LETTER for row in rows) + 3 * _MARGIN
+    height = 2 * _MARGIN + len(rows) * _ROW
+    return '\n'.join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" height="{height}" '
+            'font-family="monospace" font-size="14">',
+            '<rect width="100%" height="100%" fill="white"/>',
+            *(_line(rows, number) for number, row in enumerate(rows) if row.parent_row >= 0),
+            *(_box(row, number) for number, row in enumerate(rows)),
+            '</svg>\n',
+        ]
+    )
+
+
+def _rows(frames: Frames) -> Iterator[Row]:
+    """Yield the rows depth first; frames that go round in a circle begin anywhere."""
+    children: dict[str, list[str]] = {}
+    for frame in sorted(frames):
+        children.setdefault(str(frames[frame]['parent']), []).append(frame)
+    seen: set[str] = set()
+    count = 0
+    for root in [*(name for name in sorted(children) if name not in frames), *sorted(frames)]:
+        waiting = [] if root in seen else [(root, 0, -1)]
+        while waiting:
+            frame, depth, parent_row = waiting.pop()
+            if frame in seen:
+                continue
+            seen.add(frame)
+            yield Row(frame, depth, parent_row, _detail(frames.get(frame)))
+            waiting += [(each, depth + 1, count) for each in reversed(children.get(frame, []))]
+            count += 1
+
+
+def _detail(facts: Mapping[str, Any] | None) -> str:
+    """Return what is known of the transform to the parent."""
+    if facts is None:
+        return ''
+    if not facts['buffer_length']:
+        return f'{facts["broadcaster"]}, one transform'
+    return (
+        f'{facts["broadcaster"]}, {facts["rate"]:.1f} Hz, the last {facts["buffer_length"]:.1f} s '
+        f'until {facts["most_recent_transform"]:.3f}'
+    )
+
+
+def _middle(number: int) -> float:
+    return _MARGIN + number * _ROW + _BOX_HEIGHT / 2
+
+
+def _line(rows: list[Row], number: int) -> str:
+    row, parent = rows[number], rows[rows[number].parent_row]
+    start = _middle(row.parent_row) + _BOX_HEIGHT / 2
+    return (
+        f'<path d="M{parent.x + _INDENT / 2:.0f} {start:.0f}V{_middle(number):.0f}H{row.x}" '
+        'fill="none" stroke="#888"/>'
+    )
+
+
+def _box(row: Row, number: int) -> str:
+    top, base = _MARGIN + number * _ROW, _middle(number) + 5
+    end = row.x + row.width + 10
+    return (
+        f'<rect x="{row.x}" y="{top}" width="{row.width:.0f}" height="{_BOX_HEIGHT}" rx="6" '
+        'fill="#eef3fb" stroke="#456"/>'
+        f'<text x="{row.x + 10}" y="{base:.0f}">{escape(row.frame)}</text>'
+        f'<text x="{end:.0f}" y="{base:.0f}" font-size="11" fill="#666">'
+        f'{escape(row.detail)}</text>'
+    )
