@@ -27,7 +27,8 @@ from llm_planner.rules import RulePlanner
 from llm_planner.skills_file import load_skills, skills_path
 from llm_planner.world import base_name, Thing, World
 import numpy as np
-from voice_control.audio import chunks, duration_s, read_wav
+from numpy.typing import NDArray
+from voice_control.audio import chunks, duration_s, read_wav, wav_of
 from voice_control.grammar_recognizer import GrammarRecognizer
 from voice_control.segmentation import UtteranceSegmenter
 import yaml
@@ -50,6 +51,19 @@ VOICES = {
     'espeak en-us+f3': ['espeak-ng', '-v', 'en-us+f3', '-s', '160', '-w', '{file}', '{text}'],
     'espeak en-gb': ['espeak-ng', '-v', 'en-gb', '-s', '150', '-w', '{file}', '{text}'],
 }
+SAMPLES = {
+    'flite slt': (
+        'go to the kitchen', 'stop', 'how many books are on the sideboard',
+        'the weather is nice today', 'my car needs new brakes',
+    ),
+    'flite rms': (
+        'go to the kitchen', 'stop', 'bring me the red mug from the kitchen',
+        'i had pasta for lunch yesterday',
+    ),
+    'flite awb': ('go to the kitchen', 'stop', 'let us watch a movie later'),
+    'espeak en-us': ('please call my mother tonight',),
+}  # fmt: skip
+"""What the tests of voice_control hear: commands, and sentences that are none."""
 PEAK = 12_000.0
 THINGS = (
     Thing('red_mug_1', 'mug', 'red', 'kitchen_counter', 'kitchen', (1.0, 3.8, 0.85)),
@@ -79,12 +93,19 @@ def main() -> int:
         '--every', type=in_range(int, 1), default=1, help='only each n-th sentence'
     )
     parser.add_argument('--list', action='store_true', help='print what was not understood')
+    parser.add_argument(
+        '--samples', type=Path, metavar='FOLDER',
+        help='only write what the tests of voice_control hear into a folder, with its grammar',
+    )  # fmt: skip
     options = parser.parse_args()
     voices = {name: words for name, words in VOICES.items() if shutil.which(words[0])}
     if not voices:
         print('There is no synthesizer: sudo apt install flite espeak-ng', file=sys.stderr)
         return 1
     planner, world = apartment()
+    if options.samples:
+        write_samples(options.samples, planner.to_jsgf(world))
+        return 0
     said = yaml.safe_load(SENTENCES.read_text())
     commands = [text for kind in KINDS for text in said[kind]][:: options.every]
     recognizer = GrammarRecognizer(options.threshold)
@@ -137,15 +158,35 @@ def measured(
 
 def spoken(words: list[str], text: str, noise: float, seed: int) -> bytes:
     """Return a sentence with silence and noise around it."""
+    samples = np.concatenate([np.zeros(8000), synthesized(words, text), np.zeros(16_000)])
+    samples += np.random.default_rng(seed).normal(0.0, noise, samples.size)
+    return s16le(samples)
+
+
+def synthesized(words: list[str], text: str) -> NDArray[np.float64]:
+    """Return the samples of a sentence at 16 kHz, as loud as the others."""
     with TemporaryDirectory() as folder:
         file = f'{folder}/speech.wav'
         command = [word.format(file=file, text=text) for word in words]
         subprocess.run(command, check=True, capture_output=True)
         samples = np.frombuffer(read_wav(Path(file)), '<i2').astype(float)
-    samples *= PEAK / max(np.abs(samples).max(), 1.0)
-    samples = np.concatenate([np.zeros(8000), samples, np.zeros(16_000)])
-    samples += np.random.default_rng(seed).normal(0.0, noise, samples.size)
-    return bytes(np.clip(samples, -32768, 32767).astype('<i2').tobytes())
+    return samples * (PEAK / max(np.abs(samples).max(), 1.0))
+
+
+def s16le(samples: NDArray[np.float64]) -> bytes:
+    """Return samples as bytes."""
+    return np.clip(samples, -32768, 32767).astype('<i2').tobytes()
+
+
+def write_samples(folder: Path, grammar: str) -> None:
+    """Write the sentences of `SAMPLES` and their grammar; files are named by text and voice."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / 'robot.jsgf').write_text(grammar)
+    for voice, texts in SAMPLES.items():
+        for text in texts:
+            kind = '' if text not in OTHER else 'other_'
+            name = f'{kind}{text.replace(" ", "_")}.{voice.split()[-1]}.wav'
+            (folder / name).write_bytes(wav_of(s16le(synthesized(VOICES[voice], text))))
 
 
 def recognized(recognizer: GrammarRecognizer, sound: bytes) -> tuple[str, bool]:

@@ -109,8 +109,7 @@ class RulePlanner:
         probe = grammar.to_jsgf('robot', '<VOID>', phrases)
         usable = [name for name in phrases if f'\n<{name}> = ' in probe]
         clause = f'({" | ".join(f"<{name}>" for name in usable)})'
-        more = f'[<joint> {clause}]'
-        command = f'[<beginning>] {clause} {more} {more} [<end>]'
+        command = f'<beginning>* {clause} ([<joint>] {clause})* <end>*'
         return grammar.to_jsgf('robot', command, phrases)
 
     def is_stop(self, text: str) -> bool:

@@ -56,7 +56,8 @@ def chunks(sound: bytes, length_s: float) -> Iterator[bytes]:
     """
     size = 2 * max(1, round(length_s * RATE_HZ))
     for begin in range(0, len(sound), size):
-        yield sound[begin : begin + size].ljust(size, b'\0')
+        end = begin + size
+        yield sound[begin:end].ljust(size, b'\0')
 
 
 def read_wav(path: Path) -> bytes:

@@ -9,8 +9,9 @@ import re
 
 from pocketsphinx import Decoder, get_model_path
 from voice_control.recognition import Recognition, RecognizerError
+from voice_control.word_network import compile_jsgf
 
-__all__ = ['STOP_GRAMMAR', 'GrammarRecognizer', 'read_dictionary', 'words_of_grammar']
+__all__ = ['STOP_GRAMMAR', 'GrammarRecognizer', 'read_dictionary']
 
 BACKEND = 'pocketsphinx'
 STOP_GRAMMAR = """#JSGF V1.0;
@@ -24,17 +25,13 @@ _COMMANDS, _PHONES = 'commands', 'phones'
 _STOP_WORDS = frozenset(('stop', 'halt', 'freeze'))
 _STOP_WITHIN = 3
 """Among how many words at the beginning a word to stop counts: "please stop", "emergency stop"."""
-_DANGLING = frozenset(('and', 'then'))
-_LEAST_SCORE = 1e-300
-_RULE_OR_WORD = re.compile(r"<[^<>]*>|[^\W\d_]+(?:['-][^\W\d_]+)*")
+_SHORT_STOP = 4
+"""Words of a sentence that stops the robot however badly it fits; longer ones may be chance."""
+_SCORE_SCALE = 1024.0
+"""pocketsphinx keeps log-likelihoods divided by this."""
+_SHORTEST_HALF = 3
+"""Letters that a half of a compound word has at least."""
 _PHRASE_OF_PHONES = re.compile(r'[A-Z]{1,2}( [A-Z]{1,2})*')
-
-
-def words_of_grammar(jsgf: str) -> list[str]:
-    """Return the words that can be said by a grammar in JSGF, each once."""
-    rules = jsgf.split(';', 2)[-1]  # behind "#JSGF V1.0;" and "grammar name;"
-    found = _RULE_OR_WORD.findall(re.sub(r'\bpublic\s+<', '<', rules))
-    return list(dict.fromkeys(word for word in found if not word.startswith('<')))
 
 
 def read_dictionary(lines: Iterable[str]) -> dict[str, str]:
@@ -73,7 +70,8 @@ class GrammarRecognizer:
     Parameters
     ----------
     threshold
-        The least log-likelihood ratio per frame of what is accepted; words to stop always are.
+        The least log-likelihood ratio per frame of what is accepted; a short sentence with a word
+        to stop always is.
     dictionary
         Words with their phones, besides the 135,000 of CMUdict.
 
@@ -82,7 +80,8 @@ class GrammarRecognizer:
     def __init__(self, threshold: float = -4.2, dictionary: Mapping[str, str] = {}) -> None:
         self.threshold = threshold
         self.title = f'pocketsphinx (grammar, threshold {threshold:g})'
-        self._decoder = Decoder(loglevel='FATAL', lm=None)
+        # A search for the best path through the lattice would end anywhere in the grammar.
+        self._decoder = Decoder(loglevel='FATAL', lm=None, bestpath=False)
         for word, phones in dictionary.items():
             self._decoder.add_word(word, phones, True)
         self._decoder.add_allphone_file(_PHONES, get_model_path('en-us/en-us-phone.lm.bin'))
@@ -95,8 +94,8 @@ class GrammarRecognizer:
         Parameters
         ----------
         jsgf
-            A grammar in JSGF 1.0. What it allows only with a word of unknown pronunciation cannot
-            be said.
+            A grammar in JSGF 1.0. A compound such as "sideboard" is pronounced as its halves are.
+            What it allows only with a word of unknown pronunciation cannot be said.
 
         Returns
         -------
@@ -109,34 +108,49 @@ class GrammarRecognizer:
             If it is no grammar; the one of before stays.
 
         """
-        unknown = [word for word in words_of_grammar(jsgf) if not self._knows(word)]
-        for word in unknown:
-            jsgf = re.sub(rf"(?<![\w<'-]){re.escape(word)}(?![\w>'-])", '<VOID>', jsgf)
         try:
-            self._decoder.add_jsgf_string(_COMMANDS, jsgf)
+            network = compile_jsgf(jsgf, self._knows)
+            last = len(network.arcs)
+            arcs = [
+                (state, target, 1.0, word)
+                for state, words in enumerate(network.arcs)
+                for word, target in words.items()
+            ]
+            ends = [(state, last, 1.0) for state in network.finals]
+            fsg = self._decoder.create_fsg(_COMMANDS, 0, last, [*arcs, *ends])
+            self._decoder.add_fsg(_COMMANDS, fsg)
             self._decoder.activate_search(_COMMANDS)
-        except (ValueError, RuntimeError) as error:
-            raise RecognizerError(f'The grammar of commands cannot be used: {error}') from error
-        return unknown
+        except (RecognizerError, ValueError, RuntimeError) as error:
+            raise RecognizerError(f'The grammar of commands cannot be used. {error}') from error
+        return list(network.unknown)
 
     def recognize(self, sound: bytes) -> Recognition:
         """Recognize an utterance; see `Recognizer`."""
         segments = self._decoded(_COMMANDS, sound)
         words = [segment for segment in segments if segment[0][0] not in '<([']
-        while words and words[-1][0] in _DANGLING:  # of a sentence that was cut off
-            words.pop()
         if not words:
             return Recognition('', -math.inf, BACKEND, 'No command was recognized.')
         text = ' '.join(word.partition('(')[0] for word, *_ in words)
-        is_stop = bool(_STOP_WORDS.intersection(text.split()[:_STOP_WITHIN]))
         ratio = self._log_likelihood_ratio(segments, words[0][1], words[-1][2], sound)
+        is_like = ratio >= self.threshold
+        is_stop = bool(_STOP_WORDS.intersection(text.split()[:_STOP_WITHIN])) and (
+            is_like or len(words) <= _SHORT_STOP
+        )
         reason = ''
-        if ratio < self.threshold and not is_stop:
+        if not is_like and not is_stop:
             reason = f'It did not sound much like "{text}", the closest command.'
         return Recognition(text, ratio, BACKEND, reason, is_stop)
 
     def _knows(self, word: str) -> bool:
-        return self._decoder.lookup_word(word) is not None
+        """Return whether a word has a pronunciation, or a compound one from its two halves."""
+        if self._decoder.lookup_word(word) is not None:
+            return True
+        for middle in range(_SHORTEST_HALF, len(word) - _SHORTEST_HALF + 1):
+            halves = [self._decoder.lookup_word(each) for each in (word[:middle], word[middle:])]
+            if all(halves):
+                self._decoder.add_word(word, ' '.join(halves), True)
+                return True
+        return False
 
     def _decoded(self, search: str, sound: bytes) -> list[tuple[str, int, int, float]]:
         """Decode a sound; return words or phones with first and last frame and log-likelihood."""
@@ -145,7 +159,7 @@ class GrammarRecognizer:
         self._decoder.process_raw(sound)
         self._decoder.end_utt()
         return [
-            (each.word, each.start_frame, each.end_frame, math.log(max(each.ascore, _LEAST_SCORE)))
+            (each.word, each.start_frame, each.end_frame, _SCORE_SCALE * math.log(each.ascore))
             for each in self._decoder.seg() or ()
         ]
 

@@ -68,9 +68,9 @@ class UtteranceSegmenter:
 
         """
         self._rest += self._with_noise(sound)
-        while len(self._rest) >= self._frame_size:
-            frame = self._rest[: self._frame_size]
-            self._rest = self._rest[self._frame_size :]
+        size = self._frame_size
+        while len(self._rest) >= size:
+            frame, self._rest = self._rest[:size], self._rest[size:]
             self._speech += self._endpointer.process(frame) or b''
             is_over = not self._endpointer.in_speech
             if self._speech and (is_over or duration_s(self._speech) >= self.longest_s):
@@ -78,7 +78,8 @@ class UtteranceSegmenter:
 
     def finish(self) -> Iterator[bytes]:
         """Yield the utterance in which the stream ends, if it does; a new one may begin."""
-        last = self._endpointer.end_stream(self._rest[: self._frame_size])
+        # It takes no empty frame.
+        last = self._endpointer.end_stream(self._rest[: self._frame_size] or bytes(2))
         self._speech += last or b''
         if self._speech:
             yield self._taken()

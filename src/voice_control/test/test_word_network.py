@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Grammars in JSGF become the smallest networks of words that accept the same sentences."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from voice_control.recognition import RecognizerError
+from voice_control.word_network import compile_jsgf
+
+HEAD = '#JSGF V1.0;\ngrammar robot;\n'
+GRAMMAR = (Path(__file__).parent / 'speech' / 'robot.jsgf').read_text()
+
+
+@pytest.mark.parametrize(
+    ('rule', 'accepted', 'rejected'),
+    [
+        ('go (left | right)', ['go left', 'go right'], ['go', 'go left right', 'left']),
+        ('go [now]', ['go', 'go now'], ['now', 'go now now']),
+        ('(a | b)* c', ['c', 'a c', 'a b b a c'], ['a', '']),
+        ('(a b)+', ['a b', 'a b a b'], ['', 'a', 'a b a']),
+        ('"two words" a', ['two words a'], ['two a']),
+        ('a <NULL> b', ['a b'], ['a']),
+        ('a | b <VOID>', ['a'], ['b', 'a b']),
+        ('/0.5/ a {tag} | /2/ b { t\\}ag }', ['a', 'b'], ['tag', 'a tag']),
+        ('<x> and <x>', ['one and two', 'two and two'], ['one', 'and']),
+    ],
+)
+def test_what_can_be_said(rule: str, accepted: list[str], rejected: list[str]) -> None:
+    """Alternatives, options, repetitions, references, weights and tags mean what JSGF says."""
+    network = compile_jsgf(f'{HEAD}public <c> = {rule}; // comment\n/* <x> */ <x> = one | two;')
+    assert [text for text in accepted if not network.accepts(text)] == []
+    assert [text for text in rejected if network.accepts(text)] == []
+
+
+def test_unknown_words_are_left_out() -> None:
+    """With them goes what cannot be said without them, and nothing else."""
+    grammar = HEAD + 'public <c> = go to the (big xyzzy | hall | <p>) | find xyzzy; <p> = xyzzy;'
+    network = compile_jsgf(grammar, lambda word: word != 'xyzzy')
+    assert network.unknown == ('xyzzy',)
+    assert network.accepts('go to the hall')
+    assert not network.accepts('go to the xyzzy')
+    assert {word for arcs in network.arcs for word in arcs} == {'go', 'to', 'the', 'hall'}
+
+
+def test_equal_ends_are_shared() -> None:
+    """The object of sixty commands stands in the network once."""
+    verbs = ' | '.join(f'verb{number} the <object>' for number in range(60))
+    network = compile_jsgf(f'{HEAD}public <c> = {verbs}; <object> = red mug | blue mug | bowl;')
+    assert len(network.arcs) == 5
+    assert network.accepts('verb59 the blue mug')
+
+
+def test_the_commands_of_the_robot() -> None:
+    """The network is small, and has the sentences of the robot."""
+    network = compile_jsgf(GRAMMAR)
+    assert len(network.arcs) < 1000
+    assert network.accepts('go to the kitchen find the red mug and tell me what stands beside it')
+    assert not network.accepts('go to the kitchen and')
+
+
+@pytest.mark.parametrize(
+    ('grammar', 'reason'),
+    [
+        ('', 'begins with'),
+        ('nonsense', 'begins with'),
+        (f'{HEAD}<a> = b;', 'no public rule'),
+        (f'{HEAD}public <a> = (b;', 'is not closed'),
+        (f'{HEAD}public <a> = b);', 'nothing opens'),
+        (f'{HEAD}public <a> = b | ;', 'is empty'),
+        (f'{HEAD}public <a> = b', 'has no end'),
+        (f'{HEAD}public a = b;', 'is no rule'),
+        (f'{HEAD}public <a> = * b;', 'out of place'),
+        (f'{HEAD}public <a> = <b>;', 'not defined'),
+        (f'{HEAD}public <a> = b <c>; <c> = d [<a>];', 'refers to itself'),
+        (f'{HEAD}import <other.*>; public <a> = b;', 'is no rule'),
+        (f'{HEAD}public <a> = <VOID>;', 'Nothing can be said'),
+    ],
+)
+def test_what_is_no_grammar(grammar: str, reason: str) -> None:
+    """A sentence says what is wrong."""
+    with pytest.raises(RecognizerError, match=reason):
+        compile_jsgf(grammar)

@@ -1,0 +1,320 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Compile a grammar in JSGF into the smallest network of words that a decoder can search.
+
+pocketsphinx can read JSGF itself, but it writes out each reference to a rule anew, so that a
+grammar of sixty commands about objects takes longer to search than to say. Here the grammar
+becomes a nondeterministic automaton (Thompson's construction), that one a deterministic one
+(subset construction), and that one the minimal one (Moore's partition refinement); see Hopcroft,
+Motwani and Ullman, Introduction to Automata Theory, chapters 2 to 4. Words that cannot be
+pronounced are left out on the way, with all that cannot be said without them.
+
+JSGF: https://www.w3.org/TR/jsgf/. Weights and tags are read over; imports and rules that refer to
+themselves are rejected.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+import re
+
+from voice_control.recognition import RecognizerError
+
+__all__ = ['WordNetwork', 'compile_jsgf']
+
+_TOKEN = re.compile(
+    r'<[^<>]*>|"[^"]*"|/[\d.eE+-]+/|\{(?:[^{}\\]|\\.)*\}|[()\[\]|=;*+]|[^\s()\[\]|=;*+<>"/{}]+'
+)
+_COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/', re.DOTALL)
+_HEADER = re.compile(r'\s*#JSGF\b[^;]*;\s*grammar\s+[\w.]+\s*;', re.DOTALL)
+_MOST_STATES = 200_000
+
+
+@dataclass(frozen=True)
+class WordNetwork:
+    """
+    A minimal deterministic automaton over words.
+
+    Attributes
+    ----------
+    arcs
+        For each state, the state that each word leads to. State 0 is the first one.
+    finals
+        The states in which a sentence may end.
+    unknown
+        The words of the grammar that were left out, in the order in which they stand there.
+
+    """
+
+    arcs: tuple[Mapping[str, int], ...]
+    finals: frozenset[int]
+    unknown: tuple[str, ...] = ()
+
+    def accepts(self, text: str) -> bool:
+        """Whether the words of `text` are a sentence of the grammar."""
+        state = 0
+        for word in text.split():
+            if word not in self.arcs[state]:
+                return False
+            state = self.arcs[state][word]
+        return state in self.finals
+
+
+def compile_jsgf(jsgf: str, is_known: Callable[[str], bool] = lambda _: True) -> WordNetwork:
+    """
+    Compile the public rule of a grammar.
+
+    Parameters
+    ----------
+    jsgf
+        A grammar in JSGF 1.0 with one public rule at least; the first one counts.
+    is_known
+        Whether a word can be pronounced; those that cannot be are left out.
+
+    Returns
+    -------
+    WordNetwork
+        The network.
+
+    Raises
+    ------
+    RecognizerError
+        If it is no such grammar, or nothing can be said by it.
+
+    """
+    rules, public = _read(jsgf)
+    automaton = _Automaton(rules, is_known)
+    first, last = automaton.expand(public)
+    network = _minimal(*_deterministic(automaton, first, last))
+    if not network.finals:
+        raise RecognizerError('Nothing can be said by the grammar.')
+    return WordNetwork(network.arcs, network.finals, tuple(automaton.unknown))
+
+
+def _read(jsgf: str) -> tuple[dict[str, list[str]], str]:
+    """Return the tokens of each rule by its name in angle brackets, and the public one."""
+    text = _COMMENT.sub(' ', jsgf)
+    header = _HEADER.match(text)
+    if header is None:
+        raise RecognizerError('A grammar begins with "#JSGF V1.0; grammar NAME;", this one not.')
+    tokens = _TOKEN.findall(text, header.end())
+    rules: dict[str, list[str]] = {}
+    public = ''
+    statement: list[str] = []
+    for token in tokens:
+        if token != ';':
+            statement.append(token)
+            continue
+        is_public = statement[:1] == ['public']
+        name, equals, *body = [*statement[is_public:], '', ''][: len(statement) - is_public + 2]
+        if equals != '=' or not name.startswith('<'):
+            raise RecognizerError(f'"{" ".join(statement)[:60]}" is no rule such as "<a> = b;".')
+        rules[name] = [each for each in body if each and each[0] not in '/{']
+        public = public or (name if is_public else '')
+        statement = []
+    if statement:
+        raise RecognizerError(f'The rule "{" ".join(statement)[:60]}" has no end (";").')
+    if not public:
+        raise RecognizerError('The grammar has no public rule.')
+    return rules, public
+
+
+@dataclass
+class _Automaton:
+    """A nondeterministic automaton with empty moves, made from the rules of a grammar."""
+
+    rules: Mapping[str, list[str]]
+    is_known: Callable[[str], bool]
+    moves: list[list[tuple[str, int]]] = field(default_factory=list)
+    """For each state, words with the states that they lead to; empty words are free."""
+    unknown: dict[str, None] = field(default_factory=dict)
+    _open: list[str] = field(default_factory=list)
+
+    def expand(self, rule: str) -> tuple[int, int]:
+        """Add the states of a rule; return the first and the last one."""
+        if rule == '<NULL>':
+            state = self._state()
+            return state, state
+        if rule == '<VOID>':
+            return self._state(), self._state()
+        if rule not in self.rules:
+            raise RecognizerError(f'The rule {rule} is used, but not defined.')
+        if rule in self._open:
+            raise RecognizerError(f'The rule {rule} refers to itself; write * or + instead.')
+        self._open.append(rule)
+        tokens = self.rules[rule]
+        first, last, end = self._alternatives(tokens, 0)
+        if end != len(tokens):
+            raise RecognizerError(f'The rule {rule} has a "{tokens[end]}" that nothing opens.')
+        self._open.pop()
+        return first, last
+
+    def _state(self) -> int:
+        if len(self.moves) >= _MOST_STATES:
+            raise RecognizerError('The grammar is too large.')
+        self.moves.append([])
+        return len(self.moves) - 1
+
+    def _alternatives(self, tokens: list[str], at: int) -> tuple[int, int, int]:
+        """Read sequences up to a closing bracket or the end; return first, last and its index."""
+        first, last = self._state(), self._state()
+        while True:
+            begin, end, at = self._sequence(tokens, at)
+            self.moves[first].append(('', begin))
+            self.moves[end].append(('', last))
+            if at == len(tokens) or tokens[at] != '|':
+                return first, last, at
+            at += 1
+
+    def _sequence(self, tokens: list[str], at: int) -> tuple[int, int, int]:
+        first = last = self._state()
+        count = 0
+        while at < len(tokens) and tokens[at] not in ('|', ')', ']'):
+            begin, end, at = self._item(tokens, at)
+            self.moves[last].append(('', begin))
+            last = end
+            count += 1
+        if not count:
+            raise RecognizerError(f'An alternative of {self._open[-1]} is empty: use <NULL>.')
+        return first, last, at
+
+    def _item(self, tokens: list[str], at: int) -> tuple[int, int, int]:
+        """Read a word, a rule or a group, with what may be behind it: * or +."""
+        token = tokens[at]
+        at += 1
+        if token in ('(', '['):
+            first, last, at = self._alternatives(tokens, at)
+            if at == len(tokens) or tokens[at] != {'(': ')', '[': ']'}[token]:
+                raise RecognizerError(f'A "{token}" in {self._open[-1]} is not closed.')
+            at += 1
+            if token == '[':
+                self.moves[first].append(('', last))
+        elif token in ('*', '+', '=', ')', ']'):
+            raise RecognizerError(f'In {self._open[-1]} there is a "{token}" out of place.')
+        elif token.startswith('<'):
+            first, last = self.expand(token)
+        else:
+            first, last = self._words(token.strip('"').lower().split())
+        while at < len(tokens) and tokens[at] in ('*', '+'):
+            begin, end = self._state(), self._state()
+            self.moves[begin].append(('', first))
+            self.moves[last] += [('', first), ('', end)]
+            if tokens[at] == '*':
+                self.moves[begin].append(('', end))
+            first, last, at = begin, end, at + 1
+        return first, last, at
+
+    def _words(self, words: list[str]) -> tuple[int, int]:
+        first = last = self._state()
+        for word in words:
+            following = self._state()
+            if self.is_known(word):
+                self.moves[last].append((word, following))
+            else:
+                self.unknown[word] = None
+            last = following
+        return first, last
+
+
+_Table = list[dict[str, int]]
+
+
+def _deterministic(automaton: _Automaton, first: int, last: int) -> tuple[_Table, set[int]]:
+    """Return the arcs of each state, and the final states, of an equal deterministic automaton."""
+    free: list[frozenset[int] | None] = [None] * len(automaton.moves)
+
+    def reached(state: int) -> frozenset[int]:
+        """Return the states with words that are reached from one without a word, or the last."""
+        found = free[state]
+        if found is None:
+            seen, todo = {state}, [state]
+            while todo:
+                for word, target in automaton.moves[todo.pop()]:
+                    if not word and target not in seen:
+                        seen.add(target)
+                        todo.append(target)
+            found = free[state] = frozenset(
+                each
+                for each in seen
+                if each == last or any(word for word, _ in automaton.moves[each])
+            )
+        return found
+
+    start = reached(first)
+    numbers, todo = {start: 0}, [start]
+    table: _Table = [{}]
+    finals: set[int] = {0} if last in start else set()
+    while todo:
+        subset = todo.pop()
+        targets: dict[str, set[int]] = {}
+        for state in subset:
+            for word, target in automaton.moves[state]:
+                if word:
+                    targets.setdefault(word, set()).update(reached(target))
+        arcs = table[numbers[subset]]
+        for word, states in targets.items():
+            following = frozenset(states)
+            if following not in numbers:
+                numbers[following] = len(table)
+                table.append({})
+                todo.append(following)
+                if last in following:
+                    finals.add(numbers[following])
+            arcs[word] = numbers[following]
+    return table, finals
+
+
+def _minimal(table: _Table, finals: set[int]) -> WordNetwork:
+    """Merge states from which the same can be said, and leave out those that lead nowhere."""
+    useful = _useful(table, finals)
+    table = [{word: target for word, target in arcs.items() if target in useful} for arcs in table]
+    classes = [int(state in finals) for state in range(len(table))]
+    count = 0
+    while True:
+        signatures: dict[tuple[object, ...], int] = {}
+        refined = []
+        for state, arcs in enumerate(table):
+            ways = frozenset((word, classes[target]) for word, target in arcs.items())
+            signature = (classes[state], ways)
+            refined.append(signatures.setdefault(signature, len(signatures)))
+        classes = refined
+        if len(signatures) == count:
+            break
+        count = len(signatures)
+    order: dict[int, int] = {}
+    for state in _in_order(table):
+        order.setdefault(classes[state], len(order))
+    arcs_of: list[dict[str, int]] = [{} for _ in order]
+    for state in _in_order(table):
+        arcs_of[order[classes[state]]] = {
+            word: order[classes[target]] for word, target in table[state].items()
+        }
+    ends = frozenset(order[classes[state]] for state in finals if classes[state] in order)
+    return WordNetwork(tuple(arcs_of), ends)
+
+
+def _useful(table: _Table, finals: set[int]) -> set[int]:
+    """Return the states from which a final one is reached."""
+    sources: dict[int, set[int]] = {}
+    for state, arcs in enumerate(table):
+        for target in arcs.values():
+            sources.setdefault(target, set()).add(state)
+    seen, todo = set(finals), list(finals)
+    while todo:
+        for state in sources.get(todo.pop(), ()):
+            if state not in seen:
+                seen.add(state)
+                todo.append(state)
+    return seen
+
+
+def _in_order(table: _Table) -> Iterator[int]:
+    """Yield the states that are reached from the first one, itself first."""
+    seen, todo = {0}, [0]
+    for state in todo:
+        yield state
+        for target in table[state].values():
+            if target not in seen:
+                seen.add(target)
+                todo.append(target)
