@@ -62,10 +62,10 @@ def test_libraries_that_are_not_installed(folder: Path, monkeypatch: pytest.Monk
     monkeypatch.setitem(sys.modules, 'faster_whisper', None)
     monkeypatch.setitem(sys.modules, 'pywhispercpp', None)
     monkeypatch.setitem(sys.modules, 'pywhispercpp.model', None)
-    with pytest.raises(RecognizerError, match='pip install faster-whisper'):
+    with pytest.raises(RecognizerError, match='install the Python package faster-whisper'):
         FasterWhisper(str(folder))
     (folder / 'ggml.bin').write_bytes(b'lmgg')
-    with pytest.raises(RecognizerError, match='pip install pywhispercpp'):
+    with pytest.raises(RecognizerError, match='install the Python package pywhispercpp'):
         WhisperCpp(str(folder / 'ggml.bin'))
 
 

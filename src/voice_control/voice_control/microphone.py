@@ -69,7 +69,7 @@ def _library() -> Any:
         import sounddevice
     except ImportError as error:
         raise AudioError(
-            f'The microphone needs the package sounddevice ({error}): pip install sounddevice'
+            f'The microphone needs the Python package sounddevice, which cannot be used ({error}).'
         ) from error
     except OSError as error:
         raise AudioError(

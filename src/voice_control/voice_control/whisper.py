@@ -207,7 +207,7 @@ def _existing(path: str, library: str, what: str) -> Path:
 
 def _not_installed(library: str, error: ImportError) -> RecognizerError:
     return RecognizerError(
-        f'{library} cannot be imported ({error}): install it with: pip install {library}'
+        f'{library} cannot be imported ({error}): install the Python package {library}.'
     )
 
 
