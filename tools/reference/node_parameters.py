@@ -31,6 +31,7 @@ NODES = {
     'humanoid_perception gaze': 'humanoid_perception.gaze.GazeParameters',
     'llm_planner task_planner': 'llm_planner.task_planner.PlannerParameters',
     'llm_planner skill_executor': 'llm_planner.knowledge.KnowledgeParameters',
+    'robot_mcp robot_mcp': 'robot_mcp.robot_mcp.McpParameters',
     'robot_control description_reporter': (
         'robot_control.description_reporter.ReporterParameters'
     ),

@@ -25,8 +25,9 @@ JAZZY = set(
     'visualization_msgs xacro'.split()
 )
 LIBRARIES = set(
-    'OpenGL cv2 faster_whisper httpx lxml matplotlib mujoco numpy onnxruntime pinocchio '
-    'pocketsphinx pytest pywhispercpp scipy setuptools sounddevice yaml yourdfpy'.split()
+    'OpenGL cv2 faster_whisper httpx httpx2 jsonschema lxml matplotlib mcp mujoco numpy '
+    'onnxruntime pinocchio pocketsphinx pytest pywhispercpp scipy setuptools sounddevice uvicorn '
+    'yaml yourdfpy'.split()
 )
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -1,0 +1,323 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+What becomes of a call of a tool: an answer, whatever was sent.
+
+Looks are answered. What acts is a plan: it needs `allow_motion`, has to pass `llm_planner`'s
+check, may have to be confirmed by a person, and is done by the action `execute_plan`, one call at
+a time. `stop` is obeyed always, and at once.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping
+from contextlib import aclosing
+from dataclasses import dataclass, replace
+import time
+from typing import Any, Protocol
+
+from action_msgs.msg import GoalStatus
+from humanoid_common.naming import did_you_mean, shortened
+from humanoid_interfaces.action import ExecutePlan
+from humanoid_perception.images import ImageError
+from llm_planner.plan import check, Plan, PlanError, UnavailableError, words_for
+from llm_planner.plan_messages import plan_message, plan_of
+from llm_planner.rules import RulePlanner
+from llm_planner.world import listed
+from llm_planner.world_watch import WorldWatch
+from robot_mcp.audit import AuditLog
+from robot_mcp.confirmations import Confirmations, request_of
+from robot_mcp.looking import Looking
+from robot_mcp.node_thread import RobotError
+from robot_mcp.robot_link import PlanEnd, PlanRun, RobotLink
+from robot_mcp.tools import CONFIRMATION, LOOKS, plan_of_call, STOP, TELL, Tool, tools_of
+
+__all__ = ['READ_ONLY', 'Answer', 'Calls', 'Client', 'NeedsInputError']
+
+READ_ONLY = (
+    'This robot may only be looked at and stopped. To let assistants move it, a person has to '
+    'start this server with allow_motion:=true.'
+)
+_LONGEST_SENTENCE = 500
+_REPORT_S = 2.0
+_HEARTBEAT_S = 5.0
+"""After how long a client hears again that something goes on."""
+_STOPPED = 'Somebody said stop meanwhile.'
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a client gets: a text, PNG pictures, and whether it is an error."""
+
+    text: str
+    pictures: tuple[bytes, ...] = ()
+    is_error: bool = False
+
+
+class NeedsInputError(Exception):
+    """The client has to ask its person, and to call again with what that says."""
+
+    def __init__(self, question: str, code: str) -> None:
+        super().__init__(question)
+        self.question, self.code = question, code
+
+
+class Client(Protocol):
+    """Who calls."""
+
+    name: str
+    gone: asyncio.Event | None
+    """Is set when it has gone; None if that cancels the call anyway."""
+
+    async def asks(self, question: str, request: str) -> bool | None:
+        """Return whether its person agrees; None if it cannot ask one."""
+
+    async def report(self, progress: float, total: float, text: str) -> None:
+        """Tell it how far it is."""
+
+
+class Calls:
+    """
+    Answers calls.
+
+    Parameters
+    ----------
+    link, planner, watch
+        The robot, what understands plans, and what is known.
+    audit
+        Where each call is noted.
+    allow_motion, confirm
+        Whether calls may move the robot, and whether a person has to agree to each.
+    log
+        Shows a sentence to the people at the robot, not to clients.
+
+    """
+
+    def __init__(
+        self,
+        link: RobotLink,
+        planner: RulePlanner,
+        watch: WorldWatch,
+        audit: AuditLog,
+        log: Any,
+        *,
+        allow_motion: bool,
+        confirm: bool,
+    ) -> None:
+        self._link, self._planner, self._watch = link, planner, watch
+        self._audit, self._log = audit, log
+        self._allow_motion, self._confirm = allow_motion, confirm
+        self.asked = Confirmations()
+        """What clients have asked their people and not answered yet."""
+        self._codes = Confirmations()
+        self._looking = Looking(link, planner.skills, watch, may_move=allow_motion)
+        self._busy = ''
+        self._stops = 0
+
+    async def tools(self) -> list[Tool]:
+        """Return the tools, with what is known now."""
+        confirm = self._confirm and self._allow_motion
+        world = await self._link.thread.do(self._watch.world)
+        return tools_of(self._planner.skills, world, confirm=confirm)
+
+    async def answer(self, client: Client, name: str, arguments: Mapping[str, Any]) -> Answer:
+        """
+        Do what is called, and note it.
+
+        Parameters
+        ----------
+        client
+            Who calls.
+        name, arguments
+            What was sent.
+
+        """
+        acts = name != STOP and name not in LOOKS
+        if acts:
+            self._audit.write(client.name, name, arguments, 'begun')
+        outcome = 'canceled by the client'
+        try:
+            answer = await self._answer(client, name, arguments)
+            kind = 'failed' if answer.is_error else 'done'
+            outcome = f'{kind}: {answer.text}' if acts else kind
+        except (RobotError, PlanError, ImageError) as error:
+            outcome, answer = f'failed: {error}', Answer(str(error), is_error=True)
+        except NeedsInputError as error:
+            outcome = f'asks: {error}'
+            raise
+        except Exception as error:
+            outcome = f'failed: {type(error).__name__}: {error}'
+            raise
+        finally:
+            self._audit.write(client.name, name, arguments, outcome)
+        return answer
+
+    async def _answer(self, client: Client, name: str, arguments: Mapping[str, Any]) -> Answer:
+        if name == STOP:
+            return await self._stop()
+        if name in LOOKS:
+            return Answer(*await self._looking.look(name))
+        skills = self._planner.skills
+        if name != TELL and name not in skills.skills:
+            names = [*skills.skills, *LOOKS, TELL]
+            hint = did_you_mean(name, names)
+            raise PlanError(f"There is no tool '{shortened(name)}'. {hint}".strip())
+        stops = self._stops
+        given = dict(arguments)
+        code = given.pop(CONFIRMATION, None)
+        if name == TELL:
+            return await self._tell(client, given, code, stops)
+        world = await self._link.thread.do(self._watch.world)
+        plan = plan_of_call(name, given, skills, world)
+        if not self._allow_motion:
+            raise RobotError(READ_ONLY)
+        return await self._act(client, plan, request_of(name, given), code, stops)
+
+    async def _stop(self) -> Answer:
+        """End everything, and what waits for a confirmation."""
+        self._stops += 1
+        self.asked.forget()
+        self._codes.forget()
+        count = await self._link.stop()
+        return Answer('The robot stops.' if count else 'The robot was doing nothing.')
+
+    async def _tell(
+        self, client: Client, given: Mapping[str, Any], code: Any, stops: int
+    ) -> Answer:
+        """Have the planner make a plan of a sentence, and do it."""
+        sentence = given.get('sentence')
+        if not isinstance(sentence, str) or not sentence.strip() or len(given) > 1:
+            raise PlanError("tell needs 'sentence', a text, and nothing else.")
+        if len(sentence) > _LONGEST_SENTENCE:
+            raise PlanError(f'Say it in at most {_LONGEST_SENTENCE} letters.')
+        if self._planner.is_stop(sentence):
+            return await self._stop()
+        made = await self._link.plan(sentence)
+        if not made.success:
+            return Answer(made.message, is_error=True)
+        if not self._allow_motion:
+            words = listed([each.text for each in made.plan.steps])
+            raise RobotError(f'The robot would {words}. {READ_ONLY}')
+        world = await self._link.thread.do(self._watch.world)
+        plan = plan_of(made.plan, self._planner, world)
+        return await self._act(client, plan, request_of(TELL, given), code, stops)
+
+    async def _act(
+        self, client: Client, plan: Plan, request: str, code: Any, stops: int
+    ) -> Answer:
+        """Check a plan, have it confirmed if need be, and do it, unless a stop came meanwhile."""
+        await self._check(plan)
+        skills = self._planner.skills
+        words = _on_a_line(
+            listed([words_for(each, skills[each.skill]) for each in plan.steps], 'and then')
+        )
+        if self._confirm:
+            # What a person agrees to is what they have read, whatever a planner makes next time.
+            request = f'{request} {words}'
+            refusal = await self._unconfirmed(client, words, request, code)
+            if refusal is not None:
+                return refusal
+            await self._check(plan)  # the world has gone on while somebody thought about it
+        if stops != self._stops:
+            raise RobotError(_STOPPED)
+        if self._busy:
+            raise RobotError(
+                f'The robot is still doing what {self._busy}. Wait until that has ended, or call '
+                'stop.'
+            )
+        self._busy = f'{client.name} asked for: {words}'
+        try:
+            return await self._do(client, replace(plan, command=words))
+        finally:
+            self._busy = ''
+
+    async def _check(self, plan: Plan) -> None:
+        """Refuse what may not be done; what may still be starting is waited for."""
+
+        def is_available() -> bool:
+            try:
+                check(plan, self._planner.skills, self._watch.world())
+            except UnavailableError:
+                return False
+            return True
+
+        if not await self._link.thread.found(is_available):
+            check(plan, self._planner.skills, await self._link.thread.do(self._watch.world))
+
+    async def _unconfirmed(
+        self, client: Client, words: str, request: str, code: Any
+    ) -> Answer | None:
+        """Return what to answer until a person has agreed; None if one has."""
+        if isinstance(code, str):
+            if self._codes.redeem(code, request):
+                return None
+            raise RobotError('This code is not right, or not any more, for exactly this call.')
+        agrees = await client.asks(f'Let the robot {words}?', request)
+        if agrees:
+            return None
+        if agrees is not None:
+            raise RobotError('The person at the assistant does not agree.')
+        new = self._codes.ask(request)
+        who = _on_a_line(client.name)
+        self._log(f'{who} wants the robot to {words}. To agree, give it the code {new}')
+        return Answer(
+            f'A person has to agree first: the robot is to {words}. The log of the robot shows a '
+            f'code; ask the person for it, and call again with the same arguments and '
+            f"'{CONFIRMATION}'.",
+            is_error=True,
+        )
+
+    async def _do(self, client: Client, plan: Plan) -> Answer:
+        """Have the executor do a plan, and tell the client how far it is."""
+        run, total = PlanRun(), float(len(plan.steps))
+        progress = ceiling = told_s = 0.0
+        text = ''
+        message = plan_message(plan, self._planner)
+        end: PlanEnd | None = None
+        try:
+            async with aclosing(self._link.execute(message, run)) as told:
+                async for news in told:
+                    if client.gone is not None and client.gone.is_set():
+                        raise RobotError('The client has gone.')
+                    if isinstance(news, PlanEnd):
+                        end = news
+                        continue
+                    if isinstance(news, ExecutePlan.Feedback):
+                        progress = max(progress, news.step + (news.state == 'succeeded'))
+                        ceiling = min(total, news.step + 1.0)
+                        text = news.message
+                    elif time.monotonic() > told_s + _HEARTBEAT_S:
+                        progress += 0.05 * (ceiling - progress)
+                    else:
+                        continue
+                    told_s = time.monotonic()
+                    await _reported(client, progress, total, text)
+        finally:
+            if end is None:
+                self._link.leave(run)
+        assert end is not None
+        return _told(end)
+
+
+def _on_a_line(text: str) -> str:
+    """Return a text as people can be shown it: nothing in it looks like what is around it."""
+    return ''.join(each if each.isprintable() else ' ' for each in text)
+
+
+async def _reported(client: Client, progress: float, total: float, text: str) -> None:
+    """Tell a client how far it is; one that does not listen does not hold anything up."""
+    try:
+        await asyncio.wait_for(client.report(progress, total, text), _REPORT_S)
+    except asyncio.TimeoutError:
+        return
+
+
+def _told(end: PlanEnd) -> Answer:
+    """Return what came of a plan, in words."""
+    said = ' '.join(end.result.said)
+    if end.status == GoalStatus.STATUS_SUCCEEDED:
+        return Answer(said or 'Done.')
+    if end.status == GoalStatus.STATUS_CANCELED:
+        return Answer(f'Stopped. {said}'.strip(), is_error=True)
+    reason = end.result.error_msg or 'It did not succeed.'
+    return Answer(reason if reason in said or not said else f'{reason} {said}', is_error=True)

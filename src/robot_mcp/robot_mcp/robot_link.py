@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the server has the robot do: plans, sent to `execute_plan` and canceled there."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncGenerator, Callable
+from dataclasses import dataclass, field
+import time
+from typing import Any
+import uuid
+
+from action_msgs.msg import GoalInfo
+from action_msgs.srv import CancelGoal
+from humanoid_common.qos import LATCHED
+from humanoid_interfaces.action import ExecutePlan
+from humanoid_interfaces.msg import Plan as PlanMessage
+from humanoid_interfaces.srv import MakePlan
+from rclpy.action import ActionClient
+from rclpy.node import Node
+from robot_mcp.node_thread import in_loop, NodeThread, RobotError
+from std_msgs.msg import String
+
+__all__ = ['PlanEnd', 'PlanRun', 'RobotLink']
+
+_ACCEPTANCE_S = 5.0
+_PLAN_S = 25.0
+_CHECK_S = 0.25
+_LOST_S = 3.0
+NO_EXECUTOR = 'I cannot do anything, as the skill executor is not running (llm_planner).'
+NO_PLANNER = 'I understand no sentences, as the task planner is not running (llm_planner).'
+
+
+@dataclass
+class PlanRun:
+    """A plan that was sent, or will be; `is_canceled` may be set from any thread."""
+
+    goal_id: Any = field(default_factory=lambda: _goal_id())
+    is_canceled: bool = False
+    is_sent: bool = False
+    is_over: bool = False
+
+
+@dataclass(frozen=True)
+class PlanEnd:
+    """How a plan ended: a status of `action_msgs/GoalStatus`, and the result."""
+
+    status: int
+    result: ExecutePlan.Result
+
+
+class RobotLink:
+    """
+    The robot as the server sees it. Coroutines are for the thread of the server.
+
+    Parameters
+    ----------
+    node
+        The node that listens and sends.
+
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self.thread = NodeThread(node)
+        self._client = ActionClient(node, ExecutePlan, 'execute_plan')
+        # Not with the goals of the client: it has to work when that is destroyed, and for all.
+        self._canceling = node.create_client(CancelGoal, 'execute_plan/_action/cancel_goal')
+        self._planner = node.create_client(MakePlan, 'task_planner/plan')
+        self._runs: dict[bytes, PlanRun] = {}
+        self.walking_state = self.plan_state = ''
+        node.create_subscription(String, 'walking_state', self._take_walking, LATCHED)
+        node.create_subscription(String, 'executor/state', self._take_plan, LATCHED)
+
+    def _take_walking(self, message: String) -> None:
+        self.walking_state = message.data
+
+    def _take_plan(self, message: String) -> None:
+        self.plan_state = message.data
+
+    async def lack(self) -> str:
+        """Return why nothing can be done now; nothing if something can."""
+        return '' if await self.thread.found(self._client.server_is_ready) else NO_EXECUTOR
+
+    async def plan(self, sentence: str) -> MakePlan.Response:
+        """
+        Return what the planner makes of a sentence.
+
+        Raises
+        ------
+        RobotError
+            It is not there, or does not answer.
+
+        """
+        if not await self.thread.found(self._planner.service_is_ready):
+            raise RobotError(NO_PLANNER)
+        return await self.thread.ask(
+            self._planner, MakePlan.Request(command=sentence), 'The task planner', _PLAN_S
+        )
+
+    async def execute(
+        self, plan: PlanMessage, run: PlanRun
+    ) -> AsyncGenerator[ExecutePlan.Feedback | PlanEnd | None, None]:
+        """
+        Do a plan; yield what the executor tells of it, and last its end.
+
+        None comes again and again while nothing is told. Whoever leaves early has to call `leave`.
+
+        Raises
+        ------
+        RobotError
+            The executor is not there, or ends in the middle.
+
+        """
+        # From here on a stop concerns it, although it has not been sent yet.
+        self._runs[bytes(run.goal_id.uuid)] = run
+        try:
+            if lack := await self.lack():
+                raise RobotError(lack)
+            async for news in self._told_of(plan, run):
+                yield news
+        finally:
+            if not run.is_sent:
+                del self._runs[bytes(run.goal_id.uuid)]
+
+    async def _told_of(
+        self, plan: PlanMessage, run: PlanRun
+    ) -> AsyncGenerator[ExecutePlan.Feedback | PlanEnd | None, None]:
+        """Send a plan, and yield what is told of it."""
+        loop = asyncio.get_running_loop()
+        told: asyncio.Queue[Any] = asyncio.Queue()
+        await self.thread.do(
+            self._send, plan, run, lambda news: in_loop(loop, told.put_nowait, news)
+        )
+        there_s = time.monotonic()
+        accepted_by_s = time.monotonic() + _ACCEPTANCE_S
+        is_accepted = False
+        while True:
+            try:
+                news = await asyncio.wait_for(told.get(), _CHECK_S)
+            except asyncio.TimeoutError:
+                if await self.thread.do(self._client.server_is_ready):
+                    there_s = time.monotonic()
+                if time.monotonic() > there_s + _LOST_S:
+                    raise RobotError('The skill executor ended in the middle of it.') from None
+                if not is_accepted and time.monotonic() > accepted_by_s:
+                    raise RobotError('The skill executor does not answer.') from None
+                yield None
+                continue
+            is_accepted = True
+            if isinstance(news, Exception):
+                raise news
+            if news is not None:
+                yield news
+            if isinstance(news, PlanEnd):
+                return
+
+    def leave(self, run: PlanRun) -> None:
+        """Give a plan up, from any thread; it does not matter if it is over."""
+        run.is_canceled = True
+        executor = self._node.executor
+        if executor is not None and not run.is_over:
+            executor.create_task(self._cancel, run)
+
+    async def stop(self) -> int:
+        """
+        Cancel all plans, whoever sent them, and return how many there were.
+
+        Raises
+        ------
+        RobotError
+            The executor is not there, or does not answer.
+
+        """
+        for run in list(self._runs.values()):
+            run.is_canceled = True
+        if not await self.thread.found(self._canceling.service_is_ready):
+            raise RobotError('There is nothing to stop: the skill executor is not running.')
+        answer = await self.thread.ask(self._canceling, CancelGoal.Request(), 'The skill executor')
+        return len(answer.goals_canceling)
+
+    def close(self) -> bool:
+        """Give up all plans of this server, at its end; return whether there were any."""
+        runs = [run for run in self._runs.values() if run.is_sent and not run.is_over]
+        for run in runs:
+            self._cancel(run)
+        return bool(runs)
+
+    def _send(self, plan: PlanMessage, run: PlanRun, tell: Callable[[Any], None]) -> None:
+        """Send a plan, unless it has been given up; in the thread of the node."""
+        if run.is_canceled:
+            tell(RobotError('It was stopped before it began.'))
+            return
+        run.is_sent = True
+
+        def finish(news: Any) -> None:
+            run.is_over = True
+            self._runs.pop(bytes(run.goal_id.uuid), None)
+            tell(news)
+
+        def take_end(end: Any) -> None:
+            finish(PlanEnd(end.result().status, end.result().result))
+
+        def take_acceptance(sent: Any) -> None:
+            handle = sent.result()
+            if not handle.accepted:
+                finish(RobotError('The skill executor has refused it.'))
+                return
+            tell(None)
+            if run.is_canceled:
+                self._cancel(run)
+            handle.get_result_async().add_done_callback(take_end)
+
+        sent = self._client.send_goal_async(
+            ExecutePlan.Goal(plan=plan),
+            feedback_callback=lambda message: tell(message.feedback),
+            goal_uuid=run.goal_id,
+        )
+        sent.add_done_callback(take_acceptance)
+
+    def _cancel(self, run: PlanRun) -> None:
+        """Cancel a plan; in the thread of the node."""
+        run.is_canceled = True
+        goal = GoalInfo(goal_id=run.goal_id)
+        self._canceling.call_async(CancelGoal.Request(goal_info=goal))
+
+
+def _goal_id() -> Any:
+    """Return an id that no other goal has."""
+    made = GoalInfo().goal_id
+    made.uuid = list(uuid.uuid4().bytes)
+    return made

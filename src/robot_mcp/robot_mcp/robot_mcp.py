@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A server of the Model Context Protocol for the robot: the node `robot_mcp`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import os
+from pathlib import Path
+import re
+import secrets
+import sys
+import time
+from typing import Any
+
+from humanoid_common.errors import NodeStartError
+from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.parameters import parameter
+from humanoid_common.running import run_node
+from llm_planner.knowledge import begin_watch, KnowledgeParameters
+from rclpy.node import Node
+from robot_mcp.audit import AuditLog, default_path
+from robot_mcp.calls import Calls
+from robot_mcp.robot_link import RobotLink
+from robot_mcp.server import make_server, require_sdk
+from robot_mcp.transports import (
+    listen,
+    PATH,
+    serve_http,
+    serve_stdio,
+    ServerThread,
+    take_stdout,
+)
+
+__all__ = ['McpParameters', 'RobotMcp', 'main']
+
+TOKEN_VARIABLE = 'ROBOT_MCP_TOKEN'
+_SHORTEST_TOKEN = 16
+_OPTION = re.compile(r'[a-z_]+:=.*')
+_SENT_S = 0.2
+_START_S = 10.0
+
+
+@dataclass(frozen=True)
+class McpParameters(KnowledgeParameters):
+    """The parameters of the node."""
+
+    transport: str = parameter(
+        'stdio',
+        'How clients reach the server: stdio, for those that start it, or http on 127.0.0.1.',
+        choices=('stdio', 'http'),
+        read_only=True,
+    )
+    port: int = parameter(
+        8765, 'The port of HTTP; 0 for any.', at_least=0, at_most=65535, read_only=True
+    )
+    allow_motion: bool = parameter(
+        False, 'Whether assistants may make the robot do anything but stop.', read_only=True
+    )
+    confirm: bool = parameter(
+        False, 'Whether a person has to agree to each thing that the robot does.', read_only=True
+    )
+    audit_log: str = parameter(
+        '',
+        'The file in which each call is noted; empty for robot_mcp/audit.jsonl in ROS_HOME or '
+        '~/.ros.',
+        read_only=True,
+    )
+
+
+class RobotMcp(Node):
+    """
+    Serves assistants.
+
+    The token for HTTP is the variable ROBOT_MCP_TOKEN of the environment, or a random one.
+
+    Parameters
+    ----------
+    wire
+        The descriptor for what clients, or who starts them, are to read.
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
+
+    def __init__(self, wire: int = 1, **options: Any) -> None:
+        super().__init__('robot_mcp', **options)
+        told = NodeParameters(self, McpParameters).current
+        require_sdk()
+        planner, watch = begin_watch(self, told)
+        path = Path(told.audit_log).expanduser() if told.audit_log else default_path(os.environ)
+        self._link = RobotLink(self)
+        logger = self.get_logger()
+        calls = Calls(
+            self._link,
+            planner,
+            watch,
+            AuditLog(path, lambda text: logger.warning(text)),
+            lambda text: logger.warning(text),
+            allow_motion=told.allow_motion,
+            confirm=told.confirm,
+        )
+        server = make_server(calls)
+        self.url = self.token = ''
+        if told.transport == 'http':
+            self.token = _token()
+            listener = listen(told.port)
+            self.url = f'http://127.0.0.1:{listener.getsockname()[1]}{PATH}'
+            self._server = ServerThread(
+                lambda: serve_http(server, listener, self.token), self._end
+            )
+            # Who has chosen the token knows it, and others may see what is printed.
+            shown = f'${TOKEN_VARIABLE}' if os.environ.get(TOKEN_VARIABLE) else self.token
+            os.write(wire, f'{self.url}\nAuthorization: Bearer {shown}\n'.encode())
+        else:
+            self._server = ServerThread(lambda: serve_stdio(server, 0, wire), self._end)
+        may = 'may move the robot' if told.allow_motion else 'may only look, and stop'
+        logger.info(f'Assistants {may}; what they do is noted in {path}')
+
+    def destroy_node(self) -> None:
+        """End the server, and what the robot does for its clients."""
+        if self._link.close():
+            time.sleep(_SENT_S)  # so that it is sent
+        self._server.close()
+        super().destroy_node()
+
+    def _end(self, error: BaseException | None) -> None:
+        """End the node when the server has ended, as it does when its only client leaves."""
+        if error is not None:
+            self.get_logger().error(f'The server has failed: {type(error).__name__}: {error}')
+        deadline_s = time.monotonic() + _START_S
+        while self.executor is None and time.monotonic() < deadline_s:  # it has only just begun
+            time.sleep(0.01)
+        if self.executor is not None:
+            self.executor.create_task(self.context.try_shutdown)
+
+
+def _token() -> str:
+    """Return the token of the environment, or a random one."""
+    token = os.environ.get(TOKEN_VARIABLE, '')
+    if not token:
+        return secrets.token_urlsafe(24)
+    if len(token) < _SHORTEST_TOKEN or not token.isascii() or not token.isprintable():
+        raise NodeStartError(
+            f'{TOKEN_VARIABLE} has to have at least {_SHORTEST_TOKEN} letters or digits. Leave it '
+            'out for a random token.'
+        )
+    return token
+
+
+def arguments_of(given: list[str]) -> list[str]:
+    """Return the arguments of a program for ROS, in which `name:=value` sets a parameter."""
+    cut = given.index('--ros-args') if '--ros-args' in given else len(given)
+    plain, options = [], ['--ros-args']
+    for each in given[:cut]:
+        if _OPTION.fullmatch(each):
+            options += ['-p', each]
+        else:
+            plain.append(each)
+    after = cut + 1
+    return [*plain, *options, *given[after:]]
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node."""
+    given = arguments_of(sys.argv if args is None else args)
+    wire = take_stdout()
+    return run_node(lambda: RobotMcp(wire), given)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A robot whose planner and executor are real, and whose legs go nowhere."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+import os
+from pathlib import Path
+import sys
+from typing import Any
+
+from geometry_msgs.msg import TransformStamped
+from humanoid_common.qos import EVENT, LATCHED, STATE
+from humanoid_common.single_goal import RunningGoal, SingleGoal
+from humanoid_common.testing.ros import ros_sandbox, RosSandbox
+from humanoid_interfaces.srv import FindObjects
+from llm_planner.skill_executor import SkillExecutor
+from llm_planner.task_planner import TaskPlanner
+from nav2_msgs.action import ComputePathToPose, NavigateToPose, Spin
+from nav_msgs.msg import OccupancyGrid
+import pytest
+from rclpy.node import Node
+from sensor_msgs.msg import Image
+from std_msgs.msg import String
+from tf2_ros import StaticTransformBroadcaster
+from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
+
+PLACES = """
+surfaces:
+  - {name: desk, height: 0.7, outline: [[3.0, 1.0], [4.0, 1.0], [4.0, 1.6], [3.0, 1.6]]}
+rooms:
+  - {name: hall, outline: [[-2, -2], [2, -2], [2, 2], [-2, 2]]}
+  - {name: study, outline: [[2, -2], [6, -2], [6, 2], [2, 2]]}
+"""
+
+
+class Robot(Node):
+    """Navigation that goes nowhere, a camera, a map, and a memory with a single mug."""
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__('robot', **options)
+        self.walks: list[Any] = []
+        self.spins: list[float] = []
+        self.said: list[str] = []
+        self.canceled = 0
+        self.is_slow = False
+        self._walks, self._spins, self._paths = (SingleGoal(self, lambda: '') for _ in range(3))
+        self._walks.offer(NavigateToPose, 'navigate_to_pose', self._walk)
+        self._spins.offer(Spin, 'spin', self._spin)
+        self._paths.offer(ComputePathToPose, 'compute_path_to_pose', self._path)
+        self.create_service(FindObjects, 'find_objects', lambda _, response: response)
+        self.create_subscription(String, 'speech/say', self._hear, EVENT)
+        self._objects = self.create_publisher(Detection3DArray, 'objects', LATCHED)
+        self._transforms = StaticTransformBroadcaster(self)
+        here = TransformStamped(child_frame_id='base_footprint')
+        here.header.frame_id = 'map'
+        here.transform.rotation.w = 1.0
+        self._transforms.sendTransform(here)
+        mug = Detection3D(id='red_mug_1')
+        for name in ('mug', 'red mug'):
+            result = ObjectHypothesisWithPose()
+            result.hypothesis.class_id = name
+            mug.results.append(result)
+        mug.bbox.center.position.x, mug.bbox.center.position.y = 3.2, 1.2
+        mug.bbox.center.position.z = 0.75
+        mug.bbox.size.x = mug.bbox.size.y = mug.bbox.size.z = 0.1
+        self._objects.publish(Detection3DArray(detections=[mug]))
+
+    def show(self) -> None:
+        """Begin to publish pictures, and a map."""
+        self._map = self.create_publisher(OccupancyGrid, 'map', LATCHED)
+        grid = OccupancyGrid(data=[0, 100, -1, 0, 0, 0])
+        grid.info.width, grid.info.height, grid.info.resolution = 3, 2, 1.0
+        grid.info.origin.position.x = grid.info.origin.position.y = -1.0
+        self._map.publish(grid)
+        self._camera = self.create_publisher(Image, 'camera/image_raw', STATE)
+        image = Image(height=2, width=2, encoding='rgb8', step=6, data=[255, 0, 0] * 4)
+        self.create_timer(0.1, lambda: self._camera.publish(image))
+
+    def _hear(self, message: String) -> None:
+        self.said.append(message.data)
+
+    async def _walk(self, goal: RunningGoal) -> None:
+        self.walks.append(goal.request.pose.pose.position)
+        try:
+            while self.is_slow:
+                await goal.tick()
+        except BaseException:
+            self.canceled += 1
+            raise
+
+    async def _spin(self, goal: RunningGoal) -> None:
+        self.spins.append(goal.request.target_yaw)
+
+    async def _path(self, goal: RunningGoal) -> None:
+        return
+
+
+class World:
+    """
+    A domain of its own, perhaps with a robot in it, and what plays an assistant there.
+
+    The assistant is a coroutine in a thread of its own, while this one runs the nodes.
+    """
+
+    def __init__(self, ros: RosSandbox, folder: Path) -> None:
+        self.ros = ros
+        self.audit = folder / 'audit.jsonl'
+        self.places = folder / 'places.yaml'
+        self.places.write_text(PLACES)
+        self._pool = ThreadPoolExecutor(1)
+
+    def begin_robot(self) -> Robot:
+        """Start a robot."""
+        robot = self.ros.start(Robot)
+        for kind in (SkillExecutor, TaskPlanner):
+            self.ros.start(kind, {'places_file': str(self.places)})
+        return robot
+
+    def parameters(self, **others: Any) -> dict[str, Any]:
+        """Return parameters of the server."""
+        return {'places_file': str(self.places), 'audit_log': str(self.audit), **others}
+
+    def command(self, **others: Any) -> list[str]:
+        """Return the command of a server that a client starts, or a terminal."""
+        told = {
+            name: str(value).lower() if isinstance(value, bool) else str(value)
+            for name, value in self.parameters(**others).items()
+        }
+        options = [f'{name}:={value}' for name, value in told.items()]
+        return [sys.executable, '-m', 'robot_mcp.robot_mcp', *options]
+
+    def play(self, script: Callable[[], Awaitable[Any]]) -> Any:
+        """Run a coroutine function to its end, and return what it returns."""
+
+        async def limited() -> Any:
+            return await asyncio.wait_for(script(), 90.0)
+
+        future = self._pool.submit(lambda: asyncio.run(limited()))
+        self.ros.wait_until(future.done, 100.0, 'the end of what the assistant does')
+        return future.result()
+
+
+@pytest.fixture
+def world(tmp_path: Path) -> Iterator[World]:
+    """Give a domain without a robot."""
+    with ros_sandbox() as ros:
+        yield World(ros, tmp_path)
+
+
+@pytest.fixture
+def robot(world: World) -> Robot:
+    """Start a robot in the world."""
+    return world.begin_robot()
+
+
+@pytest.fixture
+def until() -> Callable[..., Awaitable[None]]:
+    """Give what waits for a condition in a coroutine."""
+
+    async def wait(condition: Callable[[], Any], what: str = 'the condition') -> None:
+        for _ in range(1500):
+            if condition():
+                return
+            await asyncio.sleep(0.02)
+        raise AssertionError(f'waited in vain for {what}')
+
+    return wait
+
+
+@pytest.fixture(autouse=True)
+def own_ros_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Keep what is written out of the home of whoever runs the tests."""
+    monkeypatch.setenv('ROS_HOME', str(tmp_path / 'ros'))
+    monkeypatch.delenv('ROBOT_MCP_TOKEN', raising=False)
+    assert os.environ['ROS_HOME']
