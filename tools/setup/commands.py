@@ -18,6 +18,7 @@ import colcon
 from console import SetupError, Steps
 from locations import find_locations, link_environment, Locations
 from ownership import Home, python_version
+from parts import Parts
 import prerequisites
 import processes
 from stamp import digest, Stamp
@@ -27,6 +28,7 @@ import wheels
 ROOT = Path(__file__).resolve().parents[2]
 BUILT = ('build', 'install', 'log')
 REQUIREMENTS = ROOT / 'requirements.txt'
+PART_REQUIREMENTS = ROOT / 'requirements-parts.txt'
 TEST_REQUIREMENTS = ROOT / 'requirements-test.txt'
 
 
@@ -97,21 +99,26 @@ def only_one_at_a_time(root: Path) -> Iterator[None]:
 def set_up(locations: Locations, *, quiet: bool = False, everything: bool = True) -> int:
     """Make the environment what this workspace needs; quick where it is that already.
 
-    Without `everything`, what the command does not need of the underlay waits: interface packages
-    that nothing in src/ depends on, and packages on demand that ASKED_FOR does not name.
+    Without `everything`, what the command does not need waits: interface packages that nothing in
+    src/ depends on, and packages on demand and wheels of parts that ASKED_FOR does not name.
     """
     requirements = wheels_digest(REQUIREMENTS)
     wheels_stamp = Stamp(locations.environment / 'stamp' / 'wheels')
-    underlay = Underlay(locations, requirements, os.environ.get('ASKED_FOR', ''))
+    asked_for = os.environ.get('ASKED_FOR', '')
+    underlay = Underlay(locations, requirements, asked_for)
+    parts = Parts(locations, PART_REQUIREMENTS, asked_for)
     home = Home(locations)
     home.require_same()
     stale = underlay.to_build(everything=everything)
+    missing = parts.to_install(everything=everything)
+    compiled = wheels_digest(REQUIREMENTS, PART_REQUIREMENTS)
     compiled_stamp = Stamp(locations.environment / 'stamp' / 'compiled')
-    is_compiled = not everything or compiled_stamp.matches(requirements)
+    is_compiled = not everything or compiled_stamp.matches(compiled)
     has_wheels = wheels_stamp.matches(requirements)
-    if locations.link.exists() and has_wheels and is_compiled and not stale:
+    if locations.link.exists() and has_wheels and is_compiled and not missing and not stale:
         link_environment(locations)
         underlay.describe_others()
+        parts.describe_others()
         if not quiet:
             print(f'The environment in {locations.link} is complete.')
         return 0
@@ -123,14 +130,16 @@ def set_up(locations: Locations, *, quiet: bool = False, everything: bool = True
     link_environment(locations)
     if not wheels.has_pip(locations):
         wheels.make_environment(locations, sys.executable)
-    steps.begin('Wheels from PyPI, as requirements.txt pins them')
+    steps.begin('Wheels from PyPI, as requirements.txt and requirements-parts.txt pin them')
     if not has_wheels:
         wheels_stamp.clear()
         wheels.install_wheels(locations, steps, sysconfig.get_path('include'), REQUIREMENTS)
         wheels_stamp.write(requirements)
+    parts.install(missing, steps)
+    parts.describe_others()
     if not is_compiled:
         wheels.compile_all(locations)
-        compiled_stamp.write(requirements)
+        compiled_stamp.write(compiled)
     steps.begin('Underlay: launch, ros2 and what else PyPI lacks (a minute)')
     underlay.build(stale, steps)
     underlay.describe_others()

@@ -7,22 +7,36 @@ platform="sys_platform == 'linux' and platform_machine == 'x86_64' and implement
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 printf '[tool.uv]\nenvironments = ["%s and python_version < '"'3.14'"'"]\n' "$platform" > "$folder/pyproject.toml"
-cp tools/setup/requirements.in tools/setup/requirements-test.in "$folder"
+cp tools/setup/requirements*.in "$folder"
 
-pins() { # of a file in the folder, one a line
+pins() { # of files in the folder, one a line
   (cd "$folder" && uv pip compile --quiet --universal --no-annotate --no-header --python-version 3.10 "$@") |
     sed -e "s/ and implementation_name == 'cpython'//; s/ and platform_machine == 'x86_64'//" \
       -e "s/ and sys_platform == 'linux'//; s/ and platform_python_implementation != 'PyPy'//" \
       -e "s/ and python_full_version < '3.14'//; s/ ; python_full_version < '3.14'\$//"
 }
 
-pins requirements.in "$@" > "$folder/runtime"
-pins requirements-test.in --constraint runtime "$@" > "$folder/all"
+parts() { # each with its line in requirements-parts.in, and what it takes beyond requirements.txt
+  grep '^# \[' "$folder/requirements-parts.in" | while IFS= read -r header; do
+    awk -v header="$header" '/^# \[/ { inside = ($0 == header) } inside' \
+      "$folder/requirements-parts.in" > "$folder/part.in"
+    printf '\n%s\n' "$header"
+    pins part.in --constraint every "$@" | grep -vxFf "$folder/runtime"
+  done
+}
+
+pins requirements.in requirements-parts.in "$@" > "$folder/every"
+pins requirements.in --constraint every "$@" > "$folder/runtime"
+pins requirements-test.in --constraint every "$@" > "$folder/all"
 {
   echo '# Made by `make lock` from tools/setup/requirements.in, which says what each is for.'
   cat "$folder/runtime"
 } > requirements.txt
 {
+  echo '# Made by `make lock` from tools/setup/requirements-parts.in, which says what each is for.'
+  parts "$@"
+} > requirements-parts.txt
+{
   echo '# Made by `make lock` from tools/setup/requirements-test.in: what tests need besides.'
-  grep -vxFf "$folder/runtime" "$folder/all"
+  grep -vxFf "$folder/every" "$folder/all"
 } > requirements-test.txt
