@@ -4,7 +4,8 @@ Count how many spoken commands are understood, and how many other sentences are 
 
 Synthesizers of the system, flite and espeak-ng, speak the commands of the planner's tests, and
 sentences that are none; the recogniser has the grammar of the planner in the apartment.
-A command is right if the plan of what was recognized is that of what was said.
+A command is right if the plan of what was recognized is that of what was said, and a stop if it
+stops the robot.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import argparse
 from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
+import re
 import shutil
 import subprocess
 import sys
@@ -29,7 +31,7 @@ from llm_planner.world import base_name, Thing, World
 import numpy as np
 from numpy.typing import NDArray
 from voice_control.audio import chunks, duration_s, read_wav, wav_of
-from voice_control.grammar_recognizer import GrammarRecognizer
+from voice_control.grammar_recognizer import GrammarRecognizer, THRESHOLD
 from voice_control.segmentation import UtteranceSegmenter
 import yaml
 
@@ -42,6 +44,19 @@ OTHER = (
     'the quick brown fox jumps over the lazy dog', 'my car needs new brakes',
     'let us watch a movie later', 'good morning everyone how was the weekend',
     'the kitchen sink is leaking again', 'who is going to win the election',
+    'did you watch the news last night', 'i will meet you at the station at six',
+    'the train was late again this morning', 'we should paint the fence next summer',
+    'my sister has two cats and a dog', 'do you take milk in your coffee',
+    'the meeting was moved to thursday', 'there is nothing good on television',
+    'he left his umbrella on the bus', 'how much did the new phone cost',
+    'she plays the piano very well', 'they are building a bridge over the river',
+    'turn the music down a little', 'what time does the shop close today',
+    'i think it is going to rain tomorrow', 'the children are already asleep',
+    'can somebody open the window for me', 'we ran out of sugar and flour',
+)  # fmt: skip
+STOPS = (
+    'stop', 'stop it', 'stop now', 'stop moving', 'halt', 'freeze', 'emergency stop',
+    'please stop', 'robot stop', 'stop that', 'halt now', 'freeze now',
 )  # fmt: skip
 VOICES = {
     'flite slt': ['flite', '-voice', 'slt', '-o', '{file}', '-t', '{text}'],
@@ -64,6 +79,7 @@ SAMPLES = {
     'espeak en-us': ('please call my mother tonight',),
 }  # fmt: skip
 """What the tests of voice_control hear: commands, and sentences that are none."""
+SAY = re.compile(r'say (dinner|good)|.* say done')
 PEAK = 12_000.0
 THINGS = (
     Thing('red_mug_1', 'mug', 'red', 'kitchen_counter', 'kitchen', (1.0, 3.8, 0.85)),
@@ -74,7 +90,7 @@ THINGS = (
 
 @dataclass
 class Row:
-    """What became of the sentences of a voice: right, rejected, wrong; others that were taken."""
+    """What became of the sentences of a voice: right, rejected, wrong; others taken; stops."""
 
     counts: Counter[str] = field(default_factory=Counter)
     speech_s: float = 0.0
@@ -88,7 +104,9 @@ def main() -> int:
         '--noise', type=in_range(float, 0.0, 10_000.0), default=10.0,
         help='standard deviation of the noise beside speech with a peak of 12000; 200 is 20 dB',
     )  # fmt: skip
-    parser.add_argument('--threshold', type=float, default=-4.2, help='that of the recogniser')
+    parser.add_argument(
+        '--threshold', type=float, default=THRESHOLD, help='that of the recogniser'
+    )
     parser.add_argument(
         '--every', type=in_range(int, 1), default=1, help='only each n-th sentence'
     )
@@ -107,18 +125,23 @@ def main() -> int:
         write_samples(options.samples, planner.to_jsgf(world))
         return 0
     said = yaml.safe_load(SENTENCES.read_text())
-    commands = [text for kind in KINDS for text in said[kind]][:: options.every]
+    # Free text cannot be in a grammar.
+    commands = [text for kind in KINDS for text in said[kind] if not SAY.match(text)]
+    commands = commands[:: options.every]
     recognizer = GrammarRecognizer(options.threshold)
     unknown = recognizer.set_grammar(planner.to_jsgf(world))
     print(f'{len(commands)} commands, {len(OTHER)} others; unknown words: {unknown or "none"}')
-    print(f'{"voice":<18}{"right":>7}{"rejected":>10}{"wrong":>7}{"others taken":>14}{"CPU":>7}')
+    print(
+        f'{"voice":<18}{"right":>7}{"rejected":>10}{"wrong":>7}{"others taken":>14}'
+        f'{"stops":>7}{"CPU":>7}'
+    )
     for name, words in voices.items():
         row = measured(words, commands, planner, world, recognizer, options)
         shares = [row.counts[kind] / len(commands) for kind in ('right', 'rejected', 'wrong')]
-        shares.append(row.counts['taken'] / len(OTHER))
+        shares += [row.counts['taken'] / len(OTHER), row.counts['stop'] / len(STOPS)]
         print(
             f'{name:<18}{shares[0]:>7.0%}{shares[1]:>10.0%}{shares[2]:>7.0%}{shares[3]:>14.0%}'
-            f'{row.cpu_s / row.speech_s:>7.3f}'
+            f'{shares[4]:>7.0%}{row.cpu_s / row.speech_s:>7.3f}'
         )
     return 0
 
@@ -137,21 +160,23 @@ def measured(
 ) -> Row:  # fmt: skip
     """Let a voice say everything."""
     row = Row()
-    for number, text in enumerate([*commands, *OTHER]):
+    for number, text in enumerate([*commands, *OTHER, *STOPS]):
         sound = spoken(words, text, options.noise, number)
         begin_s = time.process_time()
-        heard, is_accepted = recognized(recognizer, sound)
+        heard, is_accepted, is_stop = recognized(recognizer, sound)
         row.cpu_s += time.process_time() - begin_s
         row.speech_s += duration_s(sound)
         outcome = plan_of(planner, world, heard) if is_accepted else None
-        if text in OTHER:
+        if text in STOPS:
+            kind = 'stop' if is_stop else 'missed'
+        elif text in OTHER:
             kind = 'taken' if outcome is not None else 'left'
         elif outcome is None:
             kind = 'rejected'
         else:
             kind = 'right' if outcome == plan_of(planner, world, text) else 'wrong'
         row.counts[kind] += 1
-        if options.list and kind not in ('right', 'left'):
+        if options.list and kind not in ('right', 'left', 'stop'):
             print(f'    {kind}: {text!r} -> {heard!r}')
     return row
 
@@ -189,16 +214,17 @@ def write_samples(folder: Path, grammar: str) -> None:
             (folder / name).write_bytes(wav_of(s16le(synthesized(VOICES[voice], text))))
 
 
-def recognized(recognizer: GrammarRecognizer, sound: bytes) -> tuple[str, bool]:
-    """Return what is heard in a sound, and whether all of it counts."""
+def recognized(recognizer: GrammarRecognizer, sound: bytes) -> tuple[str, bool, bool]:
+    """Return what is heard in a sound, whether all of it counts, and whether any is a stop."""
     segmenter = UtteranceSegmenter()
-    texts, is_accepted = [], True
+    texts, is_accepted, is_stop = [], True, False
     for piece in chunks(sound, 0.03):
         for utterance in segmenter.add(piece):
             recognition = recognizer.recognize(utterance)
             texts.append(recognition.text)
             is_accepted = is_accepted and recognition.is_accepted
-    return ' '.join(texts), is_accepted and bool(texts)
+            is_stop = is_stop or recognition.is_stop
+    return ' '.join(texts), is_accepted and bool(texts), is_stop
 
 
 def plan_of(planner: RulePlanner, world: World, text: str) -> tuple[object, ...] | None:

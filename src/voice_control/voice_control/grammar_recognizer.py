@@ -11,9 +11,11 @@ from pocketsphinx import Decoder, get_model_path
 from voice_control.recognition import Recognition, RecognizerError
 from voice_control.word_network import compile_jsgf
 
-__all__ = ['STOP_GRAMMAR', 'GrammarRecognizer', 'read_dictionary']
+__all__ = ['STOP_GRAMMAR', 'THRESHOLD', 'GrammarRecognizer', 'read_dictionary']
 
 BACKEND = 'pocketsphinx'
+THRESHOLD = -3.2
+"""The least log-likelihood ratio per frame of a command, if nothing else is said."""
 STOP_GRAMMAR = """#JSGF V1.0;
 grammar stop;
 public <command> = <stop_phrase>;
@@ -25,6 +27,8 @@ _COMMANDS, _PHONES = 'commands', 'phones'
 _STOP_WORDS = frozenset(('stop', 'halt', 'freeze'))
 _STOP_WITHIN = 3
 """Among how many words at the beginning a word to stop counts: "please stop", "emergency stop"."""
+_GRAMMAR_WEIGHT = 3.0
+"""How much it counts, against the sound, that a place in the grammar has many words to choose."""
 _SHORT_STOP = 4
 """Words of a sentence that stops the robot however badly it fits; longer ones may be chance."""
 _SCORE_SCALE = 1024.0
@@ -64,8 +68,8 @@ class GrammarRecognizer:
 
     A grammar forces any sound into its words. So an utterance is recognized a second time as a
     loop of phones, which may follow in any order: the mean, over the frames of the words, of the
-    log-likelihood ratio of the two tells commands (median -1.5 to -3.4) from other sentences
-    (-5.3 to -6.2); measured with six synthetic voices.
+    log-likelihood ratio of the two tells commands (mostly -1 to -3) from other sentences (mostly
+    below -3.5); measured with synthetic voices.
 
     Parameters
     ----------
@@ -77,11 +81,11 @@ class GrammarRecognizer:
 
     """
 
-    def __init__(self, threshold: float = -4.2, dictionary: Mapping[str, str] = {}) -> None:
+    def __init__(self, threshold: float = THRESHOLD, dictionary: Mapping[str, str] = {}) -> None:
         self.threshold = threshold
         self.title = f'pocketsphinx (grammar, threshold {threshold:g})'
         # A search for the best path through the lattice would end anywhere in the grammar.
-        self._decoder = Decoder(loglevel='FATAL', lm=None, bestpath=False)
+        self._decoder = Decoder(loglevel='FATAL', lm=None, bestpath=False, lw=_GRAMMAR_WEIGHT)
         for word, phones in dictionary.items():
             self._decoder.add_word(word, phones, True)
         self._decoder.add_allphone_file(_PHONES, get_model_path('en-us/en-us-phone.lm.bin'))
@@ -111,12 +115,17 @@ class GrammarRecognizer:
         try:
             network = compile_jsgf(jsgf, self._knows)
             last = len(network.arcs)
+            # All words at a place are equally likely; so is the end of the sentence.
+            shares = [
+                1.0 / (len(words) + (state in network.finals))
+                for state, words in enumerate(network.arcs)
+            ]
             arcs = [
-                (state, target, 1.0, word)
+                (state, target, shares[state], word)
                 for state, words in enumerate(network.arcs)
                 for word, target in words.items()
             ]
-            ends = [(state, last, 1.0) for state in network.finals]
+            ends = [(state, last, shares[state]) for state in network.finals]
             fsg = self._decoder.create_fsg(_COMMANDS, 0, last, [*arcs, *ends])
             self._decoder.add_fsg(_COMMANDS, fsg)
             self._decoder.activate_search(_COMMANDS)

@@ -12,6 +12,8 @@ from voice_control.audio import duration_s
 
 __all__ = ['UtteranceSegmenter']
 
+_PAUSE_S = 0.5
+"""Silence of about this length ends an utterance: less is the pause that a comma makes."""
 _NOISE = 3.0
 """Standard deviation, in steps of 16-bit samples, of the noise that is added."""
 
@@ -47,7 +49,7 @@ class UtteranceSegmenter:
 
     def reset(self) -> None:
         """Forget what came in: the stream begins anew."""
-        self._endpointer = Endpointer(vad_mode=self.vad_mode)
+        self._endpointer = Endpointer(window=_PAUSE_S, vad_mode=self.vad_mode)
         self._frame_size = int(self._endpointer.frame_bytes)
         self._rest = b''
         self._speech = b''

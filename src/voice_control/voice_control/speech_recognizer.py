@@ -28,7 +28,7 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from std_msgs.msg import Bool, String
 from std_srvs.srv import SetBool
-from voice_control.grammar_recognizer import GrammarRecognizer, read_dictionary
+from voice_control.grammar_recognizer import GrammarRecognizer, read_dictionary, THRESHOLD
 from voice_control.recognition import Heard, Listener, Recognizer, RecognizerError
 from voice_control.segmentation import UtteranceSegmenter
 from voice_control.whisper import FasterWhisper, TranscriptionServer, WhisperCpp
@@ -69,7 +69,7 @@ class RecognizerParameters:
         1, 'How many threads Whisper computes with.', at_least=1, at_most=64, read_only=True
     )
     threshold: float = parameter(
-        -4.2,
+        THRESHOLD,
         'The least log-likelihood ratio per frame with which pocketsphinx accepts a command.',
         at_least=-100.0,
         at_most=100.0,

@@ -84,12 +84,11 @@ def compile_jsgf(jsgf: str, is_known: Callable[[str], bool] = lambda _: True) ->
 
     """
     rules, public = _read(jsgf)
-    automaton = _Automaton(rules, is_known)
-    first, last = automaton.expand(public)
-    network = _minimal(*_deterministic(automaton, first, last))
+    compiler = _Compiler(rules, is_known)
+    network = compiler.network(public)
     if not network.finals:
         raise RecognizerError('Nothing can be said by the grammar.')
-    return WordNetwork(network.arcs, network.finals, tuple(automaton.unknown))
+    return WordNetwork(network.arcs, network.finals, tuple(compiler.unknown))
 
 
 def _read(jsgf: str) -> tuple[dict[str, list[str]], str]:
@@ -121,34 +120,51 @@ def _read(jsgf: str) -> tuple[dict[str, list[str]], str]:
 
 
 @dataclass
-class _Automaton:
-    """A nondeterministic automaton with empty moves, made from the rules of a grammar."""
+class _Compiler:
+    """Compiles the rules of a grammar, each once: the others take copies of its network."""
 
     rules: Mapping[str, list[str]]
     is_known: Callable[[str], bool]
-    moves: list[list[tuple[str, int]]] = field(default_factory=list)
-    """For each state, words with the states that they lead to; empty words are free."""
     unknown: dict[str, None] = field(default_factory=dict)
+    _compiled: dict[str, WordNetwork] = field(default_factory=dict)
     _open: list[str] = field(default_factory=list)
 
-    def expand(self, rule: str) -> tuple[int, int]:
-        """Add the states of a rule; return the first and the last one."""
-        if rule == '<NULL>':
-            state = self._state()
-            return state, state
-        if rule == '<VOID>':
-            return self._state(), self._state()
+    def network(self, rule: str) -> WordNetwork:
+        """Return the minimal network of a rule."""
         if rule not in self.rules:
             raise RecognizerError(f'The rule {rule} is used, but not defined.')
         if rule in self._open:
             raise RecognizerError(f'The rule {rule} refers to itself; write * or + instead.')
-        self._open.append(rule)
-        tokens = self.rules[rule]
-        first, last, end = self._alternatives(tokens, 0)
-        if end != len(tokens):
-            raise RecognizerError(f'The rule {rule} has a "{tokens[end]}" that nothing opens.')
-        self._open.pop()
-        return first, last
+        if rule not in self._compiled:
+            self._open.append(rule)
+            automaton = _Automaton(self, rule)
+            tokens = self.rules[rule]
+            first, last, end = automaton.alternatives(tokens, 0)
+            if end != len(tokens):
+                raise RecognizerError(f'The rule {rule} has a "{tokens[end]}" that nothing opens.')
+            self._compiled[rule] = _minimal(*_deterministic(automaton.moves, first, last))
+            self._open.pop()
+        return self._compiled[rule]
+
+
+@dataclass
+class _Automaton:
+    """A nondeterministic automaton with empty moves, made from the tokens of a rule."""
+
+    compiler: _Compiler
+    rule: str
+    moves: list[list[tuple[str, int]]] = field(default_factory=list)
+    """For each state, words with the states that they lead to; empty words are free."""
+
+    def _copy(self, network: WordNetwork) -> tuple[int, int]:
+        """Add the states of another rule; return the first and the last one."""
+        states = [self._state() for _ in network.arcs]
+        last = self._state()
+        for state, arcs in zip(states, network.arcs, strict=True):
+            self.moves[state] = [(word, states[target]) for word, target in arcs.items()]
+        for state in network.finals:
+            self.moves[states[state]].append(('', last))
+        return states[0], last
 
     def _state(self) -> int:
         if len(self.moves) >= _MOST_STATES:
@@ -156,7 +172,7 @@ class _Automaton:
         self.moves.append([])
         return len(self.moves) - 1
 
-    def _alternatives(self, tokens: list[str], at: int) -> tuple[int, int, int]:
+    def alternatives(self, tokens: list[str], at: int) -> tuple[int, int, int]:
         """Read sequences up to a closing bracket or the end; return first, last and its index."""
         first, last = self._state(), self._state()
         while True:
@@ -176,7 +192,7 @@ class _Automaton:
             last = end
             count += 1
         if not count:
-            raise RecognizerError(f'An alternative of {self._open[-1]} is empty: use <NULL>.')
+            raise RecognizerError(f'An alternative of {self.rule} is empty: use <NULL>.')
         return first, last, at
 
     def _item(self, tokens: list[str], at: int) -> tuple[int, int, int]:
@@ -184,16 +200,16 @@ class _Automaton:
         token = tokens[at]
         at += 1
         if token in ('(', '['):
-            first, last, at = self._alternatives(tokens, at)
+            first, last, at = self.alternatives(tokens, at)
             if at == len(tokens) or tokens[at] != {'(': ')', '[': ']'}[token]:
-                raise RecognizerError(f'A "{token}" in {self._open[-1]} is not closed.')
+                raise RecognizerError(f'A "{token}" in {self.rule} is not closed.')
             at += 1
             if token == '[':
                 self.moves[first].append(('', last))
         elif token in ('*', '+', '=', ')', ']'):
-            raise RecognizerError(f'In {self._open[-1]} there is a "{token}" out of place.')
+            raise RecognizerError(f'In {self.rule} there is a "{token}" out of place.')
         elif token.startswith('<'):
-            first, last = self.expand(token)
+            first, last = self._reference(token)
         else:
             first, last = self._words(token.strip('"').lower().split())
         while at < len(tokens) and tokens[at] in ('*', '+'):
@@ -205,14 +221,22 @@ class _Automaton:
             first, last, at = begin, end, at + 1
         return first, last, at
 
+    def _reference(self, rule: str) -> tuple[int, int]:
+        if rule == '<NULL>':
+            state = self._state()
+            return state, state
+        if rule == '<VOID>':
+            return self._state(), self._state()
+        return self._copy(self.compiler.network(rule))
+
     def _words(self, words: list[str]) -> tuple[int, int]:
         first = last = self._state()
         for word in words:
             following = self._state()
-            if self.is_known(word):
+            if self.compiler.is_known(word):
                 self.moves[last].append((word, following))
             else:
-                self.unknown[word] = None
+                self.compiler.unknown[word] = None
             last = following
         return first, last
 
@@ -220,9 +244,11 @@ class _Automaton:
 _Table = list[dict[str, int]]
 
 
-def _deterministic(automaton: _Automaton, first: int, last: int) -> tuple[_Table, set[int]]:
+def _deterministic(
+    moves: list[list[tuple[str, int]]], first: int, last: int
+) -> tuple[_Table, set[int]]:
     """Return the arcs of each state, and the final states, of an equal deterministic automaton."""
-    free: list[frozenset[int] | None] = [None] * len(automaton.moves)
+    free: list[frozenset[int] | None] = [None] * len(moves)
 
     def reached(state: int) -> frozenset[int]:
         """Return the states with words that are reached from one without a word, or the last."""
@@ -230,14 +256,12 @@ def _deterministic(automaton: _Automaton, first: int, last: int) -> tuple[_Table
         if found is None:
             seen, todo = {state}, [state]
             while todo:
-                for word, target in automaton.moves[todo.pop()]:
+                for word, target in moves[todo.pop()]:
                     if not word and target not in seen:
                         seen.add(target)
                         todo.append(target)
             found = free[state] = frozenset(
-                each
-                for each in seen
-                if each == last or any(word for word, _ in automaton.moves[each])
+                each for each in seen if each == last or any(word for word, _ in moves[each])
             )
         return found
 
@@ -249,7 +273,7 @@ def _deterministic(automaton: _Automaton, first: int, last: int) -> tuple[_Table
         subset = todo.pop()
         targets: dict[str, set[int]] = {}
         for state in subset:
-            for word, target in automaton.moves[state]:
+            for word, target in moves[state]:
                 if word:
                     targets.setdefault(word, set()).update(reached(target))
         arcs = table[numbers[subset]]
