@@ -83,7 +83,7 @@ def test_what_fails_is_said_at_once(
     (tmp_path / 'test_it.py').write_text(BROKEN + HANGING)
     shutil.copy(Path(__file__).parent / 'watchdog.py', tmp_path)
     command = [*suite.command, '-p', 'watchdog']
-    assert run([[Suite('mine', command, ['true'], suite.reports)]], limit_s=10.0) == 1
+    assert run([[Suite('mine', command, ['true'], suite.reports)]], limit_s=30.0) == 1
     assert 'FAILED test_it.py::test_broken (call)' in capfd.readouterr().err
 
 
