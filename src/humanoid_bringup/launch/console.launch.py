@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from humanoid_bringup.crash_proof import crash_proof, Once
 from humanoid_bringup.rviz_file import RvizFile
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
@@ -28,11 +29,11 @@ def generate_launch_description() -> LaunchDescription:
         LaunchConfiguration('perception', default='false'),
     )
     frame = IfElseSubstitution(navigates, 'map', 'odom')
+    arguments = ['-d', Once(config), '-f', Once(LaunchConfiguration('prefix'), frame)]
+    kinds = {'host': str, 'port': int, 'token': str, 'use_sim_time': bool}
     page = {
-        'host': ParameterValue(LaunchConfiguration('host'), value_type=str),
-        'port': ParameterValue(LaunchConfiguration('port'), value_type=int),
-        'token': ParameterValue(LaunchConfiguration('token'), value_type=str),
-        'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool),
+        name: ParameterValue(Once(LaunchConfiguration(name)), value_type=kind)
+        for name, kind in kinds.items()
     }
     return LaunchDescription(
         [
@@ -62,12 +63,15 @@ def generate_launch_description() -> LaunchDescription:
                 choices=['true', 'false'],
                 description='Take the time from the topic /clock instead of the computer.',
             ),
-            Node(
-                package='rviz2',
-                executable='rviz2',
-                output='screen',
-                arguments=['-d', config, '-f', [LaunchConfiguration('prefix'), frame]],
-                parameters=[page],
+            crash_proof(
+                lambda **options: Node(
+                    package='rviz2',
+                    executable='rviz2',
+                    output='screen',
+                    arguments=arguments,
+                    parameters=[page],
+                    **options,
+                )
             ),
         ]
     )

@@ -44,6 +44,8 @@ def generate_launch_description() -> LaunchDescription:
                 package='humanoid_control',
                 executable='joint_controller',
                 output='screen',
+                respawn=True,
+                respawn_delay=2.0,
                 parameters=[PathJoinSubstitution([config, 'joint_controller.yaml']), use_sim_time],
                 condition=IfCondition(LaunchConfiguration('use_controller')),
             ),
@@ -51,6 +53,8 @@ def generate_launch_description() -> LaunchDescription:
                 package='humanoid_control',
                 executable='sensor_processor',
                 output='screen',
+                respawn=True,
+                respawn_delay=2.0,
                 parameters=[
                     PathJoinSubstitution([config, 'sensor_processor.yaml']),
                     use_sim_time,

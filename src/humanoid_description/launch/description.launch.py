@@ -44,6 +44,8 @@ def generate_launch_description() -> LaunchDescription:
             Node(
                 package='robot_state_publisher',
                 executable='robot_state_publisher',
+                respawn=True,
+                respawn_delay=2.0,
                 parameters=[description, time],
             ),
         ]

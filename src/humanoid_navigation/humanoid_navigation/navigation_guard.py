@@ -10,6 +10,7 @@ from action_msgs.srv import CancelGoal
 from humanoid_common.inhibition import Inhibition
 from humanoid_common.qos import LATCHED
 from humanoid_common.running import run_node
+from humanoid_navigation.pose_keeper import PoseKeeper
 from rclpy.node import Node
 from std_msgs.msg import String
 
@@ -21,7 +22,8 @@ class NavigationGuard(Node):
     Says on `navigation_inhibit` why the robot cannot go anywhere, or nothing, and ends goals.
 
     A navigator that listens to that topic aborts its goals with the reason. Those of one that
-    does not, as the genuine Nav2, are canceled.
+    does not, as the genuine Nav2, are canceled. A localisation that is started anew after a
+    crash is told where the robot was.
 
     Parameters
     ----------
@@ -40,6 +42,7 @@ class NavigationGuard(Node):
         ]
         self.create_subscription(String, 'walking_state', self._tell_walking_state, LATCHED)
         self.create_subscription(String, 'stop_state', self._tell_stop_state, LATCHED)
+        self._pose_keeper = PoseKeeper(self)
         self._say()
 
     def _tell_walking_state(self, message: String) -> None:

@@ -30,7 +30,8 @@ class HostDiagnostics:
     ) -> None:
         """Begin to publish, once a second; `speed` is how fast the robots' time passes."""
         self._host, self._robots, self._speed = host, robots, speed
-        self._slowness = Slowness()
+        self._slowness, self._has_complained = Slowness(), False
+        self._logger = node.get_logger()
         self._name = node.get_fully_qualified_name().lstrip('/')
         self._publisher = node.create_publisher(DiagnosticArray, 'diagnostics', STATE)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -48,6 +49,11 @@ class HostDiagnostics:
         now_s = time.monotonic()
         load, speed = self._host.load.report(now_s), self._speed()
         complaint = self._slowness.complaint(speed, now_s)
+        if complaint and not self._has_complained:
+            self._has_complained = True
+            self._logger.warning(
+                f'{complaint[:1].upper()}{complaint[1:]}, so that the world goes slower.'
+            )
         values = {
             'ticks': f'{load.ticks}',
             'mean of a tick': f'{load.mean_ms:.2f} ms',
