@@ -56,7 +56,7 @@ fix: setup ## Format the code and mend what ruff can
 	@tools/in_environment --underlay ruff format .
 	@tools/in_environment --underlay ruff check --fix .
 
-bench: build ## Measure what commands, launches, bags, transforms, RViz, physics, navigation and perception cost
+bench: build ## Measure what commands, launches, bags, transforms, RViz, physics, navigation, perception and planning cost
 	@$(RUN) python3 tools/benchmarks/command_times.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/launch_times.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/prefork_times.py $(ARGS)
@@ -69,6 +69,7 @@ bench: build ## Measure what commands, launches, bags, transforms, RViz, physics
 	@$(RUN) python3 tools/benchmarks/simulation.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/navigation.py $(ARGS)
 	@$(RUN) python3 tools/benchmarks/perception.py $(ARGS)
+	@$(RUN) python3 tools/benchmarks/planner.py $(ARGS)
 
 soak: build ## Let the humanoid walk for 20 minutes under bad conditions
 	@$(RUN) python3 tools/benchmarks/walking_soak.py $(ARGS)

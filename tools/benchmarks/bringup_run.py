@@ -76,13 +76,13 @@ def measured_run(workspace: Path, seconds: float, with_rates: bool) -> Run:
         os.environ['ROS_DOMAIN_ID'] = str(domain)
         with _bringup(workspace) as launch, _witness() as witness:
             witness.wait_until_it_stands()
-            begin_s, before_s = witness.time_s(), _cpu_by_process(launch.pid)
+            begin_s, before_s = witness.time_s(), cpu_by_process(launch.pid)
             time.sleep(seconds)
-            end_s, after_s = witness.time_s(), _cpu_by_process(launch.pid)
+            end_s, after_s = witness.time_s(), cpu_by_process(launch.pid)
             costs: dict[str, ProcessCost] = {}
             for process, cpu_s in after_s.items():
                 share = (cpu_s - before_s.get(process, 0.0)) / (end_s - begin_s)
-                name, memory_mb = _name(process), _pss_mb(process)
+                name, memory_mb = process_name(process), pss_mb(process)
                 other = costs.get(name, ProcessCost(0.0, 0.0))
                 costs[name] = ProcessCost(other.cpu + share, other.memory_mb + memory_mb)
             return Run(costs, witness.rates_hz(seconds) if with_rates else {})
@@ -176,7 +176,7 @@ def _class(kind: str) -> Any:
     return getattr(import_module(f'{package}.msg'), name)
 
 
-def _cpu_by_process(process: int) -> dict[int, float]:
+def cpu_by_process(process: int) -> dict[int, float]:
     """Return the CPU time that a process and its children have used so far, in seconds."""
     found: dict[int, float] = {}
     try:
@@ -184,13 +184,13 @@ def _cpu_by_process(process: int) -> dict[int, float]:
         found[process] = (int(fields[11]) + int(fields[12])) / TICKS_HZ
         for task in Path(f'/proc/{process}/task').iterdir():
             for child in (task / 'children').read_text().split():
-                found |= _cpu_by_process(int(child))
+                found |= cpu_by_process(int(child))
     except (FileNotFoundError, ProcessLookupError):
         pass
     return found
 
 
-def _pss_mb(process: int) -> float:
+def pss_mb(process: int) -> float:
     """Return the memory of a process; what several share is divided among them."""
     try:
         for line in Path(f'/proc/{process}/smaps_rollup').read_text().splitlines():
@@ -201,6 +201,6 @@ def _pss_mb(process: int) -> float:
     return 0.0
 
 
-def _name(process: int) -> str:
+def process_name(process: int) -> str:
     """Return the name of a process: that of its main thread, which nodes set."""
     return Path(f'/proc/{process}/comm').read_text().strip()

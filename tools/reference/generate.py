@@ -12,6 +12,7 @@ import displays
 import launch_names
 import node_parameters
 from own_packages import is_own_package
+import skills
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / 'docs' / 'reference'
@@ -87,6 +88,11 @@ def displays_page() -> str:
     return '\n'.join([NOTE, *displays.lines()])
 
 
+def skills_page() -> str:
+    """Describe what the robot can be asked for."""
+    return '\n'.join([NOTE, *skills.lines(ROOT)])
+
+
 def pages() -> dict[str, str]:
     """Return the text of each page by file name."""
     return {
@@ -95,6 +101,7 @@ def pages() -> dict[str, str]:
         'launch_files.md': launch_page(),
         'launch_names.md': names_page(),
         'parameters.md': parameters_page(),
+        'skills.md': skills_page(),
         'transforms.md': transforms_page(),
     }
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 import importlib.util
 from pathlib import Path
 from types import ModuleType
@@ -59,6 +60,28 @@ def test_the_parameters_are_described(root: Path, generate: ModuleType) -> None:
     written = (root / 'docs' / 'reference' / 'parameters.md').read_text()
     assert written == generate.parameters_page()
     assert '| `physics_rate_hz` | a number, from 100 to 5000 | 500.0 |' in written
+
+
+def test_the_skills_are_described(root: Path, generate: ModuleType) -> None:
+    """Each skill of the file is in the reference, with its arguments and limits."""
+    written = (root / 'docs' / 'reference' / 'skills.md').read_text()
+    assert written == generate.skills_page()
+    assert '| `angle` | a number of degrees, from 1 to 360 | 90 |' in written
+
+
+def test_the_sentences_of_the_reference_are_understood(root: Path) -> None:
+    """Each phrase of each skill has an example; what it asks for may not be possible alone."""
+    import skills  # tools/reference is on the path here
+
+    planner = import_module('llm_planner.rules').RulePlanner(skills.load(root))
+    world_of = import_module('llm_planner.world').World
+    world = world_of({'desk': 'study'}, ('kitchen', 'hall', 'study'))
+    dialogue_of = import_module('llm_planner.dialogue').Dialogue
+    said = skills.all_sentences(root)
+    assert len(said) > 40
+    for text in said:
+        outcome = planner.plan(text, world, dialogue_of())
+        assert 'not understand' not in getattr(outcome, 'text', ''), text
 
 
 def test_every_verb_is_described(root: Path, generate: ModuleType) -> None:

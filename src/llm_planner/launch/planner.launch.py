@@ -25,10 +25,11 @@ ARGUMENTS = (
     ('namespace', '', 'The namespace of the robot.'),
     ('use_sim_time', 'false', 'Take the time from the topic /clock instead of the computer.'),
 )
-MODEL = (
+PLANNER = (
     ('backend', 'planner_backend'),
     ('base_url', 'llm_base_url'),
     ('model', 'llm_model'),
+    ('confirm', 'confirm'),
 )
 """Parameters of the planner, and the arguments that give them."""
 
@@ -47,7 +48,13 @@ def generate_launch_description() -> LaunchDescription:
                 choices=['rules', 'openai'],
                 description='What makes plans: rules, or a language model (openai).',
             ),
-            _node('task_planner', {name: LaunchConfiguration(each) for name, each in MODEL}),
+            DeclareLaunchArgument(
+                'confirm',
+                default_value='never',
+                choices=['never', 'motion', 'always'],
+                description='Which plans are asked about before they are done.',
+            ),
+            _node('task_planner', {name: LaunchConfiguration(each) for name, each in PLANNER}),
             _node('skill_executor', {}),
         ]
     )

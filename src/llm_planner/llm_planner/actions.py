@@ -71,6 +71,7 @@ class Actions:
         """Take note of where the robot is when it is asked, and forget what was found before."""
         self._recall.begin_plan()
         self._walking.begin_plan()
+        self._looking.begin_plan()
 
     def start(self, step: Step) -> SkillRun:
         """Begin a step, with the defaults of what it does not say."""
@@ -95,6 +96,7 @@ class Actions:
         yield from self._walking.go_to(target)
         if isinstance(target, ObjectDescription):
             yield from self._looking.glance_at(self._recall.position(target))
+            self._recall.thing(target)  # it is seen to be there, or found to be gone
 
     def _say(self, text: str) -> SkillRun:
         self._robot.say(text)

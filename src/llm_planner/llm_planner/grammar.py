@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import re
 from typing import Any
 
-from llm_planner.phrases import Choice, Option, Phrase, Slot, Word
+from llm_planner.phrases import Choice, Option, Phrase, Series, Slot, Word
 from llm_planner.spoken_numbers import jsgf_digits, jsgf_of, NUMBER_WORDS, numbers_at, UNITS
 
 __all__ = ['Bindings', 'Grammar', 'tokenized']
@@ -80,6 +80,45 @@ class Grammar:
             for entries in table.values():
                 entries.sort(key=lambda entry: -len(entry[0]))
             self._by_first[name] = table
+        self._beginnings: dict[int, tuple[Phrase, frozenset[str] | None]] = {}
+
+    def beginnings(self, phrase: Phrase) -> frozenset[str] | None:
+        """
+        Return the words with which a phrase can begin; None if that can be any word, or none.
+
+        Parameters
+        ----------
+        phrase
+            It is kept, as what was found.
+
+        """
+        found = self._beginnings.get(id(phrase))
+        if found is None:
+            words, is_open = self._first_words(phrase)
+            found = self._beginnings[id(phrase)] = phrase, None if is_open else words
+        return found[1]
+
+    def _first_words(self, phrase: Phrase) -> tuple[frozenset[str], bool]:
+        """Return the words with which a phrase can begin, and whether it can do without them."""
+        if isinstance(phrase, Word):
+            return frozenset((phrase.text,)), False
+        if isinstance(phrase, Option):
+            return self._first_words(phrase.part)[0], True
+        if isinstance(phrase, Slot):
+            if phrase.rule in self._by_first:
+                return frozenset(self._by_first[phrase.rule]), False
+            rule = self.rules.get(phrase.rule)
+            return self._first_words(rule) if rule is not None else (frozenset(), True)
+        found: frozenset[str] = frozenset()
+        is_open = isinstance(phrase, Series)
+        for part in phrase.parts:
+            words, is_part_open = self._first_words(part)
+            found |= words
+            if isinstance(phrase, Choice):
+                is_open = is_open or is_part_open
+            elif not is_part_open:
+                return found, False
+        return found, is_open
 
     def matches(
         self, phrase: Phrase, tokens: Sequence[str], at: int = 0
@@ -108,22 +147,29 @@ class Grammar:
                 yield end, ((phrase.name, value),)
         elif isinstance(phrase, Choice):
             for part in phrase.parts:
-                yield from self.matches(part, tokens, at)
+                if self._may_begin(part, tokens, at):
+                    yield from self.matches(part, tokens, at)
         elif isinstance(phrase, Option):
-            yield from self.matches(phrase.part, tokens, at)
+            if self._may_begin(phrase.part, tokens, at):
+                yield from self.matches(phrase.part, tokens, at)
             yield at, ()
         else:
-            yield from self._in_turn(phrase.parts, tokens, at)
+            yield from self._in_turn(phrase.parts, 0, tokens, at)
+
+    def _may_begin(self, phrase: Phrase, tokens: Sequence[str], at: int) -> bool:
+        """Whether a phrase can begin with the word of a place, as far as is seen at once."""
+        words = self.beginnings(phrase)
+        return words is None or (at < len(tokens) and tokens[at] in words)
 
     def _in_turn(
-        self, parts: Sequence[Phrase], tokens: Sequence[str], at: int
+        self, parts: Sequence[Phrase], done: int, tokens: Sequence[str], at: int
     ) -> Iterator[tuple[int, Bindings]]:
-        if not parts:
+        if done == len(parts):
             yield at, ()
-            return
-        for middle, first in self.matches(parts[0], tokens, at):
-            for end, rest in self._in_turn(parts[1:], tokens, middle):
-                yield end, first + rest
+        elif self._may_begin(parts[done], tokens, at):
+            for middle, first in self.matches(parts[done], tokens, at):
+                for end, rest in self._in_turn(parts, done + 1, tokens, middle):
+                    yield end, first + rest
 
     def _slot(self, rule: str, tokens: Sequence[str], at: int) -> Iterator[tuple[int, Any]]:
         if rule in self._by_first:

@@ -37,6 +37,11 @@ class Looking:
     def __init__(self, robot: Robot, watch: WorldWatch, recall: Recall, walking: Walking) -> None:
         self._robot, self._watch = robot, watch
         self._recall, self._walking = recall, walking
+        self._searched: set[str] = set()
+
+    def begin_plan(self) -> None:
+        """Forget in which rooms the plan before has looked for something."""
+        self._searched.clear()
 
     def look_at(self, target: Any) -> SkillRun:
         """Turn the head towards a thing or a place."""
@@ -105,6 +110,7 @@ class Looking:
         rooms = [each for each in places.rooms if only in ('', each.name)]
         if pose is not None:
             rooms.sort(key=lambda room: math.dist(room.middle_m, pose[:2]))
+        rooms.sort(key=lambda room: room.name in self._searched)
         if not rooms:
             looked.append('all directions from here')
             yield self.look_around()
@@ -116,6 +122,7 @@ class Looking:
             for surface in places.surfaces:
                 if places.room_at(*surface.middle_m) == room.name:
                     yield self._visit(surface.name)
+            self._searched.add(room.name)
 
     def _visit(self, name: str) -> SkillRun:
         yield from self._walking.go_to(base_name(name))

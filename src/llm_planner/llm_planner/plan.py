@@ -12,7 +12,9 @@ from humanoid_common.naming import did_you_mean, shortened
 from llm_planner.skills import Argument, Skill, Skills
 from llm_planner.world import in_words, listed, ObjectDescription, World
 
-__all__ = ['MOST_STEPS', 'Plan', 'PlanError', 'Step', 'UnavailableError', 'check', 'words_for']
+__all__ = [
+    'MOST_STEPS', 'Plan', 'PlanError', 'Step', 'UnavailableError', 'check', 'moves', 'words_for',
+]  # fmt: skip
 
 MOST_STEPS = 12
 _LONGEST_TEXT = 300
@@ -174,6 +176,28 @@ def _check_place(place: Any, world: World) -> None:
         f'I know {listed([in_words(each) for each in world.place_names])}.'
     )
     raise PlanError(f"I know no place called '{in_words(name)}'. {hint}")
+
+
+def moves(step: Step, skills: Skills) -> bool:
+    """
+    Return whether the robot moves in a step: body, arm or head.
+
+    Parameters
+    ----------
+    step, skills
+        A step, and the skills. One with a server of actions moves, one that needs to stand walks,
+        and what has a target is gone to or looked at.
+
+    """
+    skill = skills[step.skill]
+    return (
+        skill.server_kind == 'action'
+        or 'standing' in skill.needs
+        or any(
+            argument.kind in ('target', 'place') and bool(step.arguments.get(name))
+            for name, argument in skill.arguments.items()
+        )
+    )
 
 
 def words_for(step: Step, skill: Skill) -> str:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from llm_planner.plan_tree import SkillError
+from llm_planner.wording import capital
 from llm_planner.world import ObjectDescription, Thing
 from llm_planner.world_watch import WorldWatch
 
@@ -29,10 +30,12 @@ class Recall:
     def __init__(self, watch: WorldWatch) -> None:
         self._watch = watch
         self._found: dict[ObjectDescription, str] = {}
+        self._known: set[ObjectDescription] = set()
 
     def begin_plan(self) -> None:
         """Forget what the plan before has found."""
         self._found.clear()
+        self._known.clear()
 
     def take_found(self, described: ObjectDescription, thing: Thing) -> None:
         """
@@ -50,16 +53,21 @@ class Recall:
         """Return the thing that is meant; None if there is none."""
         things = self._watch.things
         known = self._found.get(described)
-        for thing in things:
-            if thing.object_id == known:
-                return thing
-        return next(iter(described.among(things, self._watch.pose())), None)
+        found = next((each for each in things if each.object_id == known), None)
+        if found is None:
+            found = next(iter(described.among(things, self._watch.pose())), None)
+        if found is not None:
+            self._known.add(described)
+        return found
 
     def thing(self, described: ObjectDescription) -> Thing:
         """Return the thing that is meant; SkillError if there is none."""
         thing = self.remembered(described)
         if thing is None:
-            raise SkillError(f'I do not remember {described.text}: ask me to find it.')
+            text = f'I do not remember {described.text}.'
+            if described in self._known:
+                text = f'{capital(described.text)} is not there any more.'
+            raise SkillError(text, is_final=True)
         return thing
 
     def position(self, target: Any) -> tuple[float, float, float]:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator
+from itertools import count
 from typing import Any
 
 from action_msgs.msg import GoalStatus
@@ -12,12 +13,16 @@ from llm_planner.plan_tree import SkillError, SkillRun
 from rclpy.action import ActionClient
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+from rclpy.task import Future
+from rclpy.time import Time
 from std_msgs.msg import String
 
 __all__ = ['Robot']
 
 _PATIENCE_S = 5.0
 """How long a server may take to appear, or to accept a goal; by a clock that nobody stops."""
+_LOOK_TICKS = 20
+"""After how many ticks it is looked again for another server of an action."""
 
 
 class Robot:
@@ -80,26 +85,14 @@ class Robot:
             self._clients[name] = ActionClient(self._node, kind, name)
         client = self._clients[name]
         yield from self._patiently(client.server_is_ready, f"'{name}' is not running.")
-        sent = client.send_goal_async(goal)
-        end: Any = None
+        servers = self._servers(name)
+        sent = yield from self._accepted(client, name, goal)
+        end = sent.result().get_result_async()
         try:
-            yield from self._patiently(sent.done, f"'{name}' does not answer.")
-            handle = sent.result()
-            if not handle.accepted:
-                raise SkillError(f"'{name}' has refused it; the log of the robot says why.")
-            end = handle.get_result_async()
-            while not end.done():
-                yield
-                if not client.server_is_ready():
-                    yield from self._patiently(
-                        client.server_is_ready, f"'{name}' ended in the middle of it."
-                    )
-                    # What comes back after a crash knows nothing of this goal.
-                    if not end.done():
-                        raise SkillError(f"'{name}' ended in the middle of it.")
+            yield from self._ended(client, name, end, servers)
             answer = end.result()
         finally:
-            if end is None or not end.done():
+            if not end.done():
                 sent.add_done_callback(_cancel)
         if answer.status != GoalStatus.STATUS_SUCCEEDED:
             text = getattr(answer.result, 'error_msg', '') or getattr(
@@ -108,13 +101,59 @@ class Robot:
             raise SkillError(text or f"'{name}' did not succeed.")
         return answer.result
 
+    def _accepted(
+        self, client: ActionClient, name: str, goal: Any
+    ) -> Generator[None, None, Future[Any]]:
+        """Send a goal until it is accepted: a server that was just started does not do so yet."""
+        begin = self._steady.now()
+        while True:
+            sent = client.send_goal_async(goal)
+            try:
+                yield from self._patiently(sent.done, f"'{name}' does not answer.")
+            except (GeneratorExit, SkillError):
+                sent.add_done_callback(_cancel)
+                raise
+            if sent.result().accepted:
+                return sent
+            if self._is_over(begin):
+                raise SkillError(f"'{name}' has refused it; the log of the robot says why.")
+            for _ in range(_LOOK_TICKS):
+                yield
+
+    def _ended(
+        self, client: ActionClient, name: str, end: Future[Any], servers: set[bytes]
+    ) -> SkillRun:
+        """Wait for a result; SkillError if the server that has accepted the goal is gone."""
+        for tick in count():
+            if end.done():
+                return
+            yield
+            if tick % _LOOK_TICKS == 0 and not self._servers(name) <= servers:
+                raise SkillError(f"'{name}' ended in the middle of it, and has begun anew.")
+            if not client.server_is_ready():
+                yield from self._patiently(
+                    client.server_is_ready, f"'{name}' ended in the middle of it."
+                )
+                # What comes back after a crash knows nothing of this goal.
+                if not end.done():
+                    raise SkillError(f"'{name}' ended in the middle of it.")
+
+    def _servers(self, name: str) -> set[bytes]:
+        """Return who offers an action; one that was killed stays in the graph for some time."""
+        found = self._node.get_publishers_info_by_topic(f'{name}/_action/status')
+        return {bytes(each.endpoint_gid) for each in found}
+
     def _patiently(self, condition: Any, failure: str) -> SkillRun:
         """Wait until something holds; SkillError if it does not for too long."""
         begin = self._steady.now()
         while not condition():
-            if (self._steady.now() - begin).nanoseconds * 1e-9 > _PATIENCE_S:
+            if self._is_over(begin):
                 raise SkillError(failure, 'UNAVAILABLE')
             yield
+
+    def _is_over(self, begin: Time) -> bool:
+        """Return whether patience is over that began at a time."""
+        return bool((self._steady.now() - begin).nanoseconds * 1e-9 > _PATIENCE_S)
 
 
 def _cancel(sent: Any) -> None:

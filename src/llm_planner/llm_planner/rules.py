@@ -13,6 +13,7 @@ import difflib
 from typing import Any
 
 from humanoid_common.naming import shortened
+from llm_planner.clauses import ClauseSearch, joints, skipped
 from llm_planner.dialogue import answer_to, AskFirstError, Dialogue, Question, Refusal
 from llm_planner.grammar import Bindings, Grammar, tokenized
 from llm_planner.phrases import Choice, part_of, Phrase, Series, Word
@@ -67,11 +68,16 @@ class RulePlanner:
         if not tokens:
             return Refusal('I heard no words. Say, for instance, "go to the kitchen".')
         question, dialogue.question = dialogue.question, None
-        if question is not None and (answer := answer_to(tokens, question)) is not None:
+        answer = answer_to(tokens, question) if question is not None else None
+        if question is None or answer is None or question.is_yes_or_no:
+            dialogue.chosen.clear()
+        if question is not None and answer == 'no':
+            return Refusal('All right, I leave it.')
+        if question is not None and answer is not None:
+            if isinstance(question.subject, Plan):
+                return self._confirmed(question.subject, world)
             dialogue.chosen[question.subject] = question.choices[answer]
             text, tokens = question.command, tokenized(question.command)
-        else:
-            dialogue.chosen.clear()
         try:
             clauses = self._clauses(tokens, world)
             plan = self._interpreted(text, clauses, world, dialogue)
@@ -79,6 +85,14 @@ class RulePlanner:
         except AskFirstError as error:
             dialogue.question = error.question
             return error.question
+        except PlanError as error:
+            return Refusal(str(error))
+        return plan
+
+    def _confirmed(self, plan: Plan, world: World) -> Plan | Refusal:
+        """Return a plan to which somebody said yes, if it can still be done."""
+        try:
+            check(plan, self.skills, world)
         except PlanError as error:
             return Refusal(str(error))
         return plan
@@ -116,10 +130,10 @@ class RulePlanner:
         """Return whether a sentence says no more than to stop, at once and whatever else."""
         grammar, _, _ = self._grammar(World())
         tokens = [each for each in tokenized(text) if each != ',']
-        for begin in self._skipped(grammar, 'beginning', tokens, 0):
+        for begin in skipped(grammar, 'beginning', tokens, 0):
             for saying in self.skills['stop'].sayings if 'stop' in self.skills.skills else ():
                 for end, _ in grammar.matches(saying.phrase, tokens, begin):
-                    if len(tokens) in self._skipped(grammar, 'end', tokens, end):
+                    if len(tokens) in skipped(grammar, 'end', tokens, end):
                         return True
         return False
 
@@ -156,75 +170,19 @@ class RulePlanner:
     def _clauses(self, tokens: list[str], world: World) -> list[Clause]:
         """Return the clauses of a sentence; ask if it is one with its spelling mended."""
         grammar, loose, words = self._grammar(world)
-        furthest = [0]
-        found = next(self._parsed(grammar, tokens, 0, furthest, {}), None)
+        search = ClauseSearch(grammar, self._sayings, tokens)
+        found, furthest = search.first(), search.furthest
+        found = found or search.first(needs_joint=False)
         if found is not None:
             return found
         mended = [_mended(each, words) for each in tokens]
-        if mended != tokens and any(self._parsed(grammar, mended, 0, [0], {})):
+        search = ClauseSearch(grammar, self._sayings, mended)
+        if mended != tokens and (search.first() or search.first(needs_joint=False)):
             meant = ' '.join(mended).replace(' ,', ',')
             raise AskFirstError(Question(f'Did you mean "{meant}"?', meant, None, {'yes': meant}))
-        guess = next(self._parsed(loose, tokens, 0, [0], {}), None)
-        if guess is not None:
-            for clause in guess:
-                _refuse_unknown_names(clause.bindings, grammar, words, world)
-        raise PlanError(self._not_understood(grammar, tokens, furthest[0]))
-
-    def _parsed(
-        self,
-        grammar: Grammar,
-        tokens: list[str],
-        at: int,
-        furthest: list[int],
-        found: dict[int, list[Clause]],
-    ) -> Iterator[list[Clause]]:
-        """Yield each way to read the rest of a sentence as clauses; keep how far one gets."""
-        for begin in self._skipped(grammar, 'beginning', tokens, at):
-            if begin not in found:
-                found[begin] = list(self._clauses_at(grammar, tokens, begin))
-            furthest[0] = max(furthest[0], begin if begin < len(tokens) else 0)
-            for clause in found[begin]:
-                for end in self._skipped(grammar, 'end', tokens, clause.end):
-                    if end == len(tokens):
-                        yield [clause]
-                        continue
-                    for after in self._joints(grammar, tokens, end):
-                        for rest in self._parsed(grammar, tokens, after, furthest, found):
-                            yield [clause, *rest]
-
-    def _clauses_at(self, grammar: Grammar, tokens: list[str], at: int) -> Iterator[Clause]:
-        matches = [
-            Clause(skill, saying, bindings, at, end)
-            for skill, saying in self._sayings
-            for end, bindings in grammar.matches(saying.phrase, tokens, at)
-        ]
-        seen = set()
-        # As much as possible, but of a free text as little as leaves the rest understandable.
-        for clause in sorted(matches, key=lambda each: each.end if each.is_free else -each.end):
-            key = (clause.end, clause.skill.name)
-            if key not in seen:  # one way to read the same words as the same skill is enough
-                seen.add(key)
-                yield clause
-
-    def _skipped(self, grammar: Grammar, rule: str, tokens: list[str], at: int) -> list[int]:
-        """Return the places to which a rule leads that may be said any number of times."""
-        reached = [at]
-        for place in reached:
-            start = place + 1 if place < len(tokens) and tokens[place] == ',' else place
-            for end, _ in grammar.matches(grammar.rules[rule], tokens, start):
-                if end not in reached:
-                    reached.append(end)
-        return [*reached[1:], at]
-
-    def _joints(self, grammar: Grammar, tokens: list[str], at: int) -> Iterator[int]:
-        """Yield where the next clause can begin."""
-        after_comma = at
-        while after_comma < len(tokens) and tokens[after_comma] == ',':
-            after_comma += 1
-        for end, _ in grammar.matches(grammar.rules['joint'], tokens, after_comma):
-            yield end
-        if after_comma > at:
-            yield after_comma
+        for clause in ClauseSearch(loose, self._sayings, tokens).first(furthest) or ():
+            _refuse_unknown_names(clause.bindings, grammar, words, world)
+        raise PlanError(self._not_understood(grammar, tokens, furthest))
 
     def _not_understood(self, grammar: Grammar, tokens: list[str], at: int) -> str:
         """Quote the clause that was not understood, and say what could be said instead."""
@@ -232,7 +190,7 @@ class RulePlanner:
             (
                 index
                 for index in range(at + 1, len(tokens))
-                if any(True for _ in self._joints(grammar, tokens, index))
+                if any(True for _ in joints(grammar, tokens, index))
             ),
             len(tokens),
         )

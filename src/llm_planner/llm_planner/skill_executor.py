@@ -7,16 +7,21 @@ import json
 import sys
 from typing import Any
 
+from action_msgs.srv import CancelGoal
+from humanoid_common.diagnostics import Diagnostics, PartStatus
 from humanoid_common.node_parameters import NodeParameters
-from humanoid_common.qos import LATCHED
+from humanoid_common.qos import EVENT, LATCHED
 from humanoid_common.running import run_node
 from humanoid_common.single_goal import GoalAborted, GoalCanceled, RunningGoal, SingleGoal
 from humanoid_interfaces.action import ExecutePlan
+from humanoid_interfaces.msg import Plan as PlanMessage
 from llm_planner.actions import Actions
+from llm_planner.health import skills_status, work_status
 from llm_planner.knowledge import begin_watch, KnowledgeParameters
 from llm_planner.plan import check, Plan, PlanError, UnavailableError, words_for
 from llm_planner.plan_messages import plan_of
 from llm_planner.plan_tree import make_tree, Progress, SkillError, StepNews
+from llm_planner.readiness import Readiness
 from llm_planner.robot import Robot
 from py_trees.common import Status
 from rclpy.node import Node
@@ -32,6 +37,9 @@ class SkillExecutor(Node):
     """
     Does the steps of plans by the actions of the robot, and says what happens.
 
+    A plan with the stamp and the command of the one before is another one for the same command:
+    coming back leads to where the robot was when the first began, and a reason is said once.
+
     Parameters
     ----------
     options
@@ -46,21 +54,65 @@ class SkillExecutor(Node):
         self._robot = Robot(self)
         self._actions = Actions(self._robot, self._watch, self._planner.skills)
         self._states = self.create_publisher(String, 'executor/state', LATCHED)
+        self._command: Any = None
+        self._reasons: set[str] = set()
+        self._step, self._doing, self._failure = '', '', ''
+        self._diagnostics = Diagnostics(self, self._status)
         self._goals = SingleGoal(self, lambda: '')
         self._goals.offer(ExecutePlan, 'execute_plan', self._work)
+        self._cancels = self.create_client(CancelGoal, 'execute_plan/_action/cancel_goal')
+        for topic in ('user_command', 'speech/transcript'):
+            self.create_subscription(String, topic, self._heed_stop, EVENT)
+        skills = (each for each in self._planner.skills if each.name in Actions.IMPLEMENTED)
+        self._readiness = Readiness(self, self._watch, skills, self._robot.say)
+
+    def _heed_stop(self, message: String) -> None:
+        """Stop, also when the planner that has sent the plan is gone and cannot cancel it."""
+        if self._planner.is_stop(message.data):
+            request = CancelGoal.Request()
+            # All goals up to now: a newer one may be on its way.
+            request.goal_info.stamp = self.get_clock().now().to_msg()
+            self._cancels.call_async(request)
 
     async def _work(self, goal: RunningGoal) -> None:
         """Do a plan; the result says how far it came, whatever happens."""
         goal.result.failed_step = -1
         self._robot.said = []
+        self._begin(goal.request.plan)
         try:
             await self._do(goal)
         except GoalAborted as error:
             if error.name != 'PREEMPTED':
-                self._robot.say(str(error))
+                self._explain(str(error))
             raise
         finally:
             goal.result.said = self._robot.said
+            self._doing = ''
+
+    def _begin(self, plan: PlanMessage) -> None:
+        """Forget the command before, unless the plan is another one for it."""
+        self._doing, self._step = plan.command or 'a plan', ''
+        stamp = (plan.header.stamp.sec, plan.header.stamp.nanosec)
+        command = (stamp, plan.command) if any(stamp) else None
+        if command is None or command != self._command:
+            self._actions.begin_plan()
+            self._reasons.clear()
+        self._command = command
+
+    def _explain(self, reason: str) -> None:
+        """Say why a plan has failed, but not twice for a command."""
+        self._failure = reason
+        if reason not in self._reasons:
+            self._reasons.add(reason)
+            self._robot.say(reason)
+
+    def _status(self) -> list[PartStatus]:
+        """Return how the node is, for diagnostics."""
+        missing = self._watch.world().missing
+        return [
+            work_status(self._doing, self._step, self._failure),
+            skills_status(missing, Actions.IMPLEMENTED),
+        ]
 
     async def _checked(self, goal: RunningGoal) -> Plan:
         """Return the plan of a goal; wait a while for what it needs and may be starting."""
@@ -90,13 +142,13 @@ class SkillExecutor(Node):
         def tell(news: StepNews) -> None:
             if news.index >= 0:
                 steps[news.index]['state'] = news.state
+                self._step = steps[news.index]['text']
             self._states.publish(String(data=json.dumps(told)))
             goal.publish_feedback(
                 ExecutePlan.Feedback(step=news.index, state=news.state, message=news.text)
             )
 
         progress = Progress(tell)
-        self._actions.begin_plan()
         tree = make_tree(
             plan,
             skills,

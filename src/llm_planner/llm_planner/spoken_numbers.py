@@ -30,7 +30,7 @@ _UNITS_OF = {
     'seconds': ('seconds', 'minutes'),
 }
 _SPOKEN_UNITS = {
-    'metres': 'meters | meter | steps | step',
+    'metres': 'meters | meter | centimeters | steps | step',
     'degrees': 'degrees | degree',
     'seconds': 'seconds | second | minutes | minute',
 }
@@ -75,20 +75,37 @@ def _number(tokens: Sequence[str], at: int) -> tuple[int, float] | None:
     if tokens[at] == 'half':
         return at + 1 + any(_says(tokens, at + 1, each) for each in ('a', 'an')), 0.5
     end, total = at, 0.0
-    if any(_says(tokens, at, each, 'hundred') for each in ('a', 'one')):
-        end, total = at + 2, 100.0
-        end += _says(tokens, end, 'and')
+    hundreds = _hundreds(tokens, at)
+    if hundreds:
+        end, total = at + 2, 100.0 * hundreds
+        if _says(tokens, end, 'and') and _below_hundred(tokens, end + 1):
+            end += 1
     elif tokens[at] in ('a', 'an'):
         return at + 1, 1.0
-    first = NUMBER_WORDS.get(tokens[end]) if end < len(tokens) else None
-    if first is not None:
-        end, total = end + 1, total + first
-        ones = NUMBER_WORDS.get(tokens[end], 0.0) if end < len(tokens) else 0.0
-        if first >= 20.0 and 0.0 < ones < 10.0:
-            end, total = end + 1, total + ones
+    if below := _below_hundred(tokens, end):
+        end, total = below[0], total + below[1]
     if end > at and _says(tokens, end, 'and', 'a', 'half'):
         end, total = end + 3, total + 0.5
     return (end, total) if end > at else None
+
+
+def _hundreds(tokens: Sequence[str], at: int) -> int:
+    """Return how many hundreds are said from a place on: 3 for `three hundred`."""
+    if not _says(tokens, at + 1, 'hundred'):
+        return 0
+    number = 1.0 if tokens[at] == 'a' else NUMBER_WORDS.get(tokens[at], 0.0)
+    return int(number) if 0.0 < number < 10.0 else 0
+
+
+def _below_hundred(tokens: Sequence[str], at: int) -> tuple[int, float] | None:
+    """Return the index behind a number such as `sixty five`, and the number; or None."""
+    first = NUMBER_WORDS.get(tokens[at]) if at < len(tokens) else None
+    if first is None:
+        return None
+    ones = NUMBER_WORDS.get(tokens[at + 1], 0.0) if at + 1 < len(tokens) else 0.0
+    if first >= 20.0 and 0.0 < ones < 10.0:
+        return at + 2, first + ones
+    return at + 1, first
 
 
 def _says(tokens: Sequence[str], at: int, *words: str) -> bool:
@@ -113,7 +130,11 @@ def jsgf_of(number: str, unit: str) -> str:
 
 
 def jsgf_digits() -> str:
-    """Return the rule `<digits>`, which the rules of numbers refer to."""
+    """Return the rule `<digits>`, which the rules of numbers refer to, and its own."""
     ones, tens = ' | '.join(_ONES[1:]), ' | '.join(_TENS)
-    digits = f'<digits> = {ones} | ({tens}) [{" | ".join(_ONES[1:10])}]'
-    return f'{digits} | (one | a) hundred [[and] ({ones} | {tens})];'
+    units = ' | '.join(_ONES[1:10])
+    return (
+        '<digits> = <below_hundred> | <hundreds> [[and] <below_hundred>];\n'
+        f'<below_hundred> = {ones} | ({tens}) [{units}];\n'
+        f'<hundreds> = (a | {units}) hundred;'
+    )

@@ -4,12 +4,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+import math
 import os
 import sys
 import threading
+import time
 import traceback
 from typing import Any
 
+from action_msgs.msg import GoalStatus
+from humanoid_common.diagnostics import Diagnostics, PartStatus
 from humanoid_common.executing import create_async_service
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
@@ -18,11 +22,21 @@ from humanoid_common.running import run_node
 from humanoid_interfaces.action import ExecutePlan
 from humanoid_interfaces.msg import Plan as PlanMessage
 from humanoid_interfaces.srv import MakePlan
-from llm_planner.dialogue import Dialogue, Question, Refusal
+from llm_planner.dialogue import (
+    answer_to,
+    confirmation,
+    Dialogue,
+    Question,
+    Refusal,
+    with_answers,
+)
+from llm_planner.grammar import tokenized
+from llm_planner.health import PlannerHealth
 from llm_planner.knowledge import begin_watch, KnowledgeParameters
 from llm_planner.model_planner import ModelError, ModelPlanner
 from llm_planner.plan import Plan
-from llm_planner.plan_messages import plan_message
+from llm_planner.plan_messages import failure_of, plan_message
+from llm_planner.replanning import Account, Failure, Recovery, Remedy
 from llm_planner.world import World
 from rclpy.action import ActionClient
 from rclpy.node import Node
@@ -30,6 +44,9 @@ from rclpy.task import Future
 from std_msgs.msg import String
 
 __all__ = ['PlannerParameters', 'TaskPlanner', 'main']
+
+_ANSWER_S = 60.0
+"""How long a question waits for its answer."""
 
 
 @dataclass(frozen=True)
@@ -63,11 +80,19 @@ class PlannerParameters(KnowledgeParameters):
         at_most=120.0,
         read_only=True,
     )
+    confirm: str = parameter(
+        'never',
+        'Which plans are asked about before they are done: those that move the robot, all, none.',
+        choices=('never', 'motion', 'always'),
+        read_only=True,
+    )
 
 
 class TaskPlanner(Node):
     """
     Takes commands from `user_command` and `speech/transcript`, and sends plans to `execute_plan`.
+
+    When a step fails, it may plan anew; all plans for a command have the stamp of the first.
 
     The key for a server of language models is the variable OPENAI_API_KEY of the environment.
 
@@ -93,6 +118,9 @@ class TaskPlanner(Node):
         self._dialogue = Dialogue()
         self._sent: Any = None
         self._newest = 0
+        self._asked_s = -math.inf
+        self._confirm = told.confirm
+        self._health = PlannerHealth(told.backend, told.base_url if self._model else '')
         self._client = ActionClient(self, ExecutePlan, 'execute_plan')
         self._plans = self.create_publisher(PlanMessage, 'plan', LATCHED)
         self._speech = self.create_publisher(String, 'speech/say', EVENT)
@@ -100,7 +128,11 @@ class TaskPlanner(Node):
         for topic in ('user_command', 'speech/transcript'):
             self.create_subscription(String, topic, self._take, EVENT)
         create_async_service(self, MakePlan, '~/plan', self._answer)
-        self._grammar.publish(String(data=self._planner.to_jsgf(self._watch.world())))
+        self._diagnostics = Diagnostics(self, self._status)
+        # A recogniser takes seconds to read it, so that it has the answers from the beginning.
+        commands = self._planner.to_jsgf(self._watch.world())
+        grammar = with_answers(commands, asks_to_confirm=told.confirm != 'never')
+        self._grammar.publish(String(data=grammar))
 
     def _take(self, message: String) -> None:
         """Do what somebody says: stop at once, or plan and act, or ask, or refuse."""
@@ -108,49 +140,118 @@ class TaskPlanner(Node):
         if self._planner.is_stop(message.data):
             self.get_logger().info(f'Told to stop: {message.data!r}')
             self._stop()
+            self._expect(None)
             self._say('I have stopped.')
         elif self.executor is not None:
             self.executor.create_task(self._obey, message.data, self._newest)
 
     async def _obey(self, text: str, number: int) -> None:
         """Plan and act, unless something newer was said meanwhile."""
+        if time.monotonic() - self._asked_s > _ANSWER_S:
+            self._dialogue.question = None
+        asked = self._dialogue.question
         outcome = await self._outcome(text, self._dialogue)
         if number != self._newest:
             return
-        if not isinstance(outcome, Plan):
-            self.get_logger().info(f'{text[:200]!r}: {outcome.text}')
-            self._say(outcome.text)
+        if isinstance(outcome, Plan) and (asked is None or outcome is not asked.subject):
+            outcome = confirmation(outcome, self._planner.skills, self._confirm) or outcome
+        self._expect(outcome if isinstance(outcome, Question) else None)
+        if isinstance(outcome, Plan):
+            await self._have_done(outcome, number)
             return
-        made = plan_message(outcome, self._planner)
-        made.header.stamp = self.get_clock().now().to_msg()
+        self.get_logger().info(f'{text[:200]!r}: {outcome.text}')
+        self._say(outcome.text)
+
+    def _expect(self, question: Question | None) -> None:
+        """Wait for the answer to a question, or for none."""
+        self._dialogue.question = question
+        self._asked_s = time.monotonic()
+
+    async def _have_done(self, plan: Plan, number: int) -> None:
+        """Have a plan done, and another one if it fails and something else makes sense."""
+        stamp = self.get_clock().now().to_msg()
+        recovery = Recovery(plan, self._planner.skills)
+        self._health.command = plan.command
+        while (failure := await self._failure(plan, stamp)) is not None:
+            if number != self._newest:
+                return
+            recovery.fail(failure)
+            remedy = await self._remedy(plan.command, recovery)
+            if number != self._newest:
+                return
+            if remedy is not None:
+                self._say(remedy.text)
+            elif recovery.replans:
+                self._say('I have given up.')
+            if remedy is None or not remedy.steps:
+                break
+            plan = recovery.take(remedy)
+        if number == self._newest:
+            self._health.command = ''
+
+    async def _failure(self, plan: Plan, stamp: Any) -> Failure | None:
+        """Have a plan done; return how it failed, unless it succeeded or was given up."""
+        made = plan_message(plan, self._planner)
+        made.header.stamp = stamp
         steps = '; '.join(each.text for each in made.steps)
-        self.get_logger().info(f'{outcome.command!r}: {steps}')
+        self.get_logger().info(f'{plan.command!r}: {steps}')
         if not self._client.server_is_ready():
             self._say('I cannot do anything, as the skill executor is not running.')
-            return
+            return None
+        self._health.plans += 1
         self._plans.publish(made)
-        self._sent = self._client.send_goal_async(ExecutePlan.Goal(plan=made))
+        sent = self._sent = self._client.send_goal_async(ExecutePlan.Goal(plan=made))
+        handle = await sent
+        if not handle.accepted:
+            return None
+        answer = await handle.get_result_async()
+        return failure_of(answer.result) if answer.status == GoalStatus.STATUS_ABORTED else None
+
+    async def _remedy(self, command: str, recovery: Recovery) -> Remedy | None:
+        """Return what to try after a failure: by the model if there is one, or the rules."""
+        world = self._watch.world()
+        if not recovery.may_go_on(world):
+            return None
+        if self._model is not None:
+            outcome = await self._asked(command, world, recovery.account())
+            if isinstance(outcome, Refusal):
+                return Remedy((), outcome.text)
+            if isinstance(outcome, Plan):
+                remedy = recovery.by_model(outcome, world)
+                if remedy is not None:
+                    return remedy
+        return recovery.by_rules(world)
 
     async def _outcome(self, text: str, dialogue: Dialogue) -> Plan | Question | Refusal:
         """Return what to do about a sentence, by the model if there is one, else by the rules."""
-        world = self._watch.world()
-        if self._model is None or dialogue.question is not None:
-            return self._planner.plan(text, world, dialogue)
+        world, question = self._watch.world(), dialogue.question
+        is_answer = question is not None and answer_to(tokenized(text), question) is not None
+        if self._model is not None and not is_answer:
+            dialogue.question = None  # what is said while the model thinks does not answer it
+            outcome = await self._asked(text, world)
+            if not isinstance(outcome, ModelError):
+                return outcome
+        return self._planner.plan(text, world, dialogue)
+
+    async def _asked(
+        self, text: str, world: World, account: Account | None = None
+    ) -> Plan | Refusal | ModelError:
+        """Return what the model makes of a sentence, or how it failed."""
         told: Future[Any] = Future(executor=self.executor)
-        thread = threading.Thread(target=self._ask, args=(text, world, told), daemon=True)
+        thread = threading.Thread(target=self._ask, args=(text, world, account, told), daemon=True)
         thread.start()
-        outcome: Any = await told
+        outcome: Plan | Refusal | ModelError = await told
         if isinstance(outcome, ModelError):
             self.get_logger().warning(f'{outcome} The rules plan instead.')
-            return self._planner.plan(text, world, dialogue)
-        return outcome  # type: ignore[no-any-return]
+            self._health.fail(str(outcome), time.monotonic())
+        return outcome
 
-    def _ask(self, text: str, world: World, told: Future[Any]) -> None:
+    def _ask(self, text: str, world: World, account: Account | None, told: Future[Any]) -> None:
         """Ask the model, in a thread of its own, and hand over what came of it."""
         assert self._model is not None
         outcome: Any
         try:
-            outcome = self._model.plan(text, world)
+            outcome = self._model.plan(text, world, account)
         except ModelError as error:
             outcome = error
         except Exception:  # whatever a server sends, the rules go on
@@ -162,9 +263,17 @@ class TaskPlanner(Node):
 
     def _stop(self) -> None:
         """Cancel what is being done, even if it has only just been sent."""
+        self._health.command = ''
         sent, self._sent = self._sent, None
         if sent is not None:
             sent.add_done_callback(_cancel)
+
+    def _status(self) -> list[PartStatus]:
+        """Return how the node is, for diagnostics."""
+        question = self._dialogue.question
+        self._health.question = question.text if question is not None else ''
+        is_ready = self._client.server_is_ready()
+        return [self._health.status(time.monotonic(), has_executor=is_ready)]
 
     async def _answer(self, request: MakePlan.Request, response: MakePlan.Response) -> Any:
         """Plan without doing it, in a dialogue of its own."""

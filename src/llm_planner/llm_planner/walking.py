@@ -46,10 +46,12 @@ class Walking:
     def __init__(self, robot: Robot, watch: WorldWatch, recall: Recall) -> None:
         self._robot, self._watch, self._recall = robot, watch, recall
         self._home: Pose | None = None
+        self._missed: list[Pose] = []
 
     def begin_plan(self) -> None:
         """Take note of where the robot is when it is asked."""
         self._home = self._watch.pose()
+        self._missed.clear()
 
     def go_to(self, target: Any) -> SkillRun:
         """Walk to a place, or up to a thing."""
@@ -141,9 +143,9 @@ class Walking:
         return stands_at_object(at, places)
 
     def _walk_to_first(self, stands: Sequence[Pose], what: str) -> SkillRun:
-        """Walk to the first of some poses to which there is a way."""
+        """Walk to the first of some poses to which there is a way; last to those just missed."""
         reason = 'There is no free floor at it.'
-        for stand in stands[:_TRIED_STANDS]:
+        for stand in sorted(stands, key=self._missed.__contains__)[:_TRIED_STANDS]:
             goal = ComputePathToPose.Goal(goal=stamped(stand))
             try:
                 yield from self._robot.act(ComputePathToPose, 'compute_path_to_pose', goal)
@@ -152,9 +154,13 @@ class Walking:
                     raise
                 reason = str(error)
                 continue
-            yield from self._robot.act(
-                NavigateToPose, 'navigate_to_pose', NavigateToPose.Goal(pose=stamped(stand))
-            )
+            try:
+                yield from self._robot.act(
+                    NavigateToPose, 'navigate_to_pose', NavigateToPose.Goal(pose=stamped(stand))
+                )
+            except SkillError:
+                self._missed.append(stand)
+                raise
             return
         raise SkillError(f'I do not find a way to {what}. {reason}')
 

@@ -72,6 +72,9 @@ def test_alternatives_and_options() -> None:
         ('forty five degrees', 'angle', 45.0),
         ('one hundred and eighty degrees', 'angle', 180.0),
         ('a hundred twenty', 'angle', 120.0),
+        ('three hundred and sixty degrees', 'angle', 360.0),
+        ('two hundred', 'angle', 200.0),
+        ('two hundred and a half degrees', 'angle', 200.5),
         ('two minutes', 'duration', 120.0),
         ('12', 'duration', 12.0),
     ],
@@ -81,7 +84,9 @@ def test_numbers(text: str, slot: str, value: float) -> None:
     assert read(f'{{{slot}}}', text) == [{slot: pytest.approx(value)}]
 
 
-@pytest.mark.parametrize('text', ['two', 'metres two', 'two degrees', 'minus two metres'])
+@pytest.mark.parametrize(
+    'text', ['two', 'metres two', 'two degrees', 'minus two metres', 'twelve hundred', 'hundred']
+)
 def test_what_is_no_distance(text: str) -> None:
     """A unit of something else does not count, and a number alone is one in metres."""
     assert read('{distance}', text) == ([{'distance': 2.0}] if text == 'two' else [])

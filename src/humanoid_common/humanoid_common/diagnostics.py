@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Say once a second how the parts of a node are, on the topic `diagnostics`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from humanoid_common.qos import STATE
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+
+__all__ = ['Diagnostics', 'Level', 'PartStatus']
+
+_PERIOD_S = 1.0
+
+
+class Level(Enum):
+    """How bad something is."""
+
+    OK = DiagnosticStatus.OK
+    WARN = DiagnosticStatus.WARN
+    ERROR = DiagnosticStatus.ERROR
+
+
+@dataclass(frozen=True)
+class PartStatus:
+    """
+    How a part of a node is.
+
+    Attributes
+    ----------
+    part
+        Its name: `speech`.
+    message
+        How it is, as a few words or a sentence.
+    level
+        How bad that is.
+    values
+        Further facts by their names.
+
+    """
+
+    part: str
+    message: str
+    level: Level = Level.OK
+    values: Mapping[str, object] = field(default_factory=dict)
+
+
+class Diagnostics:
+    """
+    Publishes how the parts of a node are, by a clock that nobody stops.
+
+    Parameters
+    ----------
+    node
+        The node, whose name stands before that of each part.
+    report
+        Returns the status of each part.
+
+    """
+
+    def __init__(self, node: Node, report: Callable[[], Iterable[PartStatus]]) -> None:
+        self._node, self._report = node, report
+        self._publisher = node.create_publisher(DiagnosticArray, 'diagnostics', STATE)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(_PERIOD_S, self._publish, clock=steady)
+
+    def _publish(self) -> None:
+        name = self._node.get_fully_qualified_name().lstrip('/')
+        message = DiagnosticArray(status=[_status(name, each) for each in self._report()])
+        message.header.stamp = self._node.get_clock().now().to_msg()
+        self._publisher.publish(message)
+
+
+def _status(node: str, status: PartStatus) -> DiagnosticStatus:
+    return DiagnosticStatus(
+        name=f'{node}: {status.part}',
+        level=status.level.value,
+        message=status.message,
+        values=[KeyValue(key=key, value=str(value)) for key, value in status.values.items()],
+    )

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A robot for tests of planner and executor: its servers do as they are told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import TransformStamped
+from humanoid_common.qos import EVENT, LATCHED, STATE
+from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
+from humanoid_interfaces.action import ScanRoom
+from humanoid_interfaces.msg import Plan
+from humanoid_interfaces.srv import FindObjects
+from nav2_msgs.action import ComputePathToPose, NavigateToPose, Spin
+from rclpy.node import Node
+from std_msgs.msg import String
+from tf2_ros import StaticTransformBroadcaster
+from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
+
+__all__ = ['MUGS', 'PLACES', 'Robot', 'detection']
+
+_SEEING_TICKS = 10
+PLACES = """
+surfaces:
+  - {name: desk, height: 0.7, outline: [[3.0, 1.0], [4.0, 1.0], [4.0, 1.6], [3.0, 1.6]]}
+rooms:
+  - {name: hall, outline: [[-2, -2], [2, -2], [2, 2], [-2, 2]]}
+  - {name: study, outline: [[2, -2], [6, -2], [6, 2], [2, 2]]}
+"""
+
+
+def detection(name: str, *classes: str, at: tuple[float, float, float]) -> Detection3D:
+    """
+    Return a remembered object.
+
+    Parameters
+    ----------
+    name, classes
+        Its id, what it is, and its further names: `mug`, `red mug`.
+    at
+        Where it is in the map; m.
+
+    """
+    found = Detection3D(id=name)
+    for each in classes:
+        result = ObjectHypothesisWithPose()
+        result.hypothesis.class_id = each
+        found.results.append(result)
+    centre = found.bbox.center.position
+    centre.x, centre.y, centre.z = at
+    found.bbox.size.x = found.bbox.size.y = found.bbox.size.z = 0.1
+    return found
+
+
+MUGS = [
+    detection('red_mug_1', 'mug', 'red mug', at=(3.2, 1.2, 0.75)),
+    detection('blue_mug_1', 'mug', 'blue mug', at=(3.4, 1.2, 0.75)),
+    detection('box_1', 'box', at=(0.5, 0.5, 0.05)),
+]
+
+
+class Robot(Node):
+    """
+    Navigation that goes nowhere, eyes that remember, and ears for what is said.
+
+    Attributes
+    ----------
+    walks, spins, scans, said, plans, grammars, statuses
+        What it was told to do, and has heard.
+    is_slow
+        Whether a walk goes on until it is canceled.
+    failure, failures
+        Why walks fail; those of the list one after another, the other one always.
+    after_walk, after_scan
+        What is remembered after the next walk, and after the next look around, if anything else.
+
+    """
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__('robot', **options)
+        self.walks: list[Any] = []
+        self.spins: list[float] = []
+        self.said: list[str] = []
+        self.plans: list[Plan] = []
+        self.grammars: list[str] = []
+        self.statuses: dict[str, DiagnosticStatus] = {}
+        self.scans = self.cancelled = 0
+        self.is_slow, self.failure = False, ''
+        self.failures: list[str] = []
+        self.after_walk: list[Detection3D] | None = None
+        self.after_scan: list[Detection3D] | None = None
+        self._goals = SingleGoal(self, lambda: '')
+        self._spins = SingleGoal(self, lambda: '')
+        self._paths = SingleGoal(self, lambda: '')
+        self._scans = SingleGoal(self, lambda: '')
+        self._scans.offer(ScanRoom, 'scan_room', self._scan)
+        self._goals.offer(NavigateToPose, 'navigate_to_pose', self._walk)
+        self._spins.offer(Spin, 'spin', self._spin)
+        self._paths.offer(ComputePathToPose, 'compute_path_to_pose', self._path)
+        self.create_service(FindObjects, 'find_objects', lambda _, response: response)
+        self.create_subscription(String, 'speech/say', self._hear, EVENT)
+        self.create_subscription(Plan, 'plan', self.plans.append, LATCHED)
+        self.create_subscription(DiagnosticArray, 'diagnostics', self._diagnose, STATE)
+        self.create_subscription(
+            String, 'speech/grammar', lambda message: self.grammars.append(message.data), LATCHED
+        )
+        self.commands = self.create_publisher(String, 'user_command', EVENT)
+        self.transcripts = self.create_publisher(String, 'speech/transcript', EVENT)
+        self.walking = self.create_publisher(String, 'walking_state', LATCHED)
+        self.objects = self.create_publisher(Detection3DArray, 'objects', LATCHED)
+        self._transforms = StaticTransformBroadcaster(self)
+        self.move_to(0.0, 0.0)
+        self.remember(MUGS)
+
+    def move_to(self, x_m: float, y_m: float) -> None:
+        """Be somewhere else in the map."""
+        here = TransformStamped(child_frame_id='base_footprint')
+        here.header.frame_id = 'map'
+        here.transform.translation.x, here.transform.translation.y = x_m, y_m
+        here.transform.rotation.w = 1.0
+        self._transforms.sendTransform(here)
+
+    def remember(self, things: Sequence[Detection3D]) -> None:
+        """Publish what is remembered."""
+        self.objects.publish(Detection3DArray(detections=things))
+
+    def heard(self, *texts: str) -> Callable[[], bool]:
+        """Return a function that tells whether all of some texts were said, in their order."""
+
+        def were_said() -> bool:
+            said = iter(self.said)
+            return all(any(text in each for each in said) for text in texts)
+
+        return were_said
+
+    def _diagnose(self, message: DiagnosticArray) -> None:
+        self.statuses |= {each.name: each for each in message.status}
+
+    def _hear(self, message: String) -> None:
+        self.said.append(message.data)
+
+    async def _walk(self, goal: RunningGoal) -> None:
+        self.walks.append(goal.request.pose.pose.position)
+        try:
+            while self.is_slow:
+                await goal.tick()
+        except BaseException:
+            self.cancelled += 1
+            raise
+        seen, self.after_walk = self.after_walk, None
+        await self._see(goal, seen)
+        if failure := self.failures.pop(0) if self.failures else self.failure:
+            raise GoalAborted('UNKNOWN', failure)
+
+    async def _scan(self, goal: RunningGoal) -> None:
+        self.scans += 1
+        seen, self.after_scan = self.after_scan, None
+        await self._see(goal, seen)
+
+    async def _see(self, goal: RunningGoal, things: Sequence[Detection3D] | None) -> None:
+        """Remember something else, and give all a moment to hear of it."""
+        if things is not None:
+            self.remember(things)
+            for _ in range(_SEEING_TICKS):
+                await goal.tick()
+
+    async def _spin(self, goal: RunningGoal) -> None:
+        self.spins.append(goal.request.target_yaw)
+
+    async def _path(self, goal: RunningGoal) -> None:
+        if goal.request.goal.pose.position.x > 5.5:
+            raise GoalAborted('UNKNOWN', 'There is a wall.')
