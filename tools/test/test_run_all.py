@@ -41,6 +41,8 @@ def test_hanging():
 def suite(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Suite:
     """Return the tests of an empty folder."""
     monkeypatch.chdir(tmp_path)
+    # The tests are a process of their own, also if this one is a worker of pytest-xdist.
+    monkeypatch.delenv('PYTEST_XDIST_WORKER', raising=False)
     (tmp_path / 'pytest.ini').write_text('[pytest]\n')
     report = tmp_path / 'report.xml'
     command = [sys.executable, '-m', 'pytest', '-q', f'--junit-xml={report}']
@@ -83,7 +85,7 @@ def test_what_fails_is_said_at_once(
     (tmp_path / 'test_it.py').write_text(BROKEN + HANGING)
     shutil.copy(Path(__file__).parent / 'watchdog.py', tmp_path)
     command = [*suite.command, '-p', 'watchdog']
-    assert run([[Suite('mine', command, ['true'], suite.reports)]], limit_s=30.0) == 1
+    assert run([[Suite('mine', command, ['true'], suite.reports)]], limit_s=10.0) == 1
     assert 'FAILED test_it.py::test_broken (call)' in capfd.readouterr().err
 
 
