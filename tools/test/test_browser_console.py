@@ -131,6 +131,8 @@ def test_a_recording_is_made_and_played(robot: World, tab: Tab) -> None:
     wait_until(lambda: len(commands(robot)) > heard + 150, 30.0, 'something to record')
     tab.button('Stop recording').click()
     tab.page.get_by_text('Recorded swing').wait_for()
+    recording = tab.box('Recording')
+    wait_until(lambda: recording.input_value().startswith('swing'), 30.0, 'it to be offered')
     end_robot(robot)
     tab.box('Loop').check()
     tab.button('Play').click()

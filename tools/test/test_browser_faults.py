@@ -316,12 +316,14 @@ def test_a_browser_does_not_read(robot: World, gallery: Program) -> None:
     with visit(gallery, max_queue=1) as stalled, visit(gallery) as reading:
 
         def show_pictures(size_mb: float) -> None:
-            received = 0
+            received, end_s = 0, time.monotonic() + 100.0
             while received < size_mb * 1e6:
+                assert time.monotonic() < end_s, f'{received} bytes have come'
                 start = received % (960 * 1280)
                 picture.data = noise[start : start + 960 * 1280]
                 publisher.publish(picture)
-                received += len(reading.recv(timeout=60))
+                with suppress(TimeoutError):  # what comes is not always the picture
+                    received += len(reading.recv(timeout=0.2))
 
         show_pictures(20.0)
         before_mb = memory_mb(pid)
