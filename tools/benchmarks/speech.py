@@ -22,21 +22,18 @@ from tempfile import TemporaryDirectory
 import time
 
 from arguments import in_range
-from humanoid_perception.places import load_places, places_path
 from llm_planner.dialogue import Dialogue
 from llm_planner.plan import Plan
 from llm_planner.rules import RulePlanner
-from llm_planner.skills_file import load_skills, skills_path
-from llm_planner.world import base_name, Thing, World
+from llm_planner.world import World
 import numpy as np
 from numpy.typing import NDArray
+from planner import apartment, KINDS, TESTS
 from voice_control.audio import chunks, duration_s, read_wav, wav_of
 from voice_control.grammar_recognizer import GrammarRecognizer, THRESHOLD
 from voice_control.segmentation import UtteranceSegmenter
 import yaml
 
-SENTENCES = Path(__file__).parents[2] / 'src' / 'llm_planner' / 'test' / 'sentences.yaml'
-KINDS = ('moving', 'looking', 'fetching', 'asking', 'together')
 OTHER = (
     'the weather is nice today', 'i had pasta for lunch yesterday',
     'please call my mother tonight', 'the football match starts at nine',
@@ -81,11 +78,6 @@ SAMPLES = {
 """What the tests of voice_control hear: commands, and sentences that are none."""
 SAY = re.compile(r'say (dinner|good)|.* say done')
 PEAK = 12_000.0
-THINGS = (
-    Thing('red_mug_1', 'mug', 'red', 'kitchen_counter', 'kitchen', (1.0, 3.8, 0.85)),
-    Thing('blue_mug_1', 'mug', 'blue', 'desk', 'bedroom', (3.2, 1.2, 0.77)),
-    Thing('green_apple_1', 'apple', 'green', 'kitchen_table', 'kitchen', (0.0, 2.0, 0.74)),
-)
 
 
 @dataclass
@@ -124,7 +116,7 @@ def main() -> int:
     if options.samples:
         write_samples(options.samples, planner.to_jsgf(world))
         return 0
-    said = yaml.safe_load(SENTENCES.read_text())
+    said = yaml.safe_load((TESTS / 'sentences.yaml').read_text())
     # Free text cannot be in a grammar.
     commands = [text for kind in KINDS for text in said[kind] if not SAY.match(text)]
     commands = commands[:: options.every]
@@ -144,14 +136,6 @@ def main() -> int:
             f'{shares[4]:>7.0%}{row.cpu_s / row.speech_s:>7.3f}'
         )
     return 0
-
-
-def apartment() -> tuple[RulePlanner, World]:
-    """Return the planner, and what it knows at home."""
-    places = load_places(places_path('apartment'))
-    surfaces = {base_name(each.name): places.room_at(*each.middle_m) for each in places.surfaces}
-    rooms = tuple(sorted({each.name for each in places.rooms}))
-    return RulePlanner(load_skills(skills_path(''))), World(surfaces, rooms, THINGS)
 
 
 def measured(

@@ -147,7 +147,8 @@ class ToldRobot:
         self.said.append(message.data)
 
     def _take_state(self, message: String) -> None:
-        self.plan = json.loads(message.data)
+        told = json.loads(message.data)
+        self.plan = told if told['steps'] else None  # an executor that has just begun has none
 
     def _take_speaking(self, message: Bool) -> None:
         self._is_speaking = message.data

@@ -142,16 +142,15 @@ def overlap(a: Box, b: Box) -> float:
 
 
 def views(apartment: Apartment) -> Iterator[None]:
-    """Look at each surface with objects from some sides, from as high as the head is."""
+    """Look at each surface with objects from somewhere, from as high as the head is."""
     generator = np.random.default_rng(7)
     for thing in apartment.scene.objects:
         at_m = np.array(thing.position_m)
-        for _ in range(2):
-            angle, distance = generator.uniform(-math.pi, math.pi), generator.uniform(0.6, 2.2)
-            eye = at_m + [distance * math.cos(angle), distance * math.sin(angle), 0.0]
-            eye[2] = generator.uniform(1.15, 1.35)
-            apartment.look(eye, at_m + generator.normal(0.0, 0.08, 3))
-            yield
+        angle, distance = generator.uniform(-math.pi, math.pi), generator.uniform(0.6, 2.2)
+        eye = at_m + [distance * math.cos(angle), distance * math.sin(angle), 0.0]
+        eye[2] = generator.uniform(1.15, 1.35)
+        apartment.look(eye, at_m + generator.normal(0.0, 0.08, 3))
+        yield
 
 
 def seen_by(painter, apartment: Apartment) -> list[Shown]:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import secrets
 import sys
 from typing import Any
 
@@ -39,6 +40,8 @@ class SkillExecutor(Node):
 
     A plan with the stamp and the command of the one before is another one for the same command:
     coming back leads to where the robot was when the first began, and a reason is said once.
+    `executor/state` names the run of the node, so that one who waits for the end of a plan notices
+    that its executor was killed and another one runs.
 
     Parameters
     ----------
@@ -65,6 +68,13 @@ class SkillExecutor(Node):
             self.create_subscription(String, topic, self._heed_stop, EVENT)
         skills = (each for each in self._planner.skills if each.name in Actions.IMPLEMENTED)
         self._readiness = Readiness(self, self._watch, skills, self._robot.say)
+        self._run = secrets.token_hex(8)
+        self._tell('', [])
+
+    def _tell(self, command: str, steps: list[dict[str, str]]) -> None:
+        """Publish what is done, and how far it has come."""
+        told = {'run': self._run, 'command': command, 'steps': steps}
+        self._states.publish(String(data=json.dumps(told)))
 
     def _heed_stop(self, message: String) -> None:
         """Stop, also when the planner that has sent the plan is gone and cannot cancel it."""
@@ -137,13 +147,12 @@ class SkillExecutor(Node):
             {'text': words_for(step, skills[step.skill]), 'state': 'waiting'}
             for step in plan.steps
         ]
-        told = {'command': plan.command, 'steps': steps}
 
         def tell(news: StepNews) -> None:
             if news.index >= 0:
                 steps[news.index]['state'] = news.state
                 self._step = steps[news.index]['text']
-            self._states.publish(String(data=json.dumps(told)))
+            self._tell(plan.command, steps)
             goal.publish_feedback(
                 ExecutePlan.Feedback(step=news.index, state=news.state, message=news.text)
             )

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+import json
 import math
 import os
 import sys
@@ -88,6 +89,10 @@ class PlannerParameters(KnowledgeParameters):
     )
 
 
+class _ExecutorLostError(Exception):
+    """The executor of a plan has ended before the plan."""
+
+
 class TaskPlanner(Node):
     """
     Takes commands from `user_command` and `speech/transcript`, and sends plans to `execute_plan`.
@@ -117,6 +122,8 @@ class TaskPlanner(Node):
             self._model = ModelPlanner(self._planner.skills, server.answer, told.timeout_s)
         self._dialogue = Dialogue()
         self._sent: Any = None
+        self._ends: set[Future[Any]] = set()
+        self._run = ''
         self._newest = 0
         self._asked_s = -math.inf
         self._confirm = told.confirm
@@ -127,6 +134,7 @@ class TaskPlanner(Node):
         self._grammar = self.create_publisher(String, 'speech/grammar', LATCHED)
         for topic in ('user_command', 'speech/transcript'):
             self.create_subscription(String, topic, self._take, EVENT)
+        self.create_subscription(String, 'executor/state', self._follow, LATCHED)
         create_async_service(self, MakePlan, '~/plan', self._answer)
         self._diagnostics = Diagnostics(self, self._status)
         # A recogniser takes seconds to read it, so that it has the answers from the beginning.
@@ -201,11 +209,59 @@ class TaskPlanner(Node):
         self._health.plans += 1
         self._plans.publish(made)
         sent = self._sent = self._client.send_goal_async(ExecutePlan.Goal(plan=made))
-        handle = await sent
-        if not handle.accepted:
+        try:
+            answer = await self._end_of(sent)
+        except _ExecutorLostError:
+            self._say('I cannot go on: what does my plans was started anew.')
             return None
-        answer = await handle.get_result_async()
+        if answer is None:
+            return None
         return failure_of(answer.result) if answer.status == GoalStatus.STATUS_ABORTED else None
+
+    async def _end_of(self, sent: Any) -> Any:
+        """
+        Return the end of a goal that was sent, None if it was not accepted.
+
+        Raises
+        ------
+        _ExecutorLostError
+            The executor has ended, and can answer no more.
+
+        """
+        end: Future[Any] = Future(executor=self.executor)
+
+        def give(answered: Any) -> None:
+            if not end.done():
+                end.set_result(answered.result())
+
+        def wait(accepted: Any) -> None:
+            handle = accepted.result()
+            if handle is not None and handle.accepted:
+                handle.get_result_async().add_done_callback(give)
+            elif not end.done():
+                end.set_result(None)
+
+        sent.add_done_callback(wait)
+        self._ends.add(end)
+        try:
+            return await end
+        finally:
+            self._ends.discard(end)
+
+    def _follow(self, message: String) -> None:
+        """Notice that another executor runs."""
+        try:
+            run = json.loads(message.data)['run']
+        except (ValueError, TypeError, KeyError):
+            return
+        before, self._run = self._run, run
+        if before and before != run:
+            self._lose()
+
+    def _lose(self) -> None:
+        """Wait no longer for what an executor that has ended was doing."""
+        for end in [each for each in self._ends if not each.done()]:
+            end.set_exception(_ExecutorLostError())
 
     async def _remedy(self, command: str, recovery: Recovery) -> Remedy | None:
         """Return what to try after a failure: by the model if there is one, or the rules."""
@@ -273,6 +329,8 @@ class TaskPlanner(Node):
         question = self._dialogue.question
         self._health.question = question.text if question is not None else ''
         is_ready = self._client.server_is_ready()
+        if not is_ready:
+            self._lose()
         return [self._health.status(time.monotonic(), has_executor=is_ready)]
 
     async def _answer(self, request: MakePlan.Request, response: MakePlan.Response) -> Any:

@@ -7,6 +7,7 @@ from typing import Any
 
 from diagnostic_msgs.msg import KeyValue
 from humanoid_common.errors import NodeStartError
+from humanoid_common.qos import LATCHED
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_interfaces.action import ExecutePlan
 from humanoid_interfaces.msg import Plan, PlanStep
@@ -83,6 +84,20 @@ def test_a_fall_ends_it(ros: RosSandbox, tell: Any) -> None:
     robot.walking.publish(String(data='fallen'))
     ros.wait_until(robot.heard('The robot has fallen.'), 10.0, 'words')
     ros.wait_until(lambda: robot.cancelled == 1, 10.0, 'a canceled walk')
+
+
+def test_an_executor_that_was_killed_is_not_waited_for(ros: RosSandbox, tell: Any) -> None:
+    """When another one runs, the planner says that it has given up, and can be told anew."""
+    robot = tell.robot
+    robot.is_slow = True
+    states = robot.create_publisher(String, 'executor/state', LATCHED)
+    tell('go to the study')
+    ros.wait_until(lambda: robot.walks, 60.0, 'a walk')
+    states.publish(String(data='{"run": "another one", "command": "", "steps": []}'))
+    ros.wait_until(robot.heard('what does my plans was started anew'), 60.0, 'words')
+    robot.is_slow = False
+    tell('turn left')
+    ros.wait_until(lambda: robot.spins, 60.0, 'a turn')
 
 
 def test_what_is_not_understood_is_said(ros: RosSandbox, tell: Any) -> None:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable, Iterable, MutableMapping
+from contextlib import suppress
 import hmac
 import json
 from typing import Any
@@ -20,6 +21,10 @@ __all__ = ['GONE', 'LONGEST_BODY', 'Gate', 'refusal']
 GONE = 'robot_mcp.gone'
 """The key in an ASGI scope of what is set when the client of a request has gone."""
 LONGEST_BODY = 64 * 1024
+_READ_OF_REFUSED = 1024 * 1024
+"""Of the body of what is refused so much is read, and thrown away, before it is answered."""
+_PATIENCE_S = 2.0
+"""How long that may take."""
 _ONCE = (b'host', b'origin', b'authorization', b'content-length', b'sec-fetch-site')
 Scope = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
@@ -91,7 +96,7 @@ class Gate:
             return
         status, reason = refusal(scope['headers'], self._token, self._port)
         if status:
-            await _refuse(send, status, reason)
+            await _refuse(receive, send, status, reason)
             return
         gone = scope[GONE] = asyncio.Event()
 
@@ -104,10 +109,27 @@ class Gate:
         await self._app(scope, watched, send)
 
 
-async def _refuse(send: Send, status: int, reason: str) -> None:
-    """Answer with a sentence."""
+async def _refuse(receive: Receive, send: Send, status: int, reason: str) -> None:
+    """
+    Answer with a sentence.
+
+    To close a connection with something unread in it resets it, and the client, which is still
+    sending, may never see the answer.
+    """
+    with suppress(asyncio.TimeoutError):
+        await asyncio.wait_for(_throw_away(receive), _PATIENCE_S)
     headers = [(b'content-type', b'application/json'), (b'connection', b'close')]
     if status == 401:
         headers.append((b'www-authenticate', b'Bearer'))
     await send({'type': 'http.response.start', 'status': status, 'headers': headers})
     await send({'type': 'http.response.body', 'body': json.dumps({'error': reason}).encode()})
+
+
+async def _throw_away(receive: Receive) -> None:
+    """Read the body of a request to its end, or as much of it as is reasonable."""
+    size = 0
+    while size < _READ_OF_REFUSED:
+        message = await receive()
+        size += len(message.get('body', b''))
+        if not message.get('more_body', False):
+            return

@@ -90,11 +90,24 @@ def call(scope: dict[str, Any], messages: list[Any] | None = None) -> tuple[list
 
 def test_a_refusal_reaches_nobody() -> None:
     """It is answered with a sentence; what is no HTTP is closed."""
-    sent, through = call({'type': 'http', 'headers': [(b'host', b'127.0.0.1:8765')]})
+    pieces = [
+        {'type': 'http.request', 'body': b'{"id":', 'more_body': True},
+        {'type': 'http.request', 'body': b' 1}', 'more_body': False},
+    ]
+    sent, through = call({'type': 'http', 'headers': [(b'host', b'127.0.0.1:8765')]}, pieces)
+    assert not pieces  # a connection that is closed with something unread is reset
     assert sent[0]['status'] == 401 and b'token is missing' in sent[1]['body'] and not through
     assert (b'www-authenticate', b'Bearer') in sent[0]['headers']
     sent, through = call({'type': 'websocket', 'headers': []})
     assert sent[0]['type'] == 'websocket.close' and not through
+
+
+def test_what_is_refused_is_not_read_for_ever() -> None:
+    """A body without end is answered after its first megabyte."""
+    pieces = [{'type': 'http.request', 'body': b' ' * 10_000, 'more_body': True}] * 1000
+    sent, through = call({'type': 'http', 'headers': []}, pieces)
+    assert sent[0]['status'] == 421 and not through
+    assert 800 < len(pieces) < 1000
 
 
 def test_a_client_that_goes_is_noticed() -> None:

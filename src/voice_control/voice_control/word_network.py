@@ -306,11 +306,11 @@ def _minimal(table: _Table, finals: set[int]) -> WordNetwork:
         if len(signatures) == count:
             break
         count = len(signatures)
-    order: dict[int, int] = {}
-    for state in _in_order(table):
+    reached, order = list(_in_order(table)), dict[int, int]()
+    for state in reached:
         order.setdefault(classes[state], len(order))
     arcs_of: list[dict[str, int]] = [{} for _ in order]
-    for state in _in_order(table):
+    for state in reached:
         arcs_of[order[classes[state]]] = {
             word: order[classes[target]] for word, target in table[state].items()
         }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What goes wrong with browsers, and what people and robots send, harms no page."""
+"""What goes wrong with browsers, or people and robots send, harms no page: `make stories`."""
 
 from __future__ import annotations
 

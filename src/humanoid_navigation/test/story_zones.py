@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that the robot keeps out of zones, and is slower in others, beside the simulator."""
+"""The robot keeps out of zones, and is slower in others, without physics: `make stories`."""
 
 from __future__ import annotations
 

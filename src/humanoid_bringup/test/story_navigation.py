@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that the walking robot gets to places, and that what stops it ends its goals."""
+"""The walking robot gets to places, and what stops it ends its goals: `make stories`."""
 
 from __future__ import annotations
 

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Does what a page of the documentation says, as a reader would.
+
+A page's blocks run in order, in one bash with an empty home folder. `bash` blocks run to their
+end; `bash terminal` blocks run in a terminal of their own, with the same variables and folder,
+until the comment `stop`; a block with `file=PATH` is written there. The lines of a `text` block
+have to appear in what the block before it prints.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+import os
+from pathlib import Path
+import re
+import subprocess
+from typing import Any
+
+__all__ = ['DOCS', 'LONG', 'PAGES', 'do_page']
+
+FENCE = re.compile(
+    r'^(?:<!-- (stop) -->|```(\w+)(?: (\S+))?\n(.*?)^```)$', flags=re.MULTILINE | re.DOTALL
+)
+DOCS = Path(__file__).resolve().parents[2] / 'docs'
+PAGES = [*sorted(DOCS.glob('tutorial/*.md')), *sorted(DOCS.glob('how-to/*.md'))]
+LONG = ('apartment', 'bags', 'look_inside', 'navigate', 'objects', 'simulation', 'tell_the_robot')
+"""Pages that take half a minute or more: `story_docs.py` does them."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """A fenced block: its language, its mark and its text."""
+
+    language: str
+    mark: str
+    text: str
+
+
+def blocks(page: Path) -> Iterator[Block]:
+    """Yield the blocks of a page."""
+    for comment, language, mark, text in FENCE.findall(page.read_text()):
+        yield Block(language, mark or comment, text)
+
+
+class Reader:
+    """Does what a page says."""
+
+    def __init__(self, root: Path, home: Path, start: Callable[..., Any]) -> None:
+        self._start = start
+        self._state = home / '.state'
+        self._home = home
+        self._programs: list[Any] = []
+        self._printed = ''
+        keep = ('PATH', 'LANG', 'ROS_DOMAIN_ID')
+        self._variables = {name: os.environ[name] for name in keep if name in os.environ}
+        self._variables['PATH'] = '/usr/local/bin:/usr/bin:/bin'
+        self._variables |= {'HOME': str(home), 'HUMANOID': str(root), 'PYTHON': 'python3'}
+        self._state.write_text(f'cd "{home}"\n')
+
+    def do(self, block: Block) -> None:
+        """Do one block."""
+        if block.mark.startswith('file='):
+            path = Path(block.mark.removeprefix('file=').replace('~', str(self._home)))
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(block.text)
+        elif block.language == 'text':
+            self._expect(block.text)
+        elif block.mark == 'terminal':
+            command = f'source "{self._state}"; exec {block.text}'
+            program = self._start('bash', '-c', command, env=self._variables)
+            self._programs.append(program)
+        elif block.mark == 'stop':
+            for program in self._programs:
+                program.end()
+                assert program.members() == []
+            self._programs = []
+        elif block.language == 'bash':
+            self._run(block.text)
+
+    def _run(self, script: str) -> None:
+        keep = f'{{ declare -px; echo "cd \\"$PWD\\""; }} > "{self._state}"'
+        done = subprocess.run(
+            ['bash', '-c', f'set -e; source "{self._state}"; {script}\n{keep}'],
+            env=self._variables,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            encoding='utf-8',
+            timeout=170,
+            check=False,
+        )
+        self._printed = done.stdout
+        assert done.returncode == 0, f'{script}\n{done.stdout}'
+
+    def _expect(self, text: str) -> None:
+        for line in text.splitlines():
+            if line in self._printed:
+                continue
+            assert self._programs, f'{line!r} is not in:\n{self._printed}'
+            try:
+                self._programs[-1].wait_for(line)
+            except AssertionError as error:
+                raise AssertionError(f'{error}\nnor in:\n{self._printed}') from error
+
+
+def do_page(page: Path, root: Path, home: Path, start: Callable[..., Any]) -> None:
+    """
+    Do everything that a page tells its reader to do, and look for what it says is printed.
+
+    Parameters
+    ----------
+    page
+        The page.
+    root
+        The folder of the workspace.
+    home
+        An empty folder, the reader's home.
+    start
+        Starts a program in a terminal of its own: the fixture of that name.
+
+    """
+    reader = Reader(root, home, start)
+    for block in blocks(page):
+        reader.do(block)
