@@ -187,7 +187,7 @@ def test_motion(world: Any, robot: Any, transport: str, mode: str) -> None:
     assert len(robot.walks) == 1
 
 
-@all_ways
+@both
 def test_a_client_cancels(world: Any, robot: Any, transport: str, mode: str, until: Any) -> None:
     """The walk ends; the next one begins."""
     robot.is_slow = True
@@ -249,7 +249,7 @@ def test_stop_of_another_client(world: Any, robot: Any, until: Any) -> None:
     assert refused.is_error and walk.is_error and robot.canceled == 1 and len(robot.walks) == 1
 
 
-@pytest.mark.parametrize('transport, mode', WAYS)
+@both
 def test_a_client_that_vanishes(
     world: Any, robot: Any, transport: str, mode: str, until: Any, tmp_path: Path
 ) -> None:
@@ -305,7 +305,7 @@ asyncio.run(main(*sys.argv[1:]))
 """
 
 
-@all_ways
+@both
 @pytest.mark.parametrize('agrees', [True, False])
 def test_a_person_is_asked(
     world: Any, robot: Any, transport: str, mode: str, agrees: bool
