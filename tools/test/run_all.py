@@ -26,7 +26,7 @@ from xml.etree import ElementTree
 ROOT = Path(__file__).resolve().parents[2]
 LIMIT_S = 60 * 60.0
 MOST_UNSTEADY = 3
-SIMULATION = ('humanoid_bringup', 'humanoid_simulation')
+SIMULATION = ('humanoid_bringup', 'humanoid_navigation', 'humanoid_simulation')
 """Packages whose tests take as long as those of all others together."""
 _LAST_WORDS_S = 10.0
 _ENDS = (0, 1, 5)  # of pytest: passed, failed, nothing to run

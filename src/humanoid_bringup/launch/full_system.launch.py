@@ -8,18 +8,24 @@ from launch import LaunchDescription, Substitution
 from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription
 from launch.conditions import IfCondition
 from launch.launch_description_sources import PythonLaunchDescriptionSource
-from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch.substitutions import (
+    LaunchConfiguration,
+    NotEqualsSubstitution,
+    PathJoinSubstitution,
+)
 from launch_ros.substitutions import FindPackageShare
 
 DEFAULTS = {
     'scene': ('apartment', 'The scene that is simulated.'),
     'navigation': ('true', 'Start Nav2, so that the robot finds its way.'),
     'perception': ('true', 'Detect objects, remember where they are, and look for them.'),
+    'assistants_port': ('8765', 'The port of the server for assistants; 0 for any.'),
 }
 
 PARTS = {
-    'planner': 'Understand commands, and do them.',
-    'voice': 'Hear commands, and speak aloud what the robot says.',
+    'planner': ('true', 'Understand commands, and do them.'),
+    'voice': ('true', 'Hear commands, and speak aloud what the robot says.'),
+    'assistants': ('false', 'Let assistants that speak MCP reach the robot, by HTTP.'),
 }
 
 
@@ -33,19 +39,39 @@ def generate_launch_description() -> LaunchDescription:
             ),
             *(
                 DeclareLaunchArgument(
-                    name, default_value='true', choices=['true', 'false'], description=description
+                    name,
+                    default_value=default,
+                    choices=['true', 'false'],
+                    description=description,
                 )
-                for name, description in PARTS.items()
+                for name, (default, description) in PARTS.items()
             ),
             _include('humanoid_bringup', 'bringup'),
-            *(
-                GroupAction(
-                    [_include(package, name, {'use_sim_time': robot_time()})],
-                    condition=IfCondition(LaunchConfiguration(name)),
-                )
-                for package, name in (('llm_planner', 'planner'), ('voice_control', 'voice'))
+            _part('planner', 'llm_planner', 'planner'),
+            _part('voice', 'voice_control', 'voice'),
+            _part(
+                'assistants',
+                'robot_mcp',
+                'robot_mcp',
+                {
+                    # These names mean something else to the page and to the planner.
+                    'port': LaunchConfiguration('assistants_port'),
+                    'confirm': NotEqualsSubstitution(
+                        LaunchConfiguration('confirm', default='never'), 'never'
+                    ),
+                },
             ),
         ]
+    )
+
+
+def _part(
+    argument: str, package: str, name: str, arguments: dict[str, Substitution] | None = None
+) -> GroupAction:
+    """Include a launch file of a package if an argument says so."""
+    given = {'use_sim_time': robot_time(), **(arguments or {})}
+    return GroupAction(
+        [_include(package, name, given)], condition=IfCondition(LaunchConfiguration(argument))
     )
 
 

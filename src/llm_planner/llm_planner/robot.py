@@ -21,6 +21,8 @@ __all__ = ['Robot']
 
 _PATIENCE_S = 5.0
 """How long a server may take to appear, or to accept a goal; by a clock that nobody stops."""
+_WORDS = {'COLLISION_AHEAD': 'Something is in my way, so I have stopped.'}
+"""What to say instead of what is meant for engineers, by the names of error codes."""
 _LOOK_TICKS = 20
 """After how many ticks it is looked again for another server of an action."""
 
@@ -95,10 +97,7 @@ class Robot:
             if not end.done():
                 sent.add_done_callback(_cancel)
         if answer.status != GoalStatus.STATUS_SUCCEEDED:
-            text = getattr(answer.result, 'error_msg', '') or getattr(
-                answer.result, 'error_string', ''
-            )
-            raise SkillError(text or f"'{name}' did not succeed.")
+            raise SkillError(_reason(answer.result) or f"'{name}' did not succeed.")
         return answer.result
 
     def _accepted(
@@ -154,6 +153,15 @@ class Robot:
     def _is_over(self, begin: Time) -> bool:
         """Return whether patience is over that began at a time."""
         return bool((self._steady.now() - begin).nanoseconds * 1e-9 > _PATIENCE_S)
+
+
+def _reason(result: Any) -> str:
+    """Return why an action did not succeed, in words for people; '' if it does not say."""
+    code = getattr(result, 'error_code', 0)
+    for name, words in _WORDS.items():
+        if code and getattr(result, name, None) == code:
+            return words
+    return str(getattr(result, 'error_msg', '') or getattr(result, 'error_string', ''))
 
 
 def _cancel(sent: Any) -> None:

@@ -71,6 +71,8 @@ class Robot(Node):
         What it was told to do, and has heard.
     is_slow
         Whether a walk goes on until it is canceled.
+    is_hemmed_in
+        Whether a turn would touch something.
     failure, failures
         Why walks fail; those of the list one after another, the other one always.
     after_walk, after_scan
@@ -87,7 +89,7 @@ class Robot(Node):
         self.grammars: list[str] = []
         self.statuses: dict[str, DiagnosticStatus] = {}
         self.scans = self.cancelled = 0
-        self.is_slow, self.failure = False, ''
+        self.is_slow, self.is_hemmed_in, self.failure = False, False, ''
         self.failures: list[str] = []
         self.after_walk: list[Detection3D] | None = None
         self.after_scan: list[Detection3D] | None = None
@@ -168,6 +170,8 @@ class Robot(Node):
 
     async def _spin(self, goal: RunningGoal) -> None:
         self.spins.append(goal.request.target_yaw)
+        if self.is_hemmed_in:
+            raise GoalAborted('COLLISION_AHEAD', "'spin' would collide in 0.2 s.")
 
     async def _path(self, goal: RunningGoal) -> None:
         if goal.request.goal.pose.position.x > 5.5:

@@ -211,8 +211,8 @@ class TaskPlanner(Node):
         sent = self._sent = self._client.send_goal_async(ExecutePlan.Goal(plan=made))
         try:
             answer = await self._end_of(sent)
-        except _ExecutorLostError:
-            self._say('I cannot go on: what does my plans was started anew.')
+        except _ExecutorLostError as error:
+            self.get_logger().warning(f'{plan.command!r} is given up. {error}')
             return None
         if answer is None:
             return None
@@ -255,13 +255,15 @@ class TaskPlanner(Node):
         except (ValueError, TypeError, KeyError):
             return
         before, self._run = self._run, run
-        if before and before != run:
-            self._lose()
+        if before and before != run:  # which says that it has stopped
+            self._lose('The skill executor was started anew.')
 
-    def _lose(self) -> None:
-        """Wait no longer for what an executor that has ended was doing."""
-        for end in [each for each in self._ends if not each.done()]:
-            end.set_exception(_ExecutorLostError())
+    def _lose(self, reason: str) -> bool:
+        """Wait no longer for what an executor that has ended was doing; return if it did."""
+        lost = [each for each in self._ends if not each.done()]
+        for end in lost:
+            end.set_exception(_ExecutorLostError(reason))
+        return bool(lost)
 
     async def _remedy(self, command: str, recovery: Recovery) -> Remedy | None:
         """Return what to try after a failure: by the model if there is one, or the rules."""
@@ -329,8 +331,8 @@ class TaskPlanner(Node):
         question = self._dialogue.question
         self._health.question = question.text if question is not None else ''
         is_ready = self._client.server_is_ready()
-        if not is_ready:
-            self._lose()
+        if not is_ready and self._lose('The skill executor has ended.'):
+            self._say('I cannot go on, as the skill executor has ended.')
         return [self._health.status(time.monotonic(), has_executor=is_ready)]
 
     async def _answer(self, request: MakePlan.Request, response: MakePlan.Response) -> Any:

@@ -75,6 +75,15 @@ def test_a_failure_is_explained(ros: RosSandbox, tell: Any) -> None:
     assert robot.said.count('A dog is in the way.') == 1
 
 
+def test_a_collision_ahead_is_said_in_plain_words(ros: RosSandbox, tell: Any) -> None:
+    """Not in those of navigation."""
+    robot = tell.robot
+    robot.is_hemmed_in = True
+    tell('turn left')
+    ros.wait_until(robot.heard('Something is in my way, so I have stopped.'), 60.0, 'words')
+    assert not [each for each in robot.said if 'collide' in each]
+
+
 def test_a_fall_ends_it(ros: RosSandbox, tell: Any) -> None:
     """The walk is given up at once, and the reason is said."""
     robot = tell.robot
@@ -87,14 +96,19 @@ def test_a_fall_ends_it(ros: RosSandbox, tell: Any) -> None:
 
 
 def test_an_executor_that_was_killed_is_not_waited_for(ros: RosSandbox, tell: Any) -> None:
-    """When another one runs, the planner says that it has given up, and can be told anew."""
+    """When another one runs, the planner does nothing any more, and can be told anew."""
     robot = tell.robot
     robot.is_slow = True
     states = robot.create_publisher(String, 'executor/state', LATCHED)
+
+    def doing() -> str:
+        status = robot.statuses.get('task_planner: planner')
+        return next((e.value for e in status.values if e.key == 'doing'), '') if status else ''
+
     tell('go to the study')
-    ros.wait_until(lambda: robot.walks, 60.0, 'a walk')
+    ros.wait_until(lambda: robot.walks and doing() == 'go to the study', 60.0, 'a walk')
     states.publish(String(data='{"run": "another one", "command": "", "steps": []}'))
-    ros.wait_until(robot.heard('what does my plans was started anew'), 60.0, 'words')
+    ros.wait_until(lambda: doing() == 'nothing', 60.0, 'the planner to give up')
     robot.is_slow = False
     tell('turn left')
     ros.wait_until(lambda: robot.spins, 60.0, 'a turn')

@@ -28,7 +28,7 @@ from llm_planner.world_watch import WorldWatch
 from robot_mcp.audit import AuditLog
 from robot_mcp.confirmations import Confirmations, request_of
 from robot_mcp.looking import Looking
-from robot_mcp.node_thread import RobotError
+from robot_mcp.node_thread import in_time, RobotError
 from robot_mcp.robot_link import PlanEnd, PlanRun, RobotLink
 from robot_mcp.tools import CONFIRMATION, LOOKS, plan_of_call, STOP, TELL, Tool, tools_of
 
@@ -307,7 +307,7 @@ def _on_a_line(text: str) -> str:
 async def _reported(client: Client, progress: float, total: float, text: str) -> None:
     """Tell a client how far it is; one that does not listen does not hold anything up."""
     try:
-        await asyncio.wait_for(client.report(progress, total, text), _REPORT_S)
+        await in_time(client.report(progress, total, text), _REPORT_S)
     except asyncio.TimeoutError:
         return
 

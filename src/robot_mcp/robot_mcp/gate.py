@@ -16,6 +16,8 @@ import hmac
 import json
 from typing import Any
 
+from robot_mcp.node_thread import in_time
+
 __all__ = ['GONE', 'LONGEST_BODY', 'Gate', 'refusal']
 
 GONE = 'robot_mcp.gone'
@@ -117,7 +119,7 @@ async def _refuse(receive: Receive, send: Send, status: int, reason: str) -> Non
     sending, may never see the answer.
     """
     with suppress(asyncio.TimeoutError):
-        await asyncio.wait_for(_throw_away(receive), _PATIENCE_S)
+        await in_time(_throw_away(receive), _PATIENCE_S)
     headers = [(b'content-type', b'application/json'), (b'connection', b'close')]
     if status == 401:
         headers.append((b'www-authenticate', b'Bearer'))

@@ -9,13 +9,15 @@ after another, and what comes back is handed to the loop of the server.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 import time
-from typing import Any
+from typing import Any, TypeVar
 
 from rclpy.node import Node
 
-__all__ = ['NodeThread', 'RobotError', 'in_loop']
+__all__ = ['NodeThread', 'RobotError', 'in_loop', 'in_time']
+
+Value = TypeVar('Value')
 
 _ANSWER_S = 5.0
 """How long anything may take that should be there at once."""
@@ -77,7 +79,7 @@ class NodeThread:
             await asyncio.sleep(0.02)
         self._node.executor.create_task(call)
         try:
-            return await asyncio.wait_for(answer, _ANSWER_S)
+            return await in_time(answer, _ANSWER_S)
         except asyncio.TimeoutError:
             raise RobotError('The node of this server is too busy to answer.') from None
 
@@ -123,7 +125,7 @@ class NodeThread:
             lambda: self._node.create_subscription(kind, topic, take, profile)
         )
         try:
-            return await asyncio.wait_for(came, _ANSWER_S)
+            return await in_time(came, _ANSWER_S)
         except asyncio.TimeoutError:
             raise RobotError(f"Nothing comes on '{name}'.") from None
         finally:
@@ -159,7 +161,7 @@ class NodeThread:
 
         await self.do(send)
         try:
-            return await asyncio.wait_for(came, timeout_s)
+            return await in_time(came, timeout_s)
         except asyncio.TimeoutError:
             raise RobotError(f'{who} does not answer.') from None
 
@@ -168,6 +170,36 @@ def _settle(future: asyncio.Future[Any], value: Any) -> None:
     """Set the result of a future, unless nobody waits for it any more."""
     if not future.done():
         future.set_result(value)
+
+
+async def in_time(awaitable: Awaitable[Value], timeout_s: float) -> Value:
+    """
+    Return what comes of something, and cancel it if it takes too long.
+
+    `asyncio.wait_for` of Python before 3.12 loses a cancellation that comes when the other thing
+    is just done: a robot would go on with what its client has canceled.
+
+    Parameters
+    ----------
+    awaitable, timeout_s
+        What to wait for, and how long in s.
+
+    Raises
+    ------
+    asyncio.TimeoutError
+        It takes too long.
+
+    """
+    task = asyncio.ensure_future(awaitable)
+    try:
+        await asyncio.wait((task,), timeout=timeout_s)
+    except asyncio.CancelledError:
+        task.cancel()
+        raise
+    if not task.done():
+        task.cancel()
+        raise asyncio.TimeoutError
+    return task.result()
 
 
 def in_loop(loop: asyncio.AbstractEventLoop, function: Callable[..., Any], *told: Any) -> None:

@@ -18,7 +18,7 @@ from humanoid_interfaces.msg import Plan as PlanMessage
 from humanoid_interfaces.srv import MakePlan
 from rclpy.action import ActionClient
 from rclpy.node import Node
-from robot_mcp.node_thread import in_loop, NodeThread, RobotError
+from robot_mcp.node_thread import in_loop, in_time, NodeThread, RobotError
 from std_msgs.msg import String
 
 __all__ = ['PlanEnd', 'PlanRun', 'RobotLink']
@@ -137,7 +137,7 @@ class RobotLink:
         is_accepted = False
         while True:
             try:
-                news = await asyncio.wait_for(told.get(), _CHECK_S)
+                news = await in_time(told.get(), _CHECK_S)
             except asyncio.TimeoutError:
                 if await self.thread.do(self._client.server_is_ready):
                     there_s = time.monotonic()

@@ -12,6 +12,7 @@ from humanoid_common.errors import NodeStartError
 from robot_mcp.calls import Answer, Calls, NeedsInputError
 from robot_mcp.confirmations import Confirmations
 from robot_mcp.gate import GONE
+from robot_mcp.node_thread import in_time
 
 __all__ = ['INSTRUCTIONS', 'make_server', 'require_sdk']
 
@@ -80,7 +81,7 @@ class _SdkClient:
         if not self._context.session.can_send_request:
             raise NeedsInputError(question, self._asked.ask(request))
         try:
-            answer = await asyncio.wait_for(
+            answer = await in_time(
                 self._context.session.elicit_form(
                     question, _FORM, related_request_id=self._context.request_id
                 ),

@@ -19,6 +19,7 @@ import pytest
 from robot_mcp.audit import AuditLog
 import robot_mcp.calls as calls_module
 from robot_mcp.calls import Calls
+from robot_mcp.node_thread import in_time
 from robot_mcp.robot_link import PlanEnd
 from robot_mcp.robot_mcp import arguments_of
 
@@ -211,6 +212,27 @@ def test_a_call_that_is_canceled(tmp_path: Path) -> None:
 
     assert play(script, tmp_path) == 1
     assert outcomes(tmp_path) == ['begun', 'canceled by the client']
+
+
+def test_a_cancellation_is_never_lost() -> None:
+    """Not even one that comes at the moment in which what is waited for is done."""
+
+    async def script() -> int:
+        lost = 0
+        for _ in range(10):
+            done = asyncio.get_running_loop().create_future()
+            waiting = asyncio.create_task(in_time(done, 10.0))
+            await asyncio.sleep(0)
+            done.set_result(None)
+            waiting.cancel()
+            try:
+                await waiting
+                lost += 1
+            except asyncio.CancelledError:
+                pass
+        return lost
+
+    assert asyncio.run(script()) == 0
 
 
 def test_a_client_that_does_not_listen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
