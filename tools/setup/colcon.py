@@ -16,22 +16,28 @@ FIRST = 'ros_environment'
 
 
 def build_underlay(
-    locations: Locations, steps: Steps, names: list[str], finished: Callable[[str], None]
+    locations: Locations,
+    steps: Steps,
+    names: list[str],
+    waiting: list[str],
+    finished: Callable[[str], None],
 ) -> None:
     """Build packages of tools/underlay into the environment, which thereby gets its setup.bash.
 
     ros_environment goes first: once the environment has set-up files, it can be named as the
     prefix in which the other packages find what they depend on.
 
-    finished: called with the name of each package as soon as it is built.
+    waiting: packages that are neither built nor to be built now. colcon would look for what they
+    install, as others depend on them for their tests; finished: called with the name of each
+    package as soon as it is built.
     """
     variables = environment_variables(locations.environment)
     if FIRST in names:
-        _build_underlay(locations, steps, variables, [FIRST], finished)
+        _build_underlay(locations, steps, variables, [FIRST], waiting, finished)
     others = [name for name in names if name != FIRST]
     variables['AMENT_PREFIX_PATH'] = str(locations.environment)
     if others:
-        _build_underlay(locations, steps, variables, others, finished)
+        _build_underlay(locations, steps, variables, others, waiting, finished)
 
 
 def _build_underlay(
@@ -39,6 +45,7 @@ def _build_underlay(
     steps: Steps,
     variables: dict[str, str],
     names: list[str],
+    waiting: list[str],
     finished: Callable[[str], None],
 ) -> None:
     log = locations.environment / 'log' / 'underlay.log'
@@ -58,6 +65,7 @@ def _build_underlay(
     command: list[str | Path] = [locations.environment / 'bin' / 'colcon']
     command += ['--log-base', build / 'log', 'build', '--build-base', build]
     command += ['--base-paths', locations.underlay, '--packages-select', *names]
+    command += ['--packages-ignore', *waiting] if waiting else []
     command += ['--merge-install', '--install-base', locations.environment]
     status = run_logged(
         command,

@@ -49,7 +49,8 @@ class Underlay:
             self._stamp(name).write(self._digest(name))
             forget(self._packages[name], self._locations)
 
-        colcon.build_underlay(self._locations, steps, names, finished)
+        waiting = sorted(set(self._packages) - self._wanted() - {*names})
+        colcon.build_underlay(self._locations, steps, names, waiting, finished)
 
     def describe_others(self) -> None:
         """Describe the packages that wait, unless that is done."""

@@ -49,12 +49,25 @@ def workspace(tmp_path: Path) -> Locations:
 
 
 @pytest.fixture
-def built(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
+def left_out() -> list[list[str]]:
+    """Return the list of what colcon is kept from in each build from now on."""
+    return []
+
+
+@pytest.fixture
+def built(monkeypatch: pytest.MonkeyPatch, left_out: list[list[str]]) -> list[list[str]]:
     """Return the list of what is built from now on; the package `broken` fails."""
     runs: list[list[str]] = []
 
-    def build(_: Locations, __: Steps, names: list[str], finished: Callable[[str], None]) -> None:
+    def build(
+        _: Locations,
+        __: Steps,
+        names: list[str],
+        waiting: list[str],
+        finished: Callable[[str], None],
+    ) -> None:
         runs.append(names)
+        left_out.append(waiting)
         for name in names:
             if (_.underlay / name / 'broken').exists():
                 raise KeyboardInterrupt
@@ -237,6 +250,21 @@ def test_what_is_built_on_demand(workspace: Locations, built: list[list[str]]) -
     for asked_for in ('route:=true', 'run pilot_tools start'):
         names = Underlay(workspace, 'wheels', asked_for).to_build(everything=False)
         assert set(names) == {*NEEDED, 'geo_msgs', 'other_msgs', 'pilot'}
+
+
+def test_colcon_does_not_know_what_waits(
+    workspace: Locations, built: list[list[str]], left_out: list[list[str]]
+) -> None:
+    """It would refuse a package that depends, for its tests, on one that is built on demand."""
+    write_package(workspace.underlay / 'pilot')
+    on_demand(workspace.underlay / 'pilot', 'pilot')
+    write_package(workspace.underlay / 'panel', 'pilot')
+    make(workspace)
+    make(workspace, everything=True)
+    (workspace.underlay / 'panel' / 'panel.py').touch()
+    make(workspace)
+    assert built == [sorted([*NEEDED, 'panel']), ['geo_msgs', 'other_msgs', 'pilot'], ['panel']]
+    assert left_out == [['geo_msgs', 'other_msgs', 'pilot'], [], []]
 
 
 def test_what_is_said_of_packages_on_demand(
