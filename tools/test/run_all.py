@@ -185,9 +185,9 @@ def _packages(title: str, names: list[str]) -> Suite:
 
 def tools() -> Suite:
     """Return the tests of tools/ that do not care what runs beside them."""
-    # With more processes, robots on two cores fall behind real time, and tests run out of it;
-    # each reserves some of the 100 DDS domains.
-    workers = min(os.cpu_count() or 1, 16)
+    # Tests wait much, so that three fill two cores. With more, robots fall behind real time, and
+    # tests run out of it; each reserves some of the 100 DDS domains.
+    workers = min((os.cpu_count() or 1) * 3 // 2, 16)
     shared = ['-n', str(workers), '--dist', 'loadfile', '--no-loadscope-reorder']
     return _pytest('tools/', ['tools', '-m', 'not alone'], shared)
 

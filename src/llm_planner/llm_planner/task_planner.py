@@ -40,6 +40,7 @@ from llm_planner.plan_messages import failure_of, plan_message
 from llm_planner.replanning import Account, Failure, Recovery, Remedy
 from llm_planner.world import World
 from rclpy.action import ActionClient
+from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import String
@@ -48,6 +49,8 @@ __all__ = ['PlannerParameters', 'TaskPlanner', 'main']
 
 _ANSWER_S = 60.0
 """How long a question waits for its answer."""
+_LOOK_S = 1.0
+"""How often the node looks whether the executor is still there."""
 
 
 @dataclass(frozen=True)
@@ -137,6 +140,8 @@ class TaskPlanner(Node):
         self.create_subscription(String, 'executor/state', self._follow, LATCHED)
         create_async_service(self, MakePlan, '~/plan', self._answer)
         self._diagnostics = Diagnostics(self, self._status)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._lookout = self.create_timer(_LOOK_S, self._look_for_executor, clock=steady)
         # A recogniser takes seconds to read it, so that it has the answers from the beginning.
         commands = self._planner.to_jsgf(self._watch.world())
         grammar = with_answers(commands, asks_to_confirm=told.confirm != 'never')
@@ -258,6 +263,11 @@ class TaskPlanner(Node):
         if before and before != run:  # which says that it has stopped
             self._lose('The skill executor was started anew.')
 
+    def _look_for_executor(self) -> None:
+        """Notice that the executor has ended."""
+        if not self._client.server_is_ready() and self._lose('The skill executor has ended.'):
+            self._say('I cannot go on, as the skill executor has ended.')
+
     def _lose(self, reason: str) -> bool:
         """Wait no longer for what an executor that has ended was doing; return if it did."""
         lost = [each for each in self._ends if not each.done()]
@@ -330,10 +340,8 @@ class TaskPlanner(Node):
         """Return how the node is, for diagnostics."""
         question = self._dialogue.question
         self._health.question = question.text if question is not None else ''
-        is_ready = self._client.server_is_ready()
-        if not is_ready and self._lose('The skill executor has ended.'):
-            self._say('I cannot go on, as the skill executor has ended.')
-        return [self._health.status(time.monotonic(), has_executor=is_ready)]
+        has_executor = self._client.server_is_ready()
+        return [self._health.status(time.monotonic(), has_executor=has_executor)]
 
     async def _answer(self, request: MakePlan.Request, response: MakePlan.Response) -> Any:
         """Plan without doing it, in a dialogue of its own."""

@@ -34,14 +34,14 @@ def begin(ros: RosSandbox, tmp_path: Path) -> Iterator[Callable[[Mapping[str, An
         places = tmp_path / 'places.yaml'
         places.write_text(PLACES)
         robot = ros.start(Robot)
-        ros.start(SkillExecutor, {'places_file': str(places)})
+        executor = ros.start(SkillExecutor, {'places_file': str(places)})
         ros.start(TaskPlanner, {'places_file': str(places), **parameters})
 
         def send(text: str, *, by_voice: bool = False) -> None:
             publisher = robot.transcripts if by_voice else robot.commands
             publisher.publish(String(data=text))
 
-        send.robot = robot  # type: ignore[attr-defined]
+        send.robot, send.executor = robot, executor  # type: ignore[attr-defined]
         plans = robot.create_client(MakePlan, 'task_planner/plan')
         clients.append(ActionClient(robot, ExecutePlan, 'execute_plan'))
 

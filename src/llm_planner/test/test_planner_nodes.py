@@ -114,6 +114,21 @@ def test_an_executor_that_was_killed_is_not_waited_for(ros: RosSandbox, tell: An
     ros.wait_until(lambda: robot.spins, 60.0, 'a turn')
 
 
+def test_an_executor_that_ends_is_missed(ros: RosSandbox, tell: Any) -> None:
+    """Whoever gave the command is told, and that nothing can be done then."""
+    robot = tell.robot
+    robot.is_slow = True
+    tell('go to the study')
+    ros.wait_until(lambda: robot.walks, 60.0, 'a walk')
+    ros.end(tell.executor)
+    lost = 'I cannot go on, as the skill executor has ended.'
+    ros.wait_until(robot.heard(lost), 60.0, 'words')
+    tell('turn left')
+    missing = 'I cannot do anything, as the skill executor is not running.'
+    ros.wait_until(robot.heard(lost, missing), 60.0, 'other words')
+    assert robot.said.count(lost) == 1 and not robot.spins
+
+
 def test_what_is_not_understood_is_said(ros: RosSandbox, tell: Any) -> None:
     """Nothing is done; a question is asked, and answered by voice."""
     robot = tell.robot

@@ -27,8 +27,9 @@ from llm_planner.world import listed
 from llm_planner.world_watch import WorldWatch
 from robot_mcp.audit import AuditLog
 from robot_mcp.confirmations import Confirmations, request_of
+from robot_mcp.deadlines import in_time
 from robot_mcp.looking import Looking
-from robot_mcp.node_thread import in_time, RobotError
+from robot_mcp.node_thread import RobotError
 from robot_mcp.robot_link import PlanEnd, PlanRun, RobotLink
 from robot_mcp.tools import CONFIRMATION, LOOKS, plan_of_call, STOP, TELL, Tool, tools_of
 

@@ -16,7 +16,7 @@ import hmac
 import json
 from typing import Any
 
-from robot_mcp.node_thread import in_time
+from robot_mcp.deadlines import in_time
 
 __all__ = ['GONE', 'LONGEST_BODY', 'Gate', 'refusal']
 

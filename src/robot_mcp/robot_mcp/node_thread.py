@@ -9,15 +9,14 @@ after another, and what comes back is handed to the loop of the server.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 import time
-from typing import Any, TypeVar
+from typing import Any
 
 from rclpy.node import Node
+from robot_mcp.deadlines import in_time
 
-__all__ = ['NodeThread', 'RobotError', 'in_loop', 'in_time']
-
-Value = TypeVar('Value')
+__all__ = ['NodeThread', 'RobotError', 'in_loop']
 
 _ANSWER_S = 5.0
 """How long anything may take that should be there at once."""
@@ -170,36 +169,6 @@ def _settle(future: asyncio.Future[Any], value: Any) -> None:
     """Set the result of a future, unless nobody waits for it any more."""
     if not future.done():
         future.set_result(value)
-
-
-async def in_time(awaitable: Awaitable[Value], timeout_s: float) -> Value:
-    """
-    Return what comes of something, and cancel it if it takes too long.
-
-    `asyncio.wait_for` of Python before 3.12 loses a cancellation that comes when the other thing
-    is just done: a robot would go on with what its client has canceled.
-
-    Parameters
-    ----------
-    awaitable, timeout_s
-        What to wait for, and how long in s.
-
-    Raises
-    ------
-    asyncio.TimeoutError
-        It takes too long.
-
-    """
-    task = asyncio.ensure_future(awaitable)
-    try:
-        await asyncio.wait((task,), timeout=timeout_s)
-    except asyncio.CancelledError:
-        task.cancel()
-        raise
-    if not task.done():
-        task.cancel()
-        raise asyncio.TimeoutError
-    return task.result()
 
 
 def in_loop(loop: asyncio.AbstractEventLoop, function: Callable[..., Any], *told: Any) -> None:

@@ -18,7 +18,8 @@ from humanoid_interfaces.msg import Plan as PlanMessage
 from humanoid_interfaces.srv import MakePlan
 from rclpy.action import ActionClient
 from rclpy.node import Node
-from robot_mcp.node_thread import in_loop, in_time, NodeThread, RobotError
+from robot_mcp.deadlines import in_time
+from robot_mcp.node_thread import in_loop, NodeThread, RobotError
 from std_msgs.msg import String
 
 __all__ = ['PlanEnd', 'PlanRun', 'RobotLink']

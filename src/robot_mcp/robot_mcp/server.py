@@ -11,8 +11,8 @@ from typing import Any
 from humanoid_common.errors import NodeStartError
 from robot_mcp.calls import Answer, Calls, NeedsInputError
 from robot_mcp.confirmations import Confirmations
+from robot_mcp.deadlines import in_time
 from robot_mcp.gate import GONE
-from robot_mcp.node_thread import in_time
 
 __all__ = ['INSTRUCTIONS', 'make_server', 'require_sdk']
 

@@ -19,7 +19,7 @@ import pytest
 from robot_mcp.audit import AuditLog
 import robot_mcp.calls as calls_module
 from robot_mcp.calls import Calls
-from robot_mcp.node_thread import in_time
+from robot_mcp.deadlines import in_time
 from robot_mcp.robot_link import PlanEnd
 from robot_mcp.robot_mcp import arguments_of
 

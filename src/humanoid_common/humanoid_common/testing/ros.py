@@ -49,6 +49,12 @@ class RosSandbox:
         self._executor.add_node(node)
         return node
 
+    def end(self, node: Node) -> None:
+        """End a node that was started here, as if its process were killed."""
+        self._nodes.remove(node)
+        self._executor.remove_node(node)
+        destroy(node)
+
     def observer(self) -> Node:
         """Start a plain node, to watch the others with."""
         return self.start(lambda **options: Node('observer', **options))
