@@ -191,7 +191,7 @@ def localization(particles: int) -> Action:
     """Return an update of AMCL in a house."""
     found, caster = _scanned_house()
     options = FilterOptions(min_particles=particles, max_particles=particles)
-    localizer = Localizer(LocalizerSettings(filter=options), np.random.default_rng(1))
+    localizer = Localizer(LocalizerSettings(filter_options=options), np.random.default_rng(1))
     localizer.set_map(found)
     localizer.start_at(Pose2D(2.0, 2.0, 0.0))
     scan = Scan(_ranges(caster, (2.0, 2.0)), -math.pi, math.radians(1.0), 0.1, 12.0)

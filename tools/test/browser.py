@@ -106,7 +106,11 @@ class Tab:
             seen.extend([now] if now else [])
             return not all(each.is_near(seen[0], tolerance) for each in seen[-1:])
 
-        wait_until(moves, PATIENCE_S, f'the link {link} to move')
+        wait_until(moves, PATIENCE_S, lambda: f'the link {link} to move in {self.text()}')
+
+    def text(self) -> str:
+        """Return what the page says, not too much of it."""
+        return repr(self.page.inner_text('body')[:2000])
 
     def box(self, label: str) -> Any:
         """Return the field for text or numbers whose label begins with a text."""

@@ -127,12 +127,13 @@ def test_a_recording_is_made_and_played(robot: World, tab: Tab) -> None:
     tab.box('Name').fill('swing')
     tab.button('Record').click()
     tab.page.get_by_text('Recording swing').wait_for()
+    wait_until(lambda: is_recorded(robot, '/tf'), 60.0, 'the recorder to find the robot')
     heard = len(commands(robot))
     wait_until(lambda: len(commands(robot)) > heard + 150, 30.0, 'something to record')
     tab.button('Stop recording').click()
     tab.page.get_by_text('Recorded swing').wait_for()
     recording = tab.box('Recording')
-    wait_until(lambda: recording.input_value().startswith('swing'), 30.0, 'it to be offered')
+    wait_until(lambda: recording.input_value().startswith('swing ('), 30.0, 'it to be offered')
     end_robot(robot)
     tab.box('Loop').check()
     tab.button('Play').click()
@@ -141,6 +142,12 @@ def test_a_recording_is_made_and_played(robot: World, tab: Tab) -> None:
     tab.picture('console_playing')
     tab.button('Stop').click()
     tab.page.get_by_text('PLAYING swing', exact=True).wait_for(state='detached')
+
+
+def is_recorded(robot: World, topic: str) -> bool:
+    """Tell whether the recorder listens to a topic."""
+    listening = robot.ros.node.get_subscriptions_info_by_topic(topic)
+    return any(each.node_name == 'rosbag2_recorder' for each in listening)
 
 
 def end_robot(robot: World) -> None:

@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 import os
 from pathlib import Path
 import re
 import signal
 import subprocess
 import sys
+import threading
 import time
 from types import SimpleNamespace
 from typing import Any
@@ -25,7 +27,7 @@ from recorded_samples import write_bag
 from robot_console.panels.recordings import Recordings
 from robot_console.recordings.child import Child
 from robot_console.recordings.scene_tape import SceneTape, TooLarge
-from robot_console.recordings.shelf import Shelf
+from robot_console.recordings.shelf import Bag, Shelf
 from rviz_common.context import Context
 from rviz_common.page import NO_TOKEN, Page, PageSettings
 from rviz_common.status import Statuses
@@ -157,6 +159,37 @@ def test_record(world: World) -> None:
     world.run(lambda: second.exists() and second.stat().st_size > 10_000, 'no second one')
     world.record._press()
     world.run(lambda: world.play.chooser.bag.name == 'run', 'the new one is not chosen')
+
+
+def test_what_was_read_too_early_is_not_offered(
+    world: World, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A reading that began before the recording ended, and ends after it, is not believed."""
+    read, go_on = threading.Event(), threading.Event()
+    look, offered = Shelf.look, set()
+
+    def slow_look(shelf: Shelf) -> list[Bag]:
+        bags = look(shelf)
+        if bags and not read.is_set():
+            read.set()
+            go_on.wait(60.0)
+            return [replace(each, problem='It is not finished.') for each in bags]
+        return bags
+
+    def is_offered() -> bool:
+        offered.update(world.play.chooser._list.options)
+        return world.play.chooser.bag is not None
+
+    monkeypatch.setattr(Shelf, 'look', slow_look)
+    world.talk()
+    world.record._name.value = 'walk'
+    world.record._press()
+    world.run(read.is_set, 'nobody looks')
+    world.record._press()
+    world.run(lambda: world.record.path == '', 'the recording does not end')
+    go_on.set()
+    world.run(is_offered, 'the recording is not listed')
+    assert not any('✖' in each for each in offered)
 
 
 def test_record_refused(world: World) -> None:

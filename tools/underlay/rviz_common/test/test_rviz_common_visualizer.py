@@ -302,3 +302,24 @@ def test_browsers_may_post_work_to_the_last(node: Node, page: Page) -> None:
     shown = Visualizer(node, page, Configuration.default())
     shown.close()
     shown.context.queue.post(lambda: 1 // 0)
+
+
+@pytest.mark.parametrize('may_rest', [False, True])
+def test_the_background_is_painted_when_somebody_may_look(
+    page: Page, node: Node, monkeypatch: pytest.MonkeyPatch, may_rest: bool
+) -> None:
+    """Once for each color; nobody looks here, so a page that may rest has none."""
+    colors: list[list[int]] = []
+    monkeypatch.setattr(
+        page.viser.scene,
+        'set_background_image',
+        lambda image, **_: colors.append(image[0, 0].tolist()),
+    )
+    configuration = Configuration.parse(text_of(), 'test.rviz')
+    shown = Visualizer(node, page, configuration, may_rest=may_rest)
+    for color in ((48, 48, 48), (1, 2, 3)):
+        shown.set_option('Background Color', color)
+        for _ in range(2):
+            shown.frame()
+    shown.close()
+    assert colors == ([] if may_rest else [[48, 48, 48], [1, 2, 3]])

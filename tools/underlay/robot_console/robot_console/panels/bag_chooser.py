@@ -78,17 +78,18 @@ class BagChooser:
         self._is_over = True
 
     def _look(self) -> None:
+        unfinished = self._unfinished()  # what is finished meanwhile may have been read before
         try:
             bags = self._shelf.look()
         finally:
             self._is_looking = False
-        self._context.queue.post(lambda: self._take(bags))
+        self._context.queue.post(lambda: self._take(bags, unfinished))
 
-    def _take(self, bags: list[Bag]) -> None:
+    def _take(self, bags: list[Bag], unfinished: str) -> None:
         if self._is_over:
             return
-        unfinished = self._unfinished()
-        found = {_label(bag): bag for bag in bags if bag.path != unfinished}
+        left_out = (unfinished, self._unfinished())
+        found = {_label(bag): bag for bag in bags if bag.path not in left_out}
         if found != self._bags:
             self._bags = found
             before = self._list.value

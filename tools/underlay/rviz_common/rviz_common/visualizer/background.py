@@ -8,11 +8,31 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from viser import ViserServer
 
-__all__ = ['paint']
+__all__ = ['Background']
 
 
-def paint(server: ViserServer, color: tuple[int, int, int]) -> None:
-    """Give the scene a background of one color."""
-    import numpy as np
+class Background:
+    """
+    A background of one color.
 
-    server.scene.set_background_image(np.full((1, 1, 3), color, np.uint8), format='png')
+    It is a picture, for which viser loads a library of 15 MB: that waits until somebody looks.
+    """
+
+    def __init__(self, server: ViserServer) -> None:
+        self._server = server
+        self._color: tuple[int, int, int] | None = None
+        self._painted: tuple[int, int, int] | None = None
+
+    def choose(self, color: tuple[int, int, int]) -> None:
+        """Have another color from the next update on."""
+        self._color = color
+
+    def update(self) -> None:
+        """Paint what was chosen, if it is not there yet."""
+        if self._color is None or self._color == self._painted:
+            return
+        import numpy as np
+
+        picture = np.full((1, 1, 3), self._color, np.uint8)
+        self._server.scene.set_background_image(picture, format='png')
+        self._painted = self._color

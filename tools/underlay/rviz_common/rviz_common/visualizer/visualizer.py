@@ -31,7 +31,7 @@ from rviz_common.properties import topic_path, Values
 from rviz_common.status import Statuses
 from rviz_common.views import View
 from rviz_common.visualizer.attention import Attention, REST_HZ
-from rviz_common.visualizer.background import paint
+from rviz_common.visualizer.background import Background
 from rviz_common.visualizer.cameras import Cameras, WORLD
 from rviz_common.visualizer.entry import Entry
 from rviz_common.visualizer.frame_loop import FrameLoop
@@ -86,6 +86,7 @@ class Visualizer:
         self._logger = node.get_logger()
         self._pace = Pace()
         self._maker = Maker(self.context, f'{WORLD}/displays')
+        self._background = Background(page.viser)
         self._open(configuration, path)
         self._files = FileFolder(self.context)
         self._attention = Attention(
@@ -144,6 +145,8 @@ class Visualizer:
         if self._pace.is_due():
             self.watch.update()
         with self.context.server.atomic():
+            if not self._attention.rests:
+                self._background.update()
             self.cameras.update()
             self.displays.update()
             self.head.update()
@@ -196,7 +199,7 @@ class Visualizer:
         elif option == FRAME_RATE:
             self._set_rate()
         else:
-            paint(self.context.server, value)
+            self._background.choose(value)
 
     def _attend(self) -> None:
         """Rest while nobody looks, and be there again for who comes."""
