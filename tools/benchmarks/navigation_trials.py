@@ -15,6 +15,7 @@ from contextlib import contextmanager
 import math
 from pathlib import Path
 
+from action_msgs.msg import GoalStatus
 from ament_index_python.packages import get_package_share_directory
 from arguments import in_range
 from humanoid_common.testing.launching import running_launch_file
@@ -82,10 +83,17 @@ def report(number: int, goal: tuple[float, float, float], arrival: Arrival) -> N
     print(
         f'{number:>4} {place:>20} {arrival.took_s:6.1f} {arrival.distance_m:6.3f} '
         f'{turn_deg:7.1f} {arrival.recoveries:6d}  '
-        + ('' if arrival.is_reached else f'{arrival.error_code}: {arrival.error_msg} ')
+        + ('' if arrival.is_reached else reason(arrival))
         + (f'touched {", ".join(sorted(arrival.touched))}' if arrival.touched else ''),
         flush=True,
     )
+
+
+def reason(arrival: Arrival) -> str:
+    """Return why a goal was not reached."""
+    if arrival.status == GoalStatus.STATUS_CANCELED:
+        return f'canceled after {arrival.took_s:.0f} s '
+    return f'{arrival.error_code}: {arrival.error_msg} '
 
 
 class Belief:

@@ -11,6 +11,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from humanoid_common.qos import STATE
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+from rclpy.time import Time
 
 __all__ = ['Diagnostics', 'Level', 'PartStatus']
 
@@ -59,11 +60,18 @@ class Diagnostics:
         The node, whose name stands before that of each part.
     report
         Returns the status of each part.
+    time_s
+        Tells the time of the stamps in s; without it they are of the clock of the node.
 
     """
 
-    def __init__(self, node: Node, report: Callable[[], Iterable[PartStatus]]) -> None:
-        self._node, self._report = node, report
+    def __init__(
+        self,
+        node: Node,
+        report: Callable[[], Iterable[PartStatus]],
+        time_s: Callable[[], float] | None = None,
+    ) -> None:
+        self._node, self._report, self._time_s = node, report, time_s
         self._publisher = node.create_publisher(DiagnosticArray, 'diagnostics', STATE)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = node.create_timer(_PERIOD_S, self._publish, clock=steady)
@@ -71,8 +79,13 @@ class Diagnostics:
     def _publish(self) -> None:
         name = self._node.get_fully_qualified_name().lstrip('/')
         message = DiagnosticArray(status=[_status(name, each) for each in self._report()])
-        message.header.stamp = self._node.get_clock().now().to_msg()
+        message.header.stamp = self._now().to_msg()
         self._publisher.publish(message)
+
+    def _now(self) -> Time:
+        if self._time_s is None:
+            return self._node.get_clock().now()
+        return Time(nanoseconds=round(self._time_s() * 1e9))
 
 
 def _status(node: str, status: PartStatus) -> DiagnosticStatus:

@@ -34,3 +34,17 @@ def test_the_parts_of_a_node_are_published() -> None:
     assert ears.level == DiagnosticStatus.OK and voice.level == DiagnosticStatus.WARN
     assert [(each.key, each.value) for each in ears.values] == [('heard', str(len(received)))]
     assert voice.message == 'Hoarse' and received[-1].header.stamp.sec > 0
+
+
+def test_stamps_of_another_time() -> None:
+    """The time of a world that a node hosts is no clock of ROS."""
+    received: list[DiagnosticArray] = []
+    with ros_sandbox() as ros:
+        node = ros.start(lambda **options: Node('world', **options))
+        watch = ros.observer()
+        watch.create_subscription(DiagnosticArray, 'diagnostics', received.append, STATE)
+        diagnostics = Diagnostics(node, lambda: [PartStatus('loop', 'runs')], lambda: 3.25)
+        ros.wait_until(lambda: received, what='a message')
+        del diagnostics
+    stamp = received[0].header.stamp
+    assert (stamp.sec, stamp.nanosec) == (3, 250_000_000)

@@ -51,7 +51,7 @@ def test_it_is_logged_once(monkeypatch: pytest.MonkeyPatch) -> None:
         ros.wait_until(lambda: node.count_publishers('/rosout') > 0)
         diagnostics = HostDiagnostics(node, host, robots, lambda: SLOW)
         for _ in range(3):
-            diagnostics._publish()
+            diagnostics.report()
         node.get_logger().info('over')
         ros.wait_until(lambda: 'over' in logs)
     slow = [each for each in logs if each.startswith('Slow: the real-time factor is 0.43')]

@@ -16,14 +16,13 @@ import traceback
 from typing import Any
 
 from audio_common_msgs.msg import AudioData
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from humanoid_common.diagnostics import Diagnostics, PartStatus
 from humanoid_common.errors import NodeStartError
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
-from humanoid_common.qos import EVENT, LATCHED, STATE
+from humanoid_common.qos import EVENT, LATCHED
 from humanoid_common.running import run_node
 from humanoid_interfaces.msg import SpeechResult
-from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
 from rclpy.node import Node
 from std_msgs.msg import Bool, String
@@ -169,12 +168,11 @@ class SpeechRecognizer(Node):
         self._heard = self._accepted = self._lost = 0
         self._transcripts = self.create_publisher(String, 'speech/transcript', EVENT)
         self._results = self.create_publisher(SpeechResult, 'speech/result', EVENT)
-        self._diagnostics = self.create_publisher(DiagnosticArray, 'diagnostics', STATE)
         self.create_subscription(AudioData, 'audio', self._take, EVENT)
         self.create_subscription(String, 'speech/grammar', self._take_grammar, LATCHED)
         self.create_subscription(Bool, 'speech/speaking', self._mute, LATCHED)
         self.create_service(SetBool, '~/enable', self._enable)
-        self.create_timer(1.0, self._diagnose, clock=Clock(clock_type=ClockType.STEADY_TIME))
+        self._diagnostics = Diagnostics(self, self._status)
         self._queue: Queue[Work | None] = Queue(_LONGEST_QUEUE)
         self._worker = threading.Thread(target=self._work, name='recognizer', daemon=True)
         self._worker.start()
@@ -280,7 +278,8 @@ class SpeechRecognizer(Node):
             self.get_logger().info(f'Heard: {recognition.text!r}')
             self._transcripts.publish(String(data=recognition.text))
 
-    def _diagnose(self) -> None:
+    def _status(self) -> list[PartStatus]:
+        """Return how the node is, for diagnostics."""
         is_silent = time.monotonic() - self._sound_s > _SILENT_AFTER_S
         values = {
             'recogniser': self._title,
@@ -288,15 +287,8 @@ class SpeechRecognizer(Node):
             'accepted': self._accepted,
             'lost pieces of sound': self._lost,
         }
-        status = DiagnosticStatus(
-            level=DiagnosticStatus.OK,
-            name=f'{self.get_name()}: speech',
-            message='No sound comes in' if is_silent else 'Listening',
-            values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
-        )
-        message = DiagnosticArray(status=[status])
-        message.header.stamp = self.get_clock().now().to_msg()
-        self._diagnostics.publish(message)
+        words = 'No sound comes in' if is_silent else 'Listening'
+        return [PartStatus('speech', words, values=values)]
 
 
 def main(args: list[str] | None = None) -> int:

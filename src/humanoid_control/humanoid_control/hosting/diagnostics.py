@@ -3,19 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 import time
 
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from humanoid_common.qos import STATE
+from humanoid_common.diagnostics import Diagnostics, Level, PartStatus
 from humanoid_control.hosting.host import Host
 from humanoid_control.hosting.hosted_robots import HostedRobots, RobotHealth
 from humanoid_control.hosting.slowness import Slowness, Speed
-from humanoid_control.hosting.topics.filling import fill_stamp
-from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
-
-PERIOD_S = 1.0
 
 
 class HostDiagnostics:
@@ -32,19 +27,14 @@ class HostDiagnostics:
         self._host, self._robots, self._speed = host, robots, speed
         self._slowness, self._has_complained = Slowness(), False
         self._logger = node.get_logger()
-        self._name = node.get_fully_qualified_name().lstrip('/')
-        self._publisher = node.create_publisher(DiagnosticArray, 'diagnostics', STATE)
-        steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._timer = node.create_timer(PERIOD_S, self._publish, clock=steady)
+        self._diagnostics = Diagnostics(node, self.report, lambda: robots.time_s)
 
-    def _publish(self) -> None:
-        """Publish all statuses."""
-        robots = [self._robot(*entry) for entry in self._robots.health().items()]
-        message = DiagnosticArray(status=[self._loop(), *robots])
-        fill_stamp(message.header.stamp, self._robots.time_s)
-        self._publisher.publish(message)
+    def report(self) -> list[PartStatus]:
+        """Return how the control loop and each robot are."""
+        robots = [_robot_status(*entry) for entry in self._robots.health().items()]
+        return [self._loop(), *robots]
 
-    def _loop(self) -> DiagnosticStatus:
+    def _loop(self) -> PartStatus:
         """Return the status of the control loop."""
         now_s = time.monotonic()
         load, speed = self._host.load.report(now_s), self._speed()
@@ -62,36 +52,27 @@ class HostDiagnostics:
         }
         if speed is not None:
             values['real-time factor'] = f'{speed.reached:.2f}'
-        return self._status(
+        return PartStatus(
             'control loop',
-            DiagnosticStatus.WARN if complaint else DiagnosticStatus.OK,
             complaint or ('paused' if self._host.paused else 'runs'),
+            Level.WARN if complaint else Level.OK,
             values,
         )
 
-    def _robot(self, robot: str, health: RobotHealth) -> DiagnosticStatus:
-        """Return the status of a robot."""
-        values = {'mode': health.mode, 'walk': health.walk, **health.lent}
-        return self._status(robot or 'robot', *_verdict(health), values)
 
-    def _status(
-        self, part: str, level: bytes, message: str, values: Mapping[str, str]
-    ) -> DiagnosticStatus:
-        return DiagnosticStatus(
-            name=f'{self._name}: {part}',
-            hardware_id='',
-            level=level,
-            message=message,
-            values=[KeyValue(key=key, value=value) for key, value in values.items()],
-        )
+def _robot_status(robot: str, health: RobotHealth) -> PartStatus:
+    """Return the status of a robot."""
+    level, message = _verdict(health)
+    values = {'mode': health.mode, 'walk': health.walk, **health.lent}
+    return PartStatus(robot or 'robot', message, level, values)
 
 
-def _verdict(health: RobotHealth) -> tuple[bytes, str]:
+def _verdict(health: RobotHealth) -> tuple[Level, str]:
     """Return how bad it is, and what to say of it."""
     if health.trouble:
-        return DiagnosticStatus.ERROR, health.trouble
+        return Level.ERROR, health.trouble
     if health.holds_because:
-        return DiagnosticStatus.WARN, f'holds still: {health.holds_because}'
+        return Level.WARN, f'holds still: {health.holds_because}'
     if health.is_blocked:
-        return DiagnosticStatus.WARN, 'something is in the way, and it goes no further that way'
-    return DiagnosticStatus.OK, health.mode
+        return Level.WARN, 'something is in the way, and it goes no further that way'
+    return Level.OK, health.mode
