@@ -3,7 +3,8 @@
 Count how many spoken commands are understood, and how many other sentences are taken for one.
 
 Synthesizers of the system, flite and espeak-ng, speak the commands of the planner's tests, and
-sentences that are none; the recogniser has the grammar of the planner in the apartment.
+sentences that are none; the recogniser has the grammar of the planner in the apartment, or is
+Whisper with a model of yours (`--whisper FOLDER`), beside which the grammar hears "stop".
 A command is right if the plan of what was recognized is that of what was said, and a stop if it
 stops the robot.
 """
@@ -31,7 +32,9 @@ from numpy.typing import NDArray
 from planner import apartment, KINDS, TESTS
 from voice_control.audio import chunks, duration_s, read_wav, wav_of
 from voice_control.grammar_recognizer import GrammarRecognizer, THRESHOLD
+from voice_control.recognition import Listener, RecognizerError
 from voice_control.segmentation import UtteranceSegmenter
+from voice_control.whisper import FasterWhisper
 import yaml
 
 OTHER = (
@@ -107,6 +110,9 @@ def main() -> int:
         '--samples', type=Path, metavar='FOLDER',
         help='only write what the tests of voice_control hear into a folder, with its grammar',
     )  # fmt: skip
+    parser.add_argument(
+        '--whisper', default='', metavar='FOLDER', help='a model for faster-whisper to hear with'
+    )
     options = parser.parse_args()
     voices = {name: words for name, words in VOICES.items() if shutil.which(words[0])}
     if not voices:
@@ -120,15 +126,20 @@ def main() -> int:
     # Free text cannot be in a grammar.
     commands = [text for kind in KINDS for text in said[kind] if not SAY.match(text)]
     commands = commands[:: options.every]
-    recognizer = GrammarRecognizer(options.threshold)
-    unknown = recognizer.set_grammar(planner.to_jsgf(world))
+    grammar = GrammarRecognizer(options.threshold)
+    unknown = grammar.set_grammar(planner.to_jsgf(world))
+    try:
+        whisper = FasterWhisper(options.whisper) if options.whisper else None
+    except RecognizerError as error:
+        parser.error(str(error))
+    listener = Listener(grammar, whisper)
     print(f'{len(commands)} commands, {len(OTHER)} others; unknown words: {unknown or "none"}')
     print(
         f'{"voice":<18}{"right":>7}{"rejected":>10}{"wrong":>7}{"others taken":>14}'
         f'{"stops":>7}{"CPU":>7}'
     )
     for name, words in voices.items():
-        row = measured(words, commands, planner, world, recognizer, options)
+        row = measured(words, commands, planner, world, listener, options)
         shares = [row.counts[kind] / len(commands) for kind in ('right', 'rejected', 'wrong')]
         shares += [row.counts['taken'] / len(OTHER), row.counts['stop'] / len(STOPS)]
         print(
@@ -140,14 +151,14 @@ def main() -> int:
 
 def measured(
     words: list[str], commands: list[str], planner: RulePlanner, world: World,
-    recognizer: GrammarRecognizer, options: argparse.Namespace,
+    listener: Listener, options: argparse.Namespace,
 ) -> Row:  # fmt: skip
     """Let a voice say everything."""
     row = Row()
     for number, text in enumerate([*commands, *OTHER, *STOPS]):
         sound = spoken(words, text, options.noise, number)
         begin_s = time.process_time()
-        heard, is_accepted, is_stop = recognized(recognizer, sound)
+        heard, is_accepted, is_stop = recognized(listener, sound)
         row.cpu_s += time.process_time() - begin_s
         row.speech_s += duration_s(sound)
         outcome = plan_of(planner, world, heard) if is_accepted else None
@@ -198,13 +209,13 @@ def write_samples(folder: Path, grammar: str) -> None:
             (folder / name).write_bytes(wav_of(s16le(synthesized(VOICES[voice], text))))
 
 
-def recognized(recognizer: GrammarRecognizer, sound: bytes) -> tuple[str, bool, bool]:
+def recognized(listener: Listener, sound: bytes) -> tuple[str, bool, bool]:
     """Return what is heard in a sound, whether all of it counts, and whether any is a stop."""
     segmenter = UtteranceSegmenter()
     texts, is_accepted, is_stop = [], True, False
     for piece in chunks(sound, 0.03):
         for utterance in segmenter.add(piece):
-            recognition = recognizer.recognize(utterance)
+            recognition = listener.hear(utterance).recognition
             texts.append(recognition.text)
             is_accepted = is_accepted and recognition.is_accepted
             is_stop = is_stop or recognition.is_stop

@@ -12,6 +12,7 @@ from typing import Any
 from audio_common_msgs.msg import AudioData
 from humanoid_common.qos import EVENT, LATCHED
 from humanoid_common.testing.ros import RosSandbox
+from humanoid_common.testing.waiting import WaitedInVainError
 from humanoid_interfaces.srv import MakePlan
 from humanoid_perception.places import load_places, places_path
 from humanoid_simulation.testing.simulated_robot import SimulatedRobot
@@ -24,6 +25,7 @@ __all__ = ['ToldRobot']
 READY_S, PATIENCE_S = 120.0, 300.0
 _PIECE_S, _SILENCE_S = 0.03, 1.0
 _OVER = ('succeeded', 'failed', 'canceled')
+_ANSWER_S = 5.0
 _ANYTHING = 'turn left by 10 degrees'
 
 
@@ -138,7 +140,10 @@ class ToldRobot:
             if not (self._planner.service_is_ready() and self._commands.get_subscription_count()):
                 return False
             answer = self._planner.call_async(MakePlan.Request(command=_ANYTHING))
-            self.ros.wait_until(answer.done, READY_S, 'a plan')
+            try:
+                self.ros.wait_until(answer.done, _ANSWER_S, 'a plan')
+            except WaitedInVainError:  # a planner that was killed is seen for some seconds
+                return False
             return bool(answer.result().success)
 
         self.ros.wait_until(plans, READY_S, 'a robot that can be told something')

@@ -127,15 +127,22 @@ class RulePlanner:
         return grammar.to_jsgf('robot', command, phrases)
 
     def is_stop(self, text: str) -> bool:
-        """Return whether a sentence says no more than to stop, at once and whatever else."""
+        """Return whether a sentence says no more than to stop, once or again and again."""
         grammar, _, _ = self._grammar(World())
         tokens = [each for each in tokenized(text) if each != ',']
-        for begin in skipped(grammar, 'beginning', tokens, 0):
-            for saying in self.skills['stop'].sayings if 'stop' in self.skills.skills else ():
-                for end, _ in grammar.matches(saying.phrase, tokens, begin):
-                    if len(tokens) in skipped(grammar, 'end', tokens, end):
-                        return True
-        return False
+        sayings = self.skills['stop'].sayings if 'stop' in self.skills.skills else ()
+        begins = set(skipped(grammar, 'beginning', tokens, 0))
+        ends: set[int] = set()
+        while begins:
+            begin = begins.pop()
+            found = {
+                end
+                for saying in sayings
+                for end, _ in grammar.matches(saying.phrase, tokens, begin)
+            }
+            begins |= found - ends
+            ends |= found
+        return any(len(tokens) in skipped(grammar, 'end', tokens, end) for end in ends)
 
     def _grammar(self, world: World) -> tuple[Grammar, Grammar, frozenset[str]]:
         """Return the grammar of a world, one that takes any words for names, and all words."""

@@ -151,7 +151,10 @@ def test_a_plan_of_too_many_steps_is_refused() -> None:
     assert 'too long' in plan('go to the kitchen and ' * 40).text
 
 
-@pytest.mark.parametrize('text', ['stop', 'Stop!', 'robot stop now', 'emergency stop', 'halt'])
+@pytest.mark.parametrize(
+    'text',
+    ['stop', 'Stop!', 'robot stop now', 'emergency stop', 'halt', 'stop, stop, stop it'],
+)
 def test_stop_is_known_without_a_world(text: str) -> None:
     """Whatever else is not."""
     assert PLANNER.is_stop(text)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 import os
 from pathlib import Path
@@ -72,11 +73,13 @@ def _own_state(tmp_path: Path) -> Iterator[None]:
 
 def children() -> set[str]:
     """Return the children of this process, those too that ended and nobody has waited for."""
-    return {
-        pid
-        for thread in Path('/proc/self/task').iterdir()
-        for pid in (thread / 'children').read_text().split()
-    }
+    while True:
+        with suppress(FileNotFoundError, ProcessLookupError):  # a thread has ended
+            return {
+                pid
+                for thread in Path('/proc/self/task').iterdir()
+                for pid in (thread / 'children').read_text().split()
+            }
 
 
 @pytest.fixture
