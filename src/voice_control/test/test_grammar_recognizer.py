@@ -141,6 +141,22 @@ def test_a_dictionary_is_read() -> None:
         read_dictionary(['nao N AW', 'robot'])
 
 
+@pytest.mark.parametrize('noise', [10.0, 200.0])
+@pytest.mark.parametrize(
+    'path', [path for path in SAID if text_of(path) == 'stop'],
+    ids=lambda path: path.stem,
+)
+def test_a_short_stop_is_heard_in_noise(path: Path, noise: float) -> None:
+    """Also as the first thing that is heard, at a signal-to-noise ratio of some 20 dB."""
+    made = GrammarRecognizer()
+    made.set_grammar(GRAMMAR)
+    chance = np.random.default_rng(2)
+    samples = np.frombuffer(bytes(16_000) + read_wav(path) + bytes(32_000), '<i2')
+    noisy = (samples + chance.normal(0.0, noise, samples.size)).astype('<i2').tobytes()
+    heard = [made.recognize(each) for each in UtteranceSegmenter().add(noisy)]
+    assert [each.is_stop for each in heard] == [True], heard
+
+
 @pytest.mark.parametrize('chunk_s', [0.01, 0.037, 1.0])
 def test_pieces_of_any_length_make_the_same_utterances(chunk_s: float) -> None:
     """Two sentences with a pause between them are two utterances."""
@@ -157,6 +173,13 @@ def test_pieces_of_any_length_make_the_same_utterances(chunk_s: float) -> None:
 def test_silence_is_no_utterance() -> None:
     """Digital silence either."""
     assert utterances(bytes(64_000)) == []
+
+
+def test_a_click_is_no_utterance() -> None:
+    """Nor are clicks with pauses between them."""
+    chance = np.random.default_rng(3)
+    click = chance.normal(0.0, 6000.0, 960).astype('<i2').tobytes()  # 0.06 s
+    assert utterances((click + bytes(32_000)) * 3) == []
 
 
 def test_what_does_not_end_is_cut() -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import pytest
@@ -18,6 +19,24 @@ class Scripted:
     reason: str = ''
     title: str = 'scripted'
     asked: list[bytes] = field(default_factory=list)
+    expected: list[str] = field(default_factory=list)
+
+    def set_grammar(self, jsgf: str) -> list[str]:
+        """Take the grammar for a text to hear."""
+        self.text = jsgf
+        return ['xyzzy']
+
+    def accepts(self, text: str) -> bool:
+        """Return whether that is the text."""
+        return text == self.text
+
+    def examples(self, max_words: int) -> list[str]:
+        """Return the text."""
+        return [self.text]
+
+    def expect(self, examples: Sequence[str]) -> None:
+        """Keep what is likely."""
+        self.expected += examples
 
     def recognize(self, sound: bytes) -> Recognition:
         """Return the text, or fail if it is `fail`."""
@@ -52,6 +71,31 @@ def test_the_other_recogniser_hears_the_rest() -> None:
     heard = Listener(Scripted('go', reason='It did not sound like it.'), other).hear(SOUND)
     assert heard.recognition.text == 'good morning'
     assert other.asked == [SOUND]
+
+
+@pytest.mark.parametrize(
+    ('command', 'reason', 'free', 'expected'),
+    [
+        ('go to the hall', '', 'go to the hole', 'go to the hall'),
+        ('go to the hall', 'It did not sound like it.', 'go to the hole', 'go to the hole'),
+        ('go to the hall', '', 'good morning', 'good morning'),
+        ('go to the hall', '', '', ''),
+    ],
+)
+def test_words_that_are_nearly_a_command(
+    command: str, reason: str, free: str, expected: str
+) -> None:
+    """The command counts if the grammar's recogniser accepts it."""
+    listener = Listener(Scripted(command, reason=reason), Scripted(free))
+    assert listener.hear(SOUND).recognition.text == expected
+
+
+def test_the_other_recogniser_gets_examples() -> None:
+    """Of each grammar; the words that cannot be heard are returned."""
+    other = Scripted('anything')
+    assert Listener(Scripted('stop'), other).set_grammar('go to the hall') == ['xyzzy']
+    assert other.expected == ['go to the hall']
+    assert Listener(Scripted('stop')).set_grammar('go to the hall') == ['xyzzy']
 
 
 def test_a_recogniser_that_fails() -> None:

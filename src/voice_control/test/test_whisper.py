@@ -88,12 +88,33 @@ def test_what_whisper_hears(
         SimpleNamespace(text=each, avg_logprob=sure, no_speech_prob=silence)
         for each, sure, silence in segments
     ]
-    module = ModuleType('faster_whisper')
-    model = SimpleNamespace(transcribe=lambda *sound, **options: (iter(made), None))
-    module.WhisperModel = lambda *path, **options: model  # type: ignore[attr-defined]
-    monkeypatch.setitem(sys.modules, 'faster_whisper', module)
+    replace_library(monkeypatch, lambda *sound, **options: (iter(made), None))
     recognition = FasterWhisper(str(folder)).recognize(SOUND)
     assert (recognition.text, recognition.is_accepted) == (text, is_accepted)
+
+
+def test_whisper_expects_commands(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It takes them for what was said before; without them it gets nothing of the kind."""
+    prompts: list[str | None] = []
+
+    def transcribe(*sound: Any, initial_prompt: str | None, **options: Any) -> Any:
+        prompts.append(initial_prompt)
+        return iter(()), None
+
+    replace_library(monkeypatch, transcribe)
+    whisper = FasterWhisper(str(folder))
+    whisper.recognize(SOUND)
+    whisper.expect(['go to the hall', 'stop'])
+    whisper.recognize(SOUND)
+    assert prompts == [None, 'Go to the hall. Stop.']
+
+
+def replace_library(monkeypatch: pytest.MonkeyPatch, transcribe: Callable[..., Any]) -> None:
+    """Put a function in the place of faster-whisper."""
+    module = ModuleType('faster_whisper')
+    model = SimpleNamespace(transcribe=transcribe)
+    module.WhisperModel = lambda *path, **options: model  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, 'faster_whisper', module)
 
 
 # Servers
@@ -138,11 +159,14 @@ def test_a_server_gets_a_file() -> None:
         return 200, json.dumps({'text': 'Go to the kitchen.'}).encode()
 
     with serving(answer) as url:
-        recognition = TranscriptionServer(url, 'whisper-large', 'secret').recognize(SOUND)
+        server = TranscriptionServer(url, 'whisper-large', 'secret')
+        server.expect(['go to the hall'])
+        recognition = server.recognize(SOUND)
     assert (recognition.text, recognition.is_accepted) == ('go to the kitchen', True)
     [(path, authorization, body)] = asked
     assert (path, authorization) == ('/v1/audio/transcriptions', 'Bearer secret')
     assert b'whisper-large' in body and b'RIFF' in body and SOUND in body
+    assert b'name="prompt"' in body and b'Go to the hall.' in body
 
 
 @pytest.mark.parametrize(

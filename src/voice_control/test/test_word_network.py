@@ -82,3 +82,21 @@ def test_what_is_no_grammar(grammar: str, reason: str) -> None:
     """A sentence says what is wrong."""
     with pytest.raises(RecognizerError, match=reason):
         compile_jsgf(grammar)
+
+
+def test_examples() -> None:
+    """They are commands, the same each time, show many words, and are no longer than asked."""
+    network = compile_jsgf(GRAMMAR)
+    examples = network.examples(60)
+    assert examples == network.examples(60)
+    assert all(network.accepts(example) for example in examples)
+    assert len(set(examples)) == len(examples)
+    words = ' '.join(examples).split()
+    assert len(words) <= 60 and len(set(words)) > 50
+
+
+def test_examples_end_where_nothing_is_new() -> None:
+    """A small grammar is shown once."""
+    network = compile_jsgf(f'{HEAD}public <c> = go (left | right);')
+    assert sorted(network.examples(100)) == ['go left', 'go right']
+    assert network.examples(1) == []

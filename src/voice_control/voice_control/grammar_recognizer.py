@@ -3,27 +3,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 import math
 import re
 
 from pocketsphinx import Decoder, get_model_path
 from voice_control.recognition import Recognition, RecognizerError
-from voice_control.word_network import compile_jsgf
+from voice_control.word_network import compile_jsgf, WordNetwork
 
 __all__ = ['STOP_GRAMMAR', 'THRESHOLD', 'GrammarRecognizer', 'read_dictionary']
 
 BACKEND = 'pocketsphinx'
 THRESHOLD = -3.2
 """The least log-likelihood ratio per frame of a command, if nothing else is said."""
+STOP_THRESHOLD = -1.9
+"""The least log-likelihood ratio per frame of a phrase that stops the robot."""
 STOP_GRAMMAR = """#JSGF V1.0;
 grammar stop;
-public <command> = <stop_phrase>;
-<stop_phrase> = (stop | halt | freeze) [(it | that | now)] | emergency stop;
+public <command> = [(please | robot)] <stop_phrase> [(please | robot)];
+<stop_phrase> = <stop> [(it | that | now | right now | moving | <stop>)] | emergency stop;
+<stop> = stop | halt | freeze;
 """
-"""What is heard before another grammar comes."""
+"""What is listened for at all times, whatever the grammar of commands is."""
 
-_COMMANDS, _PHONES = 'commands', 'phones'
+_COMMANDS, _PHONES, _STOPS = 'commands', 'phones', 'stops'
 _STOP_WORDS = frozenset(('stop', 'halt', 'freeze'))
 _STOP_WITHIN = 3
 """Among how many words at the beginning a word to stop counts: "please stop", "emergency stop"."""
@@ -35,6 +39,8 @@ _SCORE_SCALE = 1024.0
 """pocketsphinx keeps log-likelihoods divided by this."""
 _SHORTEST_HALF = 3
 """Letters that a half of a compound word has at least."""
+_FIRST_PASSES = 3
+"""How often the mean of the cepstra is learnt from the first utterance, by which it is unknown."""
 _PHRASE_OF_PHONES = re.compile(r'[A-Z]{1,2}( [A-Z]{1,2})*')
 
 
@@ -62,6 +68,24 @@ def read_dictionary(lines: Iterable[str]) -> dict[str, str]:
     return words
 
 
+@dataclass(frozen=True)
+class _Segment:
+    """A word or phone, its first and last frame, and its log-likelihood."""
+
+    name: str
+    first: int
+    last: int
+    score: float
+
+
+@dataclass(frozen=True)
+class _Fit:
+    """What a grammar makes of an utterance, and how well that fits (log-likelihood a frame)."""
+
+    text: str
+    ratio: float
+
+
 class GrammarRecognizer:
     """
     Recognizes what a grammar allows, and rejects what is something else.
@@ -69,7 +93,8 @@ class GrammarRecognizer:
     A grammar forces any sound into its words. So an utterance is recognized a second time as a
     loop of phones, which may follow in any order: the mean, over the frames of the words, of the
     log-likelihood ratio of the two tells commands (mostly -1 to -3) from other sentences (mostly
-    below -3.5); measured with synthetic voices.
+    below -3.5); measured with synthetic voices. Words to stop have a small grammar of their own
+    besides, since a short "stop" is easily taken for another of some hundred words.
 
     Parameters
     ----------
@@ -89,6 +114,8 @@ class GrammarRecognizer:
         for word, phones in dictionary.items():
             self._decoder.add_word(word, phones, True)
         self._decoder.add_allphone_file(_PHONES, get_model_path('en-us/en-us-phone.lm.bin'))
+        self._mean = ''
+        self._add(_STOPS, compile_jsgf(STOP_GRAMMAR))
         self.set_grammar(STOP_GRAMMAR)
 
     def set_grammar(self, jsgf: str) -> list[str]:
@@ -114,41 +141,58 @@ class GrammarRecognizer:
         """
         try:
             network = compile_jsgf(jsgf, self._knows)
-            last = len(network.arcs)
-            # All words at a place are equally likely; so is the end of the sentence.
-            shares = [
-                1.0 / (len(words) + (state in network.finals))
-                for state, words in enumerate(network.arcs)
-            ]
-            arcs = [
-                (state, target, shares[state], word)
-                for state, words in enumerate(network.arcs)
-                for word, target in words.items()
-            ]
-            ends = [(state, last, shares[state]) for state in network.finals]
-            fsg = self._decoder.create_fsg(_COMMANDS, 0, last, [*arcs, *ends])
-            self._decoder.add_fsg(_COMMANDS, fsg)
-            self._decoder.activate_search(_COMMANDS)
+            self._add(_COMMANDS, network)
+            self._commands = network
         except (RecognizerError, ValueError, RuntimeError) as error:
             raise RecognizerError(f'The grammar of commands cannot be used. {error}') from error
         return list(network.unknown)
 
+    def accepts(self, text: str) -> bool:
+        """Whether the words of `text` are a command of the grammar."""
+        return self._commands.accepts(text)
+
+    def examples(self, max_words: int) -> list[str]:
+        """Return commands of the grammar; see `WordNetwork.examples`."""
+        return self._commands.examples(max_words)
+
     def recognize(self, sound: bytes) -> Recognition:
         """Recognize an utterance; see `Recognizer`."""
-        segments = self._decoded(_COMMANDS, sound)
-        words = [segment for segment in segments if segment[0][0] not in '<([']
+        self._learn_mean(sound)
+        phones = self._decoded(_PHONES, sound)
+        command = self._fit(_COMMANDS, sound, phones)
+        stop = self._fit(_STOPS, sound, phones)
+        is_like = command.ratio >= self.threshold
+        words = command.text.split()
+        if _STOP_WORDS.intersection(words[:_STOP_WITHIN]) and (
+            is_like or len(words) <= _SHORT_STOP
+        ):
+            return Recognition(command.text, command.ratio, BACKEND, is_stop=True)
+        if stop.ratio >= STOP_THRESHOLD:
+            return Recognition(stop.text, stop.ratio, BACKEND, is_stop=True)
         if not words:
             return Recognition('', -math.inf, BACKEND, 'No command was recognized.')
-        text = ' '.join(word.partition('(')[0] for word, *_ in words)
-        ratio = self._log_likelihood_ratio(segments, words[0][1], words[-1][2], sound)
-        is_like = ratio >= self.threshold
-        is_stop = bool(_STOP_WORDS.intersection(text.split()[:_STOP_WITHIN])) and (
-            is_like or len(words) <= _SHORT_STOP
+        reason = '' if is_like else (
+            f'It did not sound much like "{command.text}", the closest command.'
         )
-        reason = ''
-        if not is_like and not is_stop:
-            reason = f'It did not sound much like "{text}", the closest command.'
-        return Recognition(text, ratio, BACKEND, reason, is_stop)
+        return Recognition(command.text, command.ratio, BACKEND, reason)
+
+    def _add(self, search: str, network: WordNetwork) -> None:
+        """Make a search of a network of words, in place of one with the same name."""
+        last = len(network.arcs)
+        # All words at a place are equally likely; so is the end of the sentence.
+        shares = [
+            1.0 / (len(words) + (state in network.finals))
+            for state, words in enumerate(network.arcs)
+        ]
+        arcs = [
+            (state, target, shares[state], word)
+            for state, words in enumerate(network.arcs)
+            for word, target in words.items()
+        ]
+        ends = [(state, last, shares[state]) for state in network.finals]
+        fsg = self._decoder.create_fsg(search, 0, last, [*arcs, *ends])
+        self._decoder.add_fsg(search, fsg)
+        self._decoder.activate_search(search)
 
     def _knows(self, word: str) -> bool:
         """Return whether a word has a pronunciation, or a compound one from its two halves."""
@@ -161,26 +205,47 @@ class GrammarRecognizer:
                 return True
         return False
 
-    def _decoded(self, search: str, sound: bytes) -> list[tuple[str, int, int, float]]:
-        """Decode a sound; return words or phones with first and last frame and log-likelihood."""
+    def _learn_mean(self, sound: bytes) -> None:
+        """
+        Let an utterance change the mean of the cepstra, by which all searches normalize it.
+
+        pocketsphinx would change it after each search, so that one search had another mean than
+        the next one.
+        """
+        for _ in range(1 if self._mean else _FIRST_PASSES):
+            self._decoded(_STOPS, sound)  # the quickest one
+            self._mean = self._decoder.get_cmn()
+
+    def _decoded(self, search: str, sound: bytes) -> list[_Segment]:
+        """Decode a sound into the words or phones of a search."""
         self._decoder.activate_search(search)
+        if self._mean:
+            self._decoder.set_cmn(self._mean)
         self._decoder.start_utt()
         self._decoder.process_raw(sound)
         self._decoder.end_utt()
         return [
-            (each.word, each.start_frame, each.end_frame, _SCORE_SCALE * math.log(each.ascore))
+            _Segment(
+                each.word, each.start_frame, each.end_frame, _SCORE_SCALE * math.log(each.ascore)
+            )
             for each in self._decoder.seg() or ()
         ]
 
-    def _log_likelihood_ratio(
-        self, segments: list[tuple[str, int, int, float]], first: int, last: int, sound: bytes
-    ) -> float:
-        """Compute the ratio of words and phones, per frame from the first to the last one."""
+    def _fit(self, search: str, sound: bytes, phones: Sequence[_Segment]) -> _Fit:
+        """Return what a search finds, and its log-likelihood ratio to the phones, per frame."""
+        segments = self._decoded(search, sound)
+        words = [segment for segment in segments if segment.name[0] not in '<([']
+        if not words:
+            return _Fit('', -math.inf)
+        first, last = words[0].first, words[-1].last
         of_words = sum(
-            score for _, begin, end, score in segments if begin >= first and end <= last
+            each.score for each in segments if each.first >= first and each.last <= last
         )
         of_phones = sum(
-            score * max(0, min(end, last) - max(begin, first) + 1) / (end - begin + 1)
-            for _, begin, end, score in self._decoded(_PHONES, sound)
+            each.score
+            * max(0, min(each.last, last) - max(each.first, first) + 1)
+            / (each.last - each.first + 1)
+            for each in phones
         )
-        return (of_words - of_phones) / (last - first + 1)
+        text = ' '.join(word.name.partition('(')[0] for word in words)
+        return _Fit(text, (of_words - of_phones) / (last - first + 1))

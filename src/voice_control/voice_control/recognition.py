@@ -3,14 +3,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from difflib import SequenceMatcher
 import time
 from typing import Protocol
 
 from voice_control.audio import duration_s
 
-__all__ = ['Heard', 'Listener', 'Recognition', 'Recognizer', 'RecognizerError']
+__all__ = [
+    'CommandRecognizer', 'FreeRecognizer', 'Heard', 'Listener', 'Recognition', 'Recognizer',
+    'RecognizerError',
+]
+
+_EXAMPLE_WORDS = 110
+"""How many words of examples a recogniser of free speech gets: Whisper reads some 220 tokens."""
+_SAME = 0.7
+"""How similar two texts are, from 0 to 1, that are taken for the same words."""
 
 
 class RecognizerError(Exception):
@@ -81,9 +90,33 @@ class Recognizer(Protocol):
         """
 
 
+class CommandRecognizer(Recognizer, Protocol):
+    """Turns utterances into the commands of a grammar; knows which of them stop the robot."""
+
+    def set_grammar(self, jsgf: str) -> list[str]:
+        """Replace the grammar; return the words that cannot be heard."""
+
+    def accepts(self, text: str) -> bool:
+        """Whether these words are a command of the grammar."""
+
+    def examples(self, max_words: int) -> list[str]:
+        """Return commands of the grammar, with so many words together at most."""
+
+
+class FreeRecognizer(Recognizer, Protocol):
+    """Turns utterances into words of all kinds."""
+
+    def expect(self, examples: Sequence[str]) -> None:
+        """Take notice of how commands sound that are likely."""
+
+
 class Listener:
     """
     Recognizes utterances, "stop" among them always by the grammar.
+
+    Another recogniser hears words of all kinds, and takes some for others that sound like them.
+    Where it hears no command, but nearly the one that the grammar's recogniser accepts, that
+    counts.
 
     Parameters
     ----------
@@ -100,8 +133,8 @@ class Listener:
 
     def __init__(
         self,
-        grammar: Recognizer,
-        other: Recognizer | None = None,
+        grammar: CommandRecognizer,
+        other: FreeRecognizer | None = None,
         wake_word: str = '',
         report: Callable[[str], None] = lambda sentence: None,
     ) -> None:
@@ -109,6 +142,31 @@ class Listener:
         self._other = other
         self._wake_word = wake_word.lower().split()
         self._report = report
+
+    def set_grammar(self, jsgf: str) -> list[str]:
+        """
+        Replace the grammar of commands.
+
+        Parameters
+        ----------
+        jsgf
+            The grammar. A recogniser of free speech gets examples of it.
+
+        Returns
+        -------
+        list[str]
+            The words that the grammar's recogniser cannot hear.
+
+        Raises
+        ------
+        RecognizerError
+            If it is no grammar; the one of before stays.
+
+        """
+        unheard = self._grammar.set_grammar(jsgf)
+        if self._other is not None:
+            self._other.expect(self._grammar.examples(_EXAMPLE_WORDS))
+        return unheard
 
     def hear(self, sound: bytes) -> Heard:
         """
@@ -130,10 +188,19 @@ class Listener:
             return recognition
         if self._other is not None:
             try:
-                recognition = self._other.recognize(sound)
+                recognition = self._better(recognition, self._other.recognize(sound))
             except RecognizerError as error:
                 self._report(f'{error} The grammar is used instead.')
         return self._woken(recognition)
+
+    def _better(self, command: Recognition, free: Recognition) -> Recognition:
+        """Take a command rather than free words that are nearly those: "go to the hole"."""
+        is_nearly_command = (
+            command.is_accepted
+            and not self._grammar.accepts(free.text)
+            and SequenceMatcher(a=command.text, b=free.text).ratio() >= _SAME
+        )
+        return command if is_nearly_command else free
 
     def _woken(self, recognition: Recognition) -> Recognition:
         """Take the wake word off, or reject what does not begin with it."""

@@ -3,17 +3,24 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from pocketsphinx import Endpointer
+from pocketsphinx import Vad
 from voice_control.audio import duration_s
 
 __all__ = ['UtteranceSegmenter']
 
-_PAUSE_S = 0.5
-"""Silence of about this length ends an utterance: less is the pause that a comma makes."""
+_BEGIN_S, _BEGIN_WITHIN_S = 0.18, 0.3
+"""Speech of this length within this time begins an utterance: a short "stop" has no more."""
+_BEFORE_S = 0.3
+"""What an utterance keeps of the sound before it began."""
+_PAUSE_S = 0.45
+"""Silence of this length ends an utterance: less is the pause that a comma makes."""
+_CLICK_SHARE = 0.1
+"""How much of a pause may sound like speech."""
 _NOISE = 3.0
 """Standard deviation, in steps of 16-bit samples, of the noise that is added."""
 
@@ -22,6 +29,9 @@ _NOISE = 3.0
 class UtteranceSegmenter:
     """
     Cuts a stream of sound into utterances, by the voice activity detector of pocketsphinx.
+
+    pocketsphinx's own `Endpointer` has one window for the beginning and the end of speech: with
+    one that is long enough for a pause, a short "stop" does not begin an utterance.
 
     A faint noise is added to what comes in: the mean of the cepstra, by which recognisers
     normalize sound, is of no use after digital silence.
@@ -40,19 +50,23 @@ class UtteranceSegmenter:
 
     def __post_init__(self) -> None:
         self._chance = np.random.default_rng(0)
+        self._vad = Vad(self.vad_mode)
+        self._frame_size = int(self._vad.frame_bytes)
+        self._frame_s = float(self._vad.frame_length)
         self.reset()
 
     @property
     def is_in_speech(self) -> bool:
         """Whether somebody is speaking."""
-        return bool(self._endpointer.in_speech)
+        return bool(self._speech)
 
     def reset(self) -> None:
         """Forget what came in: the stream begins anew."""
-        self._endpointer = Endpointer(window=_PAUSE_S, vad_mode=self.vad_mode)
-        self._frame_size = int(self._endpointer.frame_bytes)
         self._rest = b''
         self._speech = b''
+        self._before = deque[bytes](maxlen=self._frames(_BEGIN_WITHIN_S + _BEFORE_S))
+        self._begin = deque[bool](maxlen=self._frames(_BEGIN_WITHIN_S))
+        self._end = deque[bool](maxlen=self._frames(_PAUSE_S))
 
     def add(self, sound: bytes) -> Iterator[bytes]:
         """
@@ -73,19 +87,42 @@ class UtteranceSegmenter:
         size = self._frame_size
         while len(self._rest) >= size:
             frame, self._rest = self._rest[:size], self._rest[size:]
-            self._speech += self._endpointer.process(frame) or b''
-            is_over = not self._endpointer.in_speech
-            if self._speech and (is_over or duration_s(self._speech) >= self.longest_s):
-                yield self._taken()
+            if self._speech:
+                self._go_on(frame)
+                if self._is_over or duration_s(self._speech) >= self.longest_s:
+                    yield self._taken()
+            else:
+                self._listen(frame)
 
     def finish(self) -> Iterator[bytes]:
         """Yield the utterance in which the stream ends, if it does; a new one may begin."""
-        # It takes no empty frame.
-        last = self._endpointer.end_stream(self._rest[: self._frame_size] or bytes(2))
-        self._speech += last or b''
         if self._speech:
+            self._speech += self._rest
             yield self._taken()
         self.reset()
+
+    def _listen(self, frame: bytes) -> None:
+        """Begin an utterance where there is enough speech."""
+        self._before.append(frame)
+        self._begin.append(self._vad.is_speech(frame))
+        if sum(self._begin) >= self._frames(_BEGIN_S):
+            self._speech = b''.join(self._before)
+            self._before.clear()
+            self._begin.clear()
+            self._end.clear()
+
+    def _go_on(self, frame: bytes) -> None:
+        self._speech += frame
+        self._end.append(self._vad.is_speech(frame))
+
+    @property
+    def _is_over(self) -> bool:
+        return (
+            len(self._end) == self._end.maxlen and sum(self._end) <= _CLICK_SHARE * len(self._end)
+        )
+
+    def _frames(self, seconds: float) -> int:
+        return round(seconds / self._frame_s)
 
     def _taken(self) -> bytes:
         speech, self._speech = self._speech, b''

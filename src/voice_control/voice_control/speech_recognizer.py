@@ -28,7 +28,13 @@ from rclpy.node import Node
 from std_msgs.msg import Bool, String
 from std_srvs.srv import SetBool
 from voice_control.grammar_recognizer import GrammarRecognizer, read_dictionary, THRESHOLD
-from voice_control.recognition import Heard, Listener, Recognizer, RecognizerError
+from voice_control.recognition import (
+    FreeRecognizer,
+    Heard,
+    Listener,
+    Recognizer,
+    RecognizerError,
+)
 from voice_control.segmentation import UtteranceSegmenter
 from voice_control.whisper import FasterWhisper, TranscriptionServer, WhisperCpp
 
@@ -94,7 +100,7 @@ class RecognizerParameters:
 
 def make_listener(
     told: RecognizerParameters, report: Callable[[str], None]
-) -> tuple[Listener, GrammarRecognizer, Recognizer]:
+) -> tuple[Listener, Recognizer]:
     """
     Make what parameters ask for.
 
@@ -107,8 +113,8 @@ def make_listener(
 
     Returns
     -------
-    Listener, GrammarRecognizer, Recognizer
-        What hears; the grammar in it; and what hears all but "stop".
+    Listener, Recognizer
+        What hears; and what hears all but "stop".
 
     Raises
     ------
@@ -124,7 +130,7 @@ def make_listener(
             raise RecognizerError(f"'{told.dictionary_file}' cannot be read: {error}") from error
         dictionary = read_dictionary(text.splitlines())
     grammar = GrammarRecognizer(told.threshold, dictionary)
-    other: Recognizer | None = None
+    other: FreeRecognizer | None = None
     if told.backend == WHISPER:
         other = FasterWhisper(told.model_path, told.language, told.num_threads)
     elif told.backend == WHISPER_CPP:
@@ -132,7 +138,7 @@ def make_listener(
     elif told.backend == OPENAI:
         key = os.environ.get('OPENAI_API_KEY', '')
         other = TranscriptionServer(told.base_url, told.model, key, told.language)
-    return Listener(grammar, other, told.wake_word, report), grammar, other or grammar
+    return Listener(grammar, other, told.wake_word, report), other or grammar
 
 
 class SpeechRecognizer(Node):
@@ -157,7 +163,7 @@ class SpeechRecognizer(Node):
         super().__init__('speech_recognizer', **options)
         told = NodeParameters(self, RecognizerParameters).current
         try:
-            self._listener, self._grammar, main = make_listener(told, self._report)
+            self._listener, main = make_listener(told, self._report)
         except RecognizerError as error:
             raise NodeStartError(str(error)) from error
         self._title, self._language = main.title, told.language
@@ -242,7 +248,7 @@ class SpeechRecognizer(Node):
 
     def _set_grammar(self, jsgf: str) -> None:
         try:
-            unknown = self._grammar.set_grammar(jsgf)
+            unknown = self._listener.set_grammar(jsgf)
         except RecognizerError as error:
             self._report(f'{error} The one of before is used.')
             return

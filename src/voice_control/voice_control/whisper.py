@@ -7,6 +7,7 @@ The libraries and their models are the user's: nothing is ever downloaded.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 import math
 import os
 from pathlib import Path
@@ -70,7 +71,12 @@ class FasterWhisper:
         except (RuntimeError, ValueError, OSError) as error:
             raise RecognizerError(f"The model in '{path}' cannot be used: {error}") from error
         self._language = language
+        self._prompt = ''
         self.title = f"Whisper (faster-whisper, '{path}')"
+
+    def expect(self, examples: Sequence[str]) -> None:
+        """Have Whisper believe that it has just heard these commands; see `FreeRecognizer`."""
+        self._prompt = _prompt(examples)
 
     def recognize(self, sound: bytes) -> Recognition:
         """Recognize an utterance; see `Recognizer`."""
@@ -82,6 +88,7 @@ class FasterWhisper:
                 temperature=0.0,
                 condition_on_previous_text=False,
                 without_timestamps=True,
+                initial_prompt=self._prompt or None,
             )[0]
         )
         if not segments:
@@ -126,11 +133,18 @@ class WhisperCpp:
             str(path), n_threads=threads, language=language, print_progress=False,
             print_realtime=False, redirect_whispercpp_logs_to=None,
         )  # fmt: skip
+        self._prompt = ''
         self.title = f"Whisper (whisper.cpp, '{path}')"
+
+    def expect(self, examples: Sequence[str]) -> None:
+        """Do as `FasterWhisper` does."""
+        self._prompt = _prompt(examples)
 
     def recognize(self, sound: bytes) -> Recognition:
         """Recognize an utterance; see `Recognizer`."""
-        segments = self._model.transcribe(_samples(sound), no_context=True, temperature=0.0)
+        segments = self._model.transcribe(
+            _samples(sound), no_context=True, temperature=0.0, initial_prompt=self._prompt
+        )
         text = ''.join(str(each.text) for each in segments)
         return _judged(text, math.nan, 0.0, 'whisper_cpp')
 
@@ -171,6 +185,10 @@ class TranscriptionServer:
         self._client = httpx.Client(headers=headers, timeout=timeout_s)
         self.title = f'the server at {self._url}'
 
+    def expect(self, examples: Sequence[str]) -> None:
+        """Send the commands along with each utterance, as what was said before it."""
+        self._form['prompt'] = _prompt(examples)
+
     def recognize(self, sound: bytes) -> Recognition:
         """Recognize an utterance; see `Recognizer`."""
         import httpx
@@ -209,6 +227,11 @@ def _not_installed(library: str, error: ImportError) -> RecognizerError:
     return RecognizerError(
         f'{library} cannot be imported ({error}): install the Python package {library}.'
     )
+
+
+def _prompt(examples: Sequence[str]) -> str:
+    """Return commands as Whisper writes sentences."""
+    return ' '.join(f'{example.capitalize()}.' for example in examples)
 
 
 def _samples(sound: bytes) -> NDArray[np.float32]:
