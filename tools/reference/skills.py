@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from importlib import import_module
 import math
 from pathlib import Path
@@ -32,16 +32,6 @@ NEEDS = {
     'holding': 'the hand holds something',
     'empty_hand': 'the hand is empty',
 }
-EXAMPLES = {
-    'place': 'the desk',
-    'places': 'the kitchen and the hall',
-    'object': 'the red mug',
-    'objects': 'red mugs',
-    'target': 'the kitchen',
-    'text': 'dinner is ready',
-}
-"""What stands for an argument of a type in a sentence."""
-NUMBERS = {'metres': 'one metre', 'degrees': 'ninety degrees', 'seconds': 'ten seconds'}
 MOST_SENTENCES = 4
 
 
@@ -71,8 +61,8 @@ def all_sentences(root: Path) -> list[str]:
 
 def sentences(skill: Any, skills: Any) -> list[str]:
     """Return an example of each phrase of a skill."""
-    said = (_example(each.phrase, skill, skills.rules) for each in skill.sayings)
-    return list(dict.fromkeys(said))
+    examples = import_module('llm_planner.examples')
+    return list(examples.examples(skill, skills, examples.fixed_words()))
 
 
 def load(root: Path) -> Any:
@@ -141,23 +131,3 @@ def _facts(skill: Any) -> Iterator[tuple[str, str]]:
         yield 'in a plan', '; '.join(f'`{each}`' for each in skill.does)
     if skill.says:
         yield 'says', f'`{skill.says}`'
-
-
-def _example(phrase: Any, skill: Any, rules: Mapping[str, Any]) -> str:
-    """Return a sentence of a phrase: the first of alternatives, without what may be left out."""
-    match type(phrase).__name__:
-        case 'Word':
-            return str(phrase.text)
-        case 'Option':
-            return ''
-        case 'Choice':
-            return _example(phrase.parts[0], skill, rules)
-        case 'Series':
-            words = (_example(each, skill, rules) for each in phrase.parts)
-            return ' '.join(filter(None, words))
-    argument = skill.arguments.get(phrase.name)
-    if argument is None:
-        return _example(rules[phrase.rule], skill, rules)
-    if argument.kind == 'choice':
-        return str(next(iter(argument.values.values()))[0])
-    return NUMBERS[argument.unit] if argument.kind == 'number' else EXAMPLES[argument.kind]

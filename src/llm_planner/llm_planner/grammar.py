@@ -186,7 +186,10 @@ class Grammar:
             for end in range(at + 1, len(tokens) + 1):
                 yield end, ' '.join(tokens[at:end])
 
-    def to_jsgf(self, name: str, command: str, phrases: Mapping[str, Phrase]) -> str:
+    def to_jsgf(
+        self, name: str, command: str, phrases: Mapping[str, Phrase],
+        shown: Sequence[str] = (),
+    ) -> str:  # fmt: skip
         """
         Return the grammar of a speech recogniser.
 
@@ -201,6 +204,9 @@ class Grammar:
             The expansion of the public rule `<command>`; `<name>` stands for another rule.
         phrases
             Further rules by their names.
+        shown
+            Commands for the documentation comment of the public rule, as `@example`: recognisers
+            of free speech can learn from them what is likely.
 
         Returns
         -------
@@ -217,7 +223,10 @@ class Grammar:
             if not more:
                 break
             usable |= more
-        lines = ['#JSGF V1.0;', f'grammar {name};', f'public <command> = {command};']
+        lines = ['#JSGF V1.0;', f'grammar {name};']
+        if shown:
+            lines += ['/**', *(f' * @example {example}' for example in shown), ' */']
+        lines.append(f'public <command> = {command};')
         for rule, phrase in {**phrases, **self.rules}.items():
             if text := _jsgf(phrase, usable):
                 lines.append(f'<{rule}> = {text};')

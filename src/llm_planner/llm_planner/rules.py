@@ -15,6 +15,7 @@ from typing import Any
 from humanoid_common.naming import shortened
 from llm_planner.clauses import ClauseSearch, joints, skipped
 from llm_planner.dialogue import answer_to, AskFirstError, Dialogue, Question, Refusal
+from llm_planner.examples import worlds_examples
 from llm_planner.grammar import Bindings, Grammar, tokenized
 from llm_planner.phrases import Choice, part_of, Phrase, Series, Word
 from llm_planner.plan import check, Plan, PlanError
@@ -124,7 +125,8 @@ class RulePlanner:
         usable = [name for name in phrases if f'\n<{name}> = ' in probe]
         clause = f'({" | ".join(f"<{name}>" for name in usable)})'
         command = f'<beginning>* {clause} ([<joint>] {clause})* <end>*'
-        return grammar.to_jsgf('robot', command, phrases)
+        examples = worlds_examples(self.skills, [in_words(name) for name in world.place_names])
+        return grammar.to_jsgf('robot', command, phrases, examples)
 
     def is_stop(self, text: str) -> bool:
         """Return whether a sentence says no more than to stop, once or again and again."""

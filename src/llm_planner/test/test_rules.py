@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+import re
 from typing import Any
 
 from llm_planner.dialogue import Dialogue, Question, Refusal
 from llm_planner.plan import MOST_STEPS, Plan, words_for
 from llm_planner.rules import RulePlanner
 from llm_planner.skills_file import load_skills
-from llm_planner.world import ObjectDescription, Thing, World
+from llm_planner.world import in_words, ObjectDescription, Thing, World
 import pytest
 import yaml
 
@@ -173,3 +174,15 @@ def test_the_grammar_for_speech_has_what_can_be_said() -> None:
     assert 'kitchen counter' in text and 'red' in text and '{' not in text
     assert not any(line.startswith('<say_phrase') for line in text.splitlines())
     assert '<place>' not in PLANNER.to_jsgf(World())
+
+
+def test_the_grammar_shows_examples() -> None:
+    """Each is understood, each place is among them, and without places there are others."""
+    examples = re.findall(r' \* @example (.+)', PLANNER.to_jsgf(WORLD))
+    assert len(examples) > 15
+    for example in examples:
+        assert 'understand' not in told(PLANNER.plan(example, WORLD, Dialogue())), example
+    for place in WORLD.place_names:
+        assert f'go to the {in_words(place)}' in examples
+    bare = re.findall(r' \* @example (.+)', PLANNER.to_jsgf(World()))
+    assert 'stop' in bare and not any('room' in example for example in bare)

@@ -143,7 +143,8 @@ def test_a_dictionary_is_read() -> None:
 
 @pytest.mark.parametrize('noise', [10.0, 200.0])
 @pytest.mark.parametrize(
-    'path', [path for path in SAID if text_of(path) == 'stop'],
+    'path',
+    [path for path in SAID if text_of(path) == 'stop'],
     ids=lambda path: path.stem,
 )
 def test_a_short_stop_is_heard_in_noise(path: Path, noise: float) -> None:
@@ -173,13 +174,6 @@ def test_pieces_of_any_length_make_the_same_utterances(chunk_s: float) -> None:
 def test_silence_is_no_utterance() -> None:
     """Digital silence either."""
     assert utterances(bytes(64_000)) == []
-
-
-def test_a_click_is_no_utterance() -> None:
-    """Nor are clicks with pauses between them."""
-    chance = np.random.default_rng(3)
-    click = chance.normal(0.0, 6000.0, 960).astype('<i2').tobytes()  # 0.06 s
-    assert utterances((click + bytes(32_000)) * 3) == []
 
 
 def test_what_does_not_end_is_cut() -> None:

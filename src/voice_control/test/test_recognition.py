@@ -30,7 +30,8 @@ class Scripted:
         """Return whether that is the text."""
         return text == self.text
 
-    def examples(self, max_words: int) -> list[str]:
+    @property
+    def examples(self) -> Sequence[str]:
         """Return the text."""
         return [self.text]
 

@@ -13,6 +13,7 @@ import threading
 import time
 from types import ModuleType, SimpleNamespace
 from typing import Any
+import zlib
 
 import pytest
 from voice_control.recognition import RecognizerError
@@ -76,6 +77,7 @@ def test_libraries_that_are_not_installed(folder: Path, monkeypatch: pytest.Monk
         ([("What's on the desk?", -0.2, 0.1)], "what's on the desk", True),
         ([(' Thanks for watching!', -1.4, 0.9)], '', False),
         ([(' ... ', -0.1, 0.1)], '', False),
+        ([(' turn left' * 40, -0.1, 0.1)], '', False),
         ([], '', False),
     ],
 )
@@ -85,7 +87,12 @@ def test_what_whisper_hears(
 ) -> None:  # fmt: skip
     """Words are taken, without punctuation, and what it makes up in silence is not."""
     made = [
-        SimpleNamespace(text=each, avg_logprob=sure, no_speech_prob=silence)
+        SimpleNamespace(
+            text=each,
+            avg_logprob=sure,
+            no_speech_prob=silence,
+            compression_ratio=len(each) / len(zlib.compress(each.encode())),
+        )
         for each, sure, silence in segments
     ]
     replace_library(monkeypatch, lambda *sound, **options: (iter(made), None))

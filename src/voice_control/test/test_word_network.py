@@ -85,18 +85,9 @@ def test_what_is_no_grammar(grammar: str, reason: str) -> None:
 
 
 def test_examples() -> None:
-    """They are commands, the same each time, show many words, and are no longer than asked."""
-    network = compile_jsgf(GRAMMAR)
-    examples = network.examples(60)
-    assert examples == network.examples(60)
-    assert all(network.accepts(example) for example in examples)
-    assert len(set(examples)) == len(examples)
-    words = ' '.join(examples).split()
-    assert len(words) <= 60 and len(set(words)) > 50
-
-
-def test_examples_end_where_nothing_is_new() -> None:
-    """A small grammar is shown once."""
-    network = compile_jsgf(f'{HEAD}public <c> = go (left | right);')
-    assert sorted(network.examples(100)) == ['go left', 'go right']
-    assert network.examples(1) == []
+    """Those of documentation comments are taken, if they can be said; others are comments."""
+    documentation = '/** Moves.\n * @example go  left\n * @see x\n * @example go\n */\n'
+    comment = '/* @example go right */ // @example go right\n'
+    network = compile_jsgf(f'{HEAD}{documentation}{comment}public <c> = go (left | right);')
+    assert network.shown == ('go left',)
+    assert compile_jsgf(f'{HEAD}public <c> = go;').shown == ()

@@ -17,8 +17,10 @@ __all__ = ['STOP_GRAMMAR', 'THRESHOLD', 'GrammarRecognizer', 'read_dictionary']
 BACKEND = 'pocketsphinx'
 THRESHOLD = -3.2
 """The least log-likelihood ratio per frame of a command, if nothing else is said."""
-STOP_THRESHOLD = -1.9
+STOP_THRESHOLD = -2.25
 """The least log-likelihood ratio per frame of a phrase that stops the robot."""
+STOP_MARGIN = 0.8
+"""By how much such a phrase must fit better than the closest command, if that is another."""
 STOP_GRAMMAR = """#JSGF V1.0;
 grammar stop;
 public <command> = [(please | robot)] <stop_phrase> [(please | robot)];
@@ -151,9 +153,10 @@ class GrammarRecognizer:
         """Whether the words of `text` are a command of the grammar."""
         return self._commands.accepts(text)
 
-    def examples(self, max_words: int) -> list[str]:
-        """Return commands of the grammar; see `WordNetwork.examples`."""
-        return self._commands.examples(max_words)
+    @property
+    def examples(self) -> Sequence[str]:
+        """Commands that the grammar gives as examples."""
+        return self._commands.shown
 
     def recognize(self, sound: bytes) -> Recognition:
         """Recognize an utterance; see `Recognizer`."""
@@ -167,12 +170,14 @@ class GrammarRecognizer:
             is_like or len(words) <= _SHORT_STOP
         ):
             return Recognition(command.text, command.ratio, BACKEND, is_stop=True)
-        if stop.ratio >= STOP_THRESHOLD:
+        if stop.ratio >= max(STOP_THRESHOLD, command.ratio + STOP_MARGIN):
             return Recognition(stop.text, stop.ratio, BACKEND, is_stop=True)
         if not words:
             return Recognition('', -math.inf, BACKEND, 'No command was recognized.')
-        reason = '' if is_like else (
-            f'It did not sound much like "{command.text}", the closest command.'
+        reason = (
+            ''
+            if is_like
+            else (f'It did not sound much like "{command.text}", the closest command.')
         )
         return Recognition(command.text, command.ratio, BACKEND, reason)
 

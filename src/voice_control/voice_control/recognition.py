@@ -12,12 +12,15 @@ from typing import Protocol
 from voice_control.audio import duration_s
 
 __all__ = [
-    'CommandRecognizer', 'FreeRecognizer', 'Heard', 'Listener', 'Recognition', 'Recognizer',
+    'CommandRecognizer',
+    'FreeRecognizer',
+    'Heard',
+    'Listener',
+    'Recognition',
+    'Recognizer',
     'RecognizerError',
 ]
 
-_EXAMPLE_WORDS = 110
-"""How many words of examples a recogniser of free speech gets: Whisper reads some 220 tokens."""
 _SAME = 0.7
 """How similar two texts are, from 0 to 1, that are taken for the same words."""
 
@@ -99,8 +102,9 @@ class CommandRecognizer(Recognizer, Protocol):
     def accepts(self, text: str) -> bool:
         """Whether these words are a command of the grammar."""
 
-    def examples(self, max_words: int) -> list[str]:
-        """Return commands of the grammar, with so many words together at most."""
+    @property
+    def examples(self) -> Sequence[str]:
+        """Commands that the grammar gives as examples."""
 
 
 class FreeRecognizer(Recognizer, Protocol):
@@ -165,7 +169,7 @@ class Listener:
         """
         unheard = self._grammar.set_grammar(jsgf)
         if self._other is not None:
-            self._other.expect(self._grammar.examples(_EXAMPLE_WORDS))
+            self._other.expect(self._grammar.examples)
         return unheard
 
     def hear(self, sound: bytes) -> Heard:

@@ -13,14 +13,17 @@ from voice_control.audio import duration_s
 
 __all__ = ['UtteranceSegmenter']
 
-_BEGIN_S, _BEGIN_WITHIN_S = 0.18, 0.3
-"""Speech of this length within this time begins an utterance: a short "stop" has no more."""
-_BEFORE_S = 0.3
-"""What an utterance keeps of the sound before it began."""
+_BEGIN_S, _BEGIN_WITHIN_S = 0.21, 0.3
+"""
+Speech of this length within this time begins an utterance: a short "stop" has no more, and a new
+detector takes the first 0.18 s for speech, whatever comes.
+"""
+_AROUND_S = 0.03
+"""Silence that an utterance keeps before and behind it: with more, commands fit worse."""
 _PAUSE_S = 0.45
 """Silence of this length ends an utterance: less is the pause that a comma makes."""
-_CLICK_SHARE = 0.1
-"""How much of a pause may sound like speech."""
+_CLICKS = 1
+"""How many frames of a pause may sound like speech."""
 _NOISE = 3.0
 """Standard deviation, in steps of 16-bit samples, of the noise that is added."""
 
@@ -64,8 +67,9 @@ class UtteranceSegmenter:
         """Forget what came in: the stream begins anew."""
         self._rest = b''
         self._speech = b''
-        self._before = deque[bytes](maxlen=self._frames(_BEGIN_WITHIN_S + _BEFORE_S))
-        self._begin = deque[bool](maxlen=self._frames(_BEGIN_WITHIN_S))
+        window = self._frames(_BEGIN_WITHIN_S)
+        self._begin = deque[bool](maxlen=window)
+        self._before = deque[bytes](maxlen=window + self._frames(_AROUND_S))
         self._end = deque[bool](maxlen=self._frames(_PAUSE_S))
 
     def add(self, sound: bytes) -> Iterator[bytes]:
@@ -89,7 +93,11 @@ class UtteranceSegmenter:
             frame, self._rest = self._rest[:size], self._rest[size:]
             if self._speech:
                 self._go_on(frame)
-                if self._is_over or duration_s(self._speech) >= self.longest_s:
+                if self._is_over:
+                    silent = self._frames(_PAUSE_S - _AROUND_S) * size
+                    self._speech = self._speech[:-silent]
+                    yield self._taken()
+                elif duration_s(self._speech) >= self.longest_s:
                     yield self._taken()
             else:
                 self._listen(frame)
@@ -106,7 +114,8 @@ class UtteranceSegmenter:
         self._before.append(frame)
         self._begin.append(self._vad.is_speech(frame))
         if sum(self._begin) >= self._frames(_BEGIN_S):
-            self._speech = b''.join(self._before)
+            kept = len(self._begin) - self._begin.index(True) + self._frames(_AROUND_S)
+            self._speech = b''.join([*self._before][-kept:])
             self._before.clear()
             self._begin.clear()
             self._end.clear()
@@ -117,9 +126,7 @@ class UtteranceSegmenter:
 
     @property
     def _is_over(self) -> bool:
-        return (
-            len(self._end) == self._end.maxlen and sum(self._end) <= _CLICK_SHARE * len(self._end)
-        )
+        return len(self._end) == self._end.maxlen and sum(self._end) <= _CLICKS
 
     def _frames(self, seconds: float) -> int:
         return round(seconds / self._frame_s)

@@ -26,7 +26,14 @@ VOCABULARIES = ('vocabulary.json', 'vocabulary.txt')
 GGML_MAGIC = b'lmgg'
 _SILENCE_PROBABILITY = 0.6
 _UNSURE = -1.0
+_PROMPT_WORDS = 150
+"""Whisper reads the last 223 tokens of a prompt, some 1.3 a word with the full stops."""
+_REPEATS = 2.4
+"""Text that compresses better than this is no speech: Whisper has begun to repeat itself."""
+_MOST_TOKENS = 100
+"""Tokens of an utterance at most: nobody says more in ten seconds."""
 _NO_SPEECH = 'Nothing was said.'
+_REPETITION = 'Whisper repeated itself, so that nothing can be made of it.'
 _PUNCTUATION = re.compile(r"[^\w\s'°%-]")
 
 
@@ -89,10 +96,13 @@ class FasterWhisper:
                 condition_on_previous_text=False,
                 without_timestamps=True,
                 initial_prompt=self._prompt or None,
+                max_new_tokens=_MOST_TOKENS,
             )[0]
         )
         if not segments:
             return Recognition('', -math.inf, 'whisper', _NO_SPEECH)
+        if max(each.compression_ratio for each in segments) > _REPEATS:
+            return Recognition('', -math.inf, 'whisper', _REPETITION)
         confidence = min(each.avg_logprob for each in segments)
         silence = max(each.no_speech_prob for each in segments)
         return _judged(''.join(each.text for each in segments), confidence, silence, 'whisper')
@@ -230,8 +240,14 @@ def _not_installed(library: str, error: ImportError) -> RecognizerError:
 
 
 def _prompt(examples: Sequence[str]) -> str:
-    """Return commands as Whisper writes sentences."""
-    return ' '.join(f'{example.capitalize()}.' for example in examples)
+    """Return commands as Whisper writes sentences, as many as it takes notice of."""
+    prompt = ''
+    for example in examples:
+        longer = f'{prompt} {example.capitalize()}.'.strip()
+        if len(longer.split()) > _PROMPT_WORDS:
+            break
+        prompt = longer
+    return prompt
 
 
 def _samples(sound: bytes) -> NDArray[np.float32]:

@@ -16,8 +16,7 @@ themselves are rejected.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
-import random
+from dataclasses import dataclass, field, replace
 import re
 
 from voice_control.recognition import RecognizerError
@@ -28,9 +27,10 @@ _TOKEN = re.compile(
     r'<[^<>]*>|"[^"]*"|/[\d.eE+-]+/|\{(?:[^{}\\]|\\.)*\}|[()\[\]|=;*+]|[^\s()\[\]|=;*+<>"/{}]+'
 )
 _COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/', re.DOTALL)
+_DOCUMENTATION = re.compile(r'/\*\*.*?\*/', re.DOTALL)
+_EXAMPLE = re.compile(r'@example\s+([^\n*]+)')
 _HEADER = re.compile(r'\s*#JSGF\b[^;]*;\s*grammar\s+[\w.]+\s*;', re.DOTALL)
 _MOST_STATES = 200_000
-_TRIED_SENTENCES = 2000
 
 
 @dataclass(frozen=True)
@@ -46,12 +46,16 @@ class WordNetwork:
         The states in which a sentence may end.
     unknown
         The words of the grammar that were left out, in the order in which they stand there.
+    shown
+        Sentences that the grammar itself gives as examples (`@example` in a documentation
+        comment), as far as they can be said.
 
     """
 
     arcs: tuple[Mapping[str, int], ...]
     finals: frozenset[int]
     unknown: tuple[str, ...] = ()
+    shown: tuple[str, ...] = ()
 
     def accepts(self, text: str) -> bool:
         """Whether the words of `text` are a sentence of the grammar."""
@@ -61,52 +65,6 @@ class WordNetwork:
                 return False
             state = self.arcs[state][word]
         return state in self.finals
-
-    def examples(self, max_words: int) -> list[str]:
-        """
-        Choose sentences that show the words of the grammar in use.
-
-        Of sentences by chance, the same each time, the one with the largest share of words that
-        were not there before is taken next: the greedy approximation of a smallest set cover.
-
-        Parameters
-        ----------
-        max_words
-            How many words the sentences may have together.
-
-        Returns
-        -------
-        list[str]
-            The sentences, each once.
-
-        """
-        chance = random.Random(0)
-        tried = sorted({self._sentence(chance) for _ in range(_TRIED_SENTENCES)})
-        seen: set[str] = set()
-        chosen: list[str] = []
-
-        def new_words(sentence: tuple[str, ...]) -> float:
-            return len(set(sentence) - seen) / len(sentence)
-
-        while tried:
-            best = max(tried, key=new_words)
-            max_words -= len(best)
-            if max_words < 0 or not new_words(best):
-                break
-            tried.remove(best)
-            chosen.append(' '.join(best))
-            seen.update(best)
-        return chosen
-
-    def _sentence(self, chance: random.Random) -> tuple[str, ...]:
-        """Return the words of a sentence by chance."""
-        state, words = 0, list[str]()
-        while True:
-            ways = [*self.arcs[state].items(), *([('', state)] if state in self.finals else [])]
-            word, state = chance.choice(ways)
-            if not word:
-                return tuple(words)
-            words.append(word)
 
 
 def compile_jsgf(jsgf: str, is_known: Callable[[str], bool] = lambda _: True) -> WordNetwork:
@@ -136,7 +94,10 @@ def compile_jsgf(jsgf: str, is_known: Callable[[str], bool] = lambda _: True) ->
     network = compiler.network(public)
     if not network.finals:
         raise RecognizerError('Nothing can be said by the grammar.')
-    return WordNetwork(network.arcs, network.finals, tuple(compiler.unknown))
+    found = WordNetwork(network.arcs, network.finals, tuple(compiler.unknown))
+    documentation = ' '.join(_DOCUMENTATION.findall(jsgf))
+    examples = [' '.join(each.split()) for each in _EXAMPLE.findall(documentation)]
+    return replace(found, shown=tuple(each for each in examples if found.accepts(each)))
 
 
 def _read(jsgf: str) -> tuple[dict[str, list[str]], str]:

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sentences that ask for skills, as examples for people, for pages and for recognisers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import cycle, islice, repeat
+
+from llm_planner.phrases import Choice, Option, Phrase, Series, Word
+from llm_planner.skills import Skill, Skills
+
+__all__ = ['ExampleWords', 'examples', 'fixed_words', 'words_of', 'worlds_examples']
+
+ExampleWords = Mapping[str, Iterator[str]]
+"""By the type of an argument, what stands for it in one sentence after another."""
+_NUMBERS = {'metres': 'one metre', 'degrees': 'ninety degrees', 'seconds': 'ten seconds'}
+
+
+def examples(skill: Skill, skills: Skills, words: ExampleWords) -> list[str]:
+    """
+    Return an example of each phrase of a skill.
+
+    Parameters
+    ----------
+    skill, skills
+        The skill, one of these, whose rules are used.
+    words
+        What stands for arguments.
+
+    Returns
+    -------
+    list[str]
+        Of each phrase the first of all alternatives, without what may be left out.
+
+    """
+    said = (_example(saying.phrase, skill, skills.rules, words) for saying in skill.sayings)
+    return list(dict.fromkeys(said))
+
+
+def fixed_words() -> ExampleWords:
+    """Return the same words for all sentences."""
+    fixed = {
+        'place': 'the desk',
+        'places': 'the kitchen and the hall',
+        'object': 'the red mug',
+        'objects': 'red mugs',
+        'target': 'the kitchen',
+        'text': 'dinner is ready',
+    }
+    return {kind: repeat(text) for kind, text in fixed.items()}
+
+
+def words_of(skills: Skills, places: Sequence[str]) -> ExampleWords:
+    """
+    Return words that change from sentence to sentence, so that many are shown.
+
+    Parameters
+    ----------
+    skills
+        Their vocabulary has the things and colours.
+    places
+        The names of places, as they are said; at least one.
+
+    """
+
+    def of(name: str) -> Iterator[str]:
+        """Yield the first word for each value of a list, again and again."""
+        return cycle([words[0] for words in skills.vocabulary.get(name, {}).values()] or [''])
+
+    def joined(*parts: Iterator[str]) -> Iterator[str]:
+        return (' '.join(filter(None, each)) for each in zip(*parts, strict=False))
+
+    named = cycle([f'the {place}' for place in places])
+    things = joined(repeat('the'), of('colour'), of('class'))
+    return {
+        'place': named,
+        'places': joined(named, repeat('and'), named),
+        'object': things,
+        'objects': of('classes'),
+        'target': (each for pair in zip(named, things, strict=False) for each in pair),
+        'text': repeat('hello'),
+    }
+
+
+def worlds_examples(skills: Skills, places: Sequence[str]) -> list[str]:
+    """
+    Return examples for a recogniser: one of each skill, and each place.
+
+    Parameters
+    ----------
+    skills
+        What can be asked for; free text is left out.
+    places
+        The names of places, as they are said.
+
+    """
+    words = words_of(skills, places or ['room'])
+    said: list[str] = []
+    for skill in skills:
+        kinds = {argument.kind for argument in skill.arguments.values()}
+        if 'text' not in kinds and (places or not kinds & {'place', 'places', 'target'}):
+            said += islice(examples(skill, skills, words), 1)
+    return [*said, *(f'go to the {place}' for place in places)]
+
+
+def _example(
+    phrase: Phrase, skill: Skill, rules: Mapping[str, Phrase], words: ExampleWords
+) -> str:
+    match phrase:
+        case Word():
+            return phrase.text
+        case Option():
+            return ''
+        case Choice():
+            return _example(phrase.parts[0], skill, rules, words)
+        case Series():
+            parts = (_example(each, skill, rules, words) for each in phrase.parts)
+            return ' '.join(filter(None, parts))
+    argument = skill.arguments.get(phrase.name)
+    if argument is None:
+        return _example(rules[phrase.rule], skill, rules, words)
+    if argument.kind == 'choice':
+        return next(iter(argument.values.values()))[0]
+    return _NUMBERS[argument.unit] if argument.kind == 'number' else next(words[argument.kind])
