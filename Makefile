@@ -84,9 +84,9 @@ stories: build ## Run the stories that take too long for make test
 docs: build ## Write docs/reference anew from the code, the commands and the launch files
 	@tools/in_environment python3 tools/reference/generate.py
 
-pictures: build ## Take docs/pictures anew from running robots (needs Chromium)
+pictures: build ## Take docs/pictures anew from running robots (needs Chromium; some: ARGS=apartment)
 	@$(SETUP) tests
-	@$(RUN) python3 tools/pictures/take.py
+	@$(RUN) python3 tools/pictures/take.py $(ARGS)
 
 lock: ## Pin the versions of tools/setup/requirements.in anew (needs uv)
 	@tools/setup/lock.sh $(ARGS)

@@ -6,8 +6,10 @@ A picture that shows too little is seen at once when it is looked at: do so afte
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import argparse
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from io import BytesIO
 import os
 from pathlib import Path
 import re
@@ -29,6 +31,11 @@ from sensor_msgs.msg import Image as ImageMessage
 FOLDER = Path(__file__).resolve().parents[2] / 'docs' / 'pictures'
 CHROMIUM = '/usr/bin/chromium'
 LARGEST = 150_000
+LARGEST_ANIMATION = 900_000
+COMMAND = 'go to the kitchen, find the red mug and tell me what stands beside it'
+COMMAND_S = 300.0
+FASTER = 5.0
+LAST_MS = 4000
 WIDTH, HEIGHT = 1200, 800
 TIMEOUT_S = 60.0
 PATIENCE_MS = 120_000
@@ -45,6 +52,14 @@ WHOLE_HOME = {
     'Pitch': ('1.05',),
 }
 """The view of the apartment, by the labels of its fields."""
+KITCHEN = {
+    'Target Frame': ('map',),
+    'Focal Point': ('0.8', '1.4', '0'),
+    'Distance': ('7.5',),
+    'Yaw': ('4.71',),
+    'Pitch': ('0.95',),
+}
+"""The view of the way into the kitchen."""
 LOOKING_ROUND = (
     '{position: {x: 1.3, y: 1.7, z: 0.73}, orientation: {z: 0.707, w: 0.707}}',
     '{position: {x: 2.6, y: -1.3, z: 0.73}, orientation: {z: -0.69, w: 0.72}}',
@@ -55,7 +70,13 @@ ADDRESS = re.compile(r'(RViz is|The sliders are) at (http://\S+)')
 
 
 def main() -> None:
-    """Take all pictures."""
+    """Take all pictures, or some."""
+    tours = {'console': console, 'apartment': apartment, 'command': command, 'sliders': sliders}
+    parser = argparse.ArgumentParser(description=__doc__.split('\n')[0])
+    parser.add_argument('tours', nargs='*', help=f'only these of {", ".join(tours)}')
+    chosen = parser.parse_args().tours or [*tours]
+    if unknown := [name for name in chosen if name not in tours]:
+        parser.error(f'There is no tour {unknown[0]}. There are {", ".join(tours)}.')
     FOLDER.mkdir(exist_ok=True)
     with domain_id() as domain, sync_playwright() as playwright:
         os.environ['ROS_DOMAIN_ID'] = str(domain)
@@ -64,15 +85,35 @@ def main() -> None:
             executable_path=CHROMIUM,
             args=['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
         )
-        with launched('humanoid_bringup', 'bringup.launch.py', 1, 'scene:=room') as addresses:
-            picture_console(browser, addresses['RViz is'])
-        with launched('humanoid_bringup', 'bringup.launch.py', 1, 'scene:=apartment') as addresses:
-            picture_apartment(browser, addresses['RViz is'])
-            picture_rooms()
-        with launched('humanoid_description', 'view.launch.py', 2) as addresses:
-            picture_sliders(browser, addresses['The sliders are'])
-            picture_frames(browser, addresses['RViz is'])
+        for name in chosen:
+            tours[name](browser)
         browser.close()
+
+
+def console(browser: Any) -> None:
+    """Take those of the page while the robot walks in a room."""
+    with launched('humanoid_bringup', 'bringup.launch.py', 1, 'scene:=room') as addresses:
+        picture_console(browser, addresses['RViz is'])
+
+
+def apartment(browser: Any) -> None:
+    """Take those of the home."""
+    with launched('humanoid_bringup', 'bringup.launch.py', 1, 'scene:=apartment') as addresses:
+        picture_apartment(browser, addresses['RViz is'])
+        picture_rooms()
+
+
+def command(browser: Any) -> None:
+    """Take that of a command."""
+    with launched('humanoid_bringup', 'full_system.launch.py', 1, 'voice:=false') as addresses:
+        picture_command(browser, addresses['RViz is'])
+
+
+def sliders(browser: Any) -> None:
+    """Take those of the model alone."""
+    with launched('humanoid_description', 'view.launch.py', 2) as addresses:
+        picture_sliders(browser, addresses['The sliders are'])
+        picture_frames(browser, addresses['RViz is'])
 
 
 def picture_console(browser: Any, address: str) -> None:
@@ -147,17 +188,61 @@ def hold_stick(tab: Any) -> None:
 def picture_apartment(browser: Any, address: str) -> None:
     """Show the whole home from above, with walls cut."""
     tab = opened(browser, address)
+    show_from(tab, WHOLE_HOME)
+    scene = {'x': 0, 'y': 0, 'width': WIDTH - 390, 'height': HEIGHT}
+    keep('apartment', lambda path: tab.screenshot(path=path, clip=scene))
+    tab.close()
+
+
+def show_from(tab: Any, view: Mapping[str, Sequence[str]]) -> None:
+    """Look at the home from somewhere, by the labels of the fields of the view."""
     tab.get_by_role('tab', name='Views').click()
-    for label, values in WHOLE_HOME.items():
+    for label, values in view.items():
         name = tab.locator('label', has_text=re.compile(f'^{label}')).filter(visible=True).first
         row = name.locator('xpath=ancestor::*[contains(@class, "Flex-root")][1]')
         for field, value in zip(row.locator('input:not([type=hidden])').all(), values):
             field.fill(value)
             field.press('Enter')
     tab.wait_for_timeout(SETTLE_MS)
-    scene = {'x': 0, 'y': 0, 'width': WIDTH - 390, 'height': HEIGHT}
-    keep('apartment', lambda path: tab.screenshot(path=path, clip=scene))
+
+
+def picture_command(browser: Any, address: str) -> None:
+    """Show how a command is done, five times as fast as it is."""
+    tab = opened(browser, address)
+    show_from(tab, KITCHEN)
+    tab.get_by_role('tab', name='Command').click()
+    panel = tab.frame_locator('iframe[title=command]')
+    panel.get_by_text('I am ready').wait_for()
+    field = panel.locator('#text')
+    field.fill(COMMAND)
+    begin_s = time.monotonic()
+    frames, times_s = [taken(tab)], [begin_s]
+    field.press('Enter')
+    panel.locator('#plan li.running').wait_for()
+    while panel.locator('#plan li.running').count():
+        times_s.append(time.monotonic())
+        frames.append(taken(tab))
+        if times_s[-1] > begin_s + COMMAND_S:
+            raise SystemExit(f'After {COMMAND_S:g} s the robot has not done it: {COMMAND}')
+    tab.wait_for_timeout(2000)  # it says what it has found
+    times_s.append(time.monotonic())
+    frames.append(taken(tab))
+    shown_ms = [*(np.diff(times_s) * 1000.0 / FASTER).round().astype(int).tolist(), LAST_MS]
+    keep(
+        'command.webp',
+        lambda path: frames[0].save(
+            path, append_images=frames[1:], save_all=True, duration=shown_ms, loop=0, quality=30,
+            method=6,
+        ),
+        LARGEST_ANIMATION,
+    )  # fmt: skip
     tab.close()
+
+
+def taken(tab: Any) -> Image.Image:
+    """Take a picture of a page for an animation."""
+    picture = Image.open(BytesIO(tab.screenshot()))
+    return picture.convert('RGB').resize((WIDTH * 3 // 4, HEIGHT * 3 // 4))
 
 
 def picture_rooms() -> None:
@@ -254,14 +339,14 @@ def opened(browser: Any, address: str) -> Any:
     return tab
 
 
-def keep(name: str, screenshot: Callable[..., Any]) -> None:
-    """Write a picture to its file."""
-    path = FOLDER / f'{name}.png'
+def keep(name: str, screenshot: Callable[..., Any], largest: int = LARGEST) -> None:
+    """Write a picture to its file, with the suffix .png unless the name has another."""
+    path = FOLDER / (name if '.' in name else f'{name}.png')
     screenshot(path=str(path))
     size = path.stat().st_size
     print(f'{path}  {size // 1000} kB')
-    if size > LARGEST:
-        raise SystemExit(f'{path.name} has more than {LARGEST // 1000} kB: choose less to show.')
+    if size > largest:
+        raise SystemExit(f'{path.name} has more than {largest // 1000} kB: choose less to show.')
 
 
 if __name__ == '__main__':

@@ -44,8 +44,16 @@ class Looking:
         self._searched.clear()
 
     def look_at(self, target: Any) -> SkillRun:
-        """Turn the head towards a thing or a place."""
-        yield from self._look(self._recall.position(target))
+        """Turn the head towards a thing or a place, and the body too if that is behind."""
+        position_m = self._recall.position(target)
+        yield from self._walking.face(position_m)
+        try:
+            yield from self._look(position_m)
+        except SkillError as error:
+            if error.code == 'UNAVAILABLE':
+                raise
+            what = in_words(target) if isinstance(target, str) else target.text
+            raise SkillError(f'I cannot turn my head so that I see {what} from here.') from error
 
     def _look(self, position_m: tuple[float, float, float]) -> SkillRun:
         goal = PointHead.Goal()

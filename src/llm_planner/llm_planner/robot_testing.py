@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from control_msgs.action import PointHead
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
 from humanoid_common.qos import EVENT, LATCHED, STATE
@@ -67,12 +68,12 @@ class Robot(Node):
 
     Attributes
     ----------
-    walks, spins, scans, said, plans, grammars, statuses
+    walks, spins, looks, scans, said, plans, grammars, statuses
         What it was told to do, and has heard.
     is_slow
         Whether a walk goes on until it is canceled.
-    is_hemmed_in
-        Whether a turn would touch something.
+    is_hemmed_in, is_stiff
+        Whether a turn would touch something, and whether the head cannot be turned.
     failure, failures
         Why walks fail; those of the list one after another, the other one always.
     after_walk, after_scan
@@ -84,12 +85,14 @@ class Robot(Node):
         super().__init__('robot', **options)
         self.walks: list[Any] = []
         self.spins: list[float] = []
+        self.looks: list[Any] = []
         self.said: list[str] = []
         self.plans: list[Plan] = []
         self.grammars: list[str] = []
         self.statuses: dict[str, DiagnosticStatus] = {}
         self.scans = self.cancelled = 0
-        self.is_slow, self.is_hemmed_in, self.failure = False, False, ''
+        self.is_slow = self.is_hemmed_in = self.is_stiff = False
+        self.failure = ''
         self.failures: list[str] = []
         self.after_walk: list[Detection3D] | None = None
         self.after_scan: list[Detection3D] | None = None
@@ -98,6 +101,8 @@ class Robot(Node):
         self._paths = SingleGoal(self, lambda: '')
         self._scans = SingleGoal(self, lambda: '')
         self._scans.offer(ScanRoom, 'scan_room', self._scan)
+        self._looks = SingleGoal(self, lambda: '')
+        self._looks.offer(PointHead, 'look_at', self._look)
         self._goals.offer(NavigateToPose, 'navigate_to_pose', self._walk)
         self._spins.offer(Spin, 'spin', self._spin)
         self._paths.offer(ComputePathToPose, 'compute_path_to_pose', self._path)
@@ -160,6 +165,11 @@ class Robot(Node):
         self.scans += 1
         seen, self.after_scan = self.after_scan, None
         await self._see(goal, seen)
+
+    async def _look(self, goal: RunningGoal) -> None:
+        self.looks.append(goal.request.target.point)
+        if self.is_stiff:
+            raise GoalAborted('UNKNOWN', '')
 
     async def _see(self, goal: RunningGoal, things: Sequence[Detection3D] | None) -> None:
         """Remember something else, and give all a moment to hear of it."""

@@ -84,6 +84,20 @@ def test_a_collision_ahead_is_said_in_plain_words(ros: RosSandbox, tell: Any) ->
     assert not [each for each in robot.said if 'collide' in each]
 
 
+def test_it_turns_to_look_at_what_is_behind(ros: RosSandbox, tell: Any) -> None:
+    """What is before it, it looks at with the head alone; a head that does not turn is said."""
+    robot = tell.robot
+    robot.is_stiff = True
+    tell('look at the blue mug')
+    ros.wait_until(robot.heard('I cannot turn my head so that I see the blue mug'), 60.0, 'words')
+    assert robot.looks and robot.spins == []
+    robot.is_stiff = False
+    robot.move_to(6.0, 1.2)
+    tell('look at the red mug')
+    ros.wait_until(lambda: robot.looks and robot.looks[-1].x == pytest.approx(3.2), 60.0, 'a look')
+    assert [abs(each) for each in robot.spins] == [pytest.approx(3.14, abs=0.01)]
+
+
 def test_a_fall_ends_it(ros: RosSandbox, tell: Any) -> None:
     """The walk is given up at once, and the reason is said."""
     robot = tell.robot

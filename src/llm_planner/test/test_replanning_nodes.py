@@ -55,7 +55,8 @@ def test_what_is_gone_is_looked_for_elsewhere(ros: RosSandbox, tell: Any) -> Non
         ['turn left', 'go to the red mug', 'say where the red mug is'],
         ['find the red mug', 'go to the red mug', 'say where the red mug is'],
     ]
-    assert len(robot.spins) == 1 and len(robot.walks) == 2 and robot.walks[-1].x < 1.0
+    assert [round(angle, 2) for angle in robot.spins].count(1.57) == 1
+    assert len(robot.walks) == 2 and robot.walks[-1].x < 1.0
 
 
 def test_a_place_is_reached_at_the_second_try(ros: RosSandbox, tell: Any) -> None:
