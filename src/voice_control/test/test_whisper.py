@@ -100,20 +100,37 @@ def test_what_whisper_hears(
     assert (recognition.text, recognition.is_accepted) == (text, is_accepted)
 
 
-def test_whisper_expects_commands(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """It takes them for what was said before; without them it gets nothing of the kind."""
-    prompts: list[str | None] = []
+@pytest.fixture
+def prompts(monkeypatch: pytest.MonkeyPatch) -> list[str | None]:
+    """Return the prompts that Whisper gets."""
+    told: list[str | None] = []
 
     def transcribe(*sound: Any, initial_prompt: str | None, **options: Any) -> Any:
-        prompts.append(initial_prompt)
+        told.append(initial_prompt)
         return iter(()), None
 
     replace_library(monkeypatch, transcribe)
+    return told
+
+
+def test_whisper_expects_commands(folder: Path, prompts: list[str | None]) -> None:
+    """It takes them for what was said before; without them it gets nothing of the kind."""
     whisper = FasterWhisper(str(folder))
     whisper.recognize(SOUND)
     whisper.expect(['go to the hall', 'stop'])
     whisper.recognize(SOUND)
     assert prompts == [None, 'Go to the hall. Stop.']
+    whisper.expect(['go to the hall'] * 200)
+    whisper.recognize(SOUND)
+    assert 100 < len((prompts[-1] or '').split()) <= 150
+
+
+def test_another_language_gets_no_commands(folder: Path, prompts: list[str | None]) -> None:
+    """English before it, Whisper would write English."""
+    whisper = FasterWhisper(str(folder), 'de')
+    whisper.expect(['go to the hall'])
+    whisper.recognize(SOUND)
+    assert prompts == [None]
 
 
 def replace_library(monkeypatch: pytest.MonkeyPatch, transcribe: Callable[..., Any]) -> None:

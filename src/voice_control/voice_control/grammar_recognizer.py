@@ -174,12 +174,8 @@ class GrammarRecognizer:
             return Recognition(stop.text, stop.ratio, BACKEND, is_stop=True)
         if not words:
             return Recognition('', -math.inf, BACKEND, 'No command was recognized.')
-        reason = (
-            ''
-            if is_like
-            else (f'It did not sound much like "{command.text}", the closest command.')
-        )
-        return Recognition(command.text, command.ratio, BACKEND, reason)
+        closest = f'It did not sound much like "{command.text}", the closest command.'
+        return Recognition(command.text, command.ratio, BACKEND, '' if is_like else closest)
 
     def _add(self, search: str, network: WordNetwork) -> None:
         """Make a search of a network of words, in place of one with the same name."""

@@ -26,6 +26,7 @@ VOCABULARIES = ('vocabulary.json', 'vocabulary.txt')
 GGML_MAGIC = b'lmgg'
 _SILENCE_PROBABILITY = 0.6
 _UNSURE = -1.0
+_LANGUAGE_OF_COMMANDS = 'en'
 _PROMPT_WORDS = 150
 """Whisper reads the last 223 tokens of a prompt, some 1.3 a word with the full stops."""
 _REPEATS = 2.4
@@ -83,7 +84,7 @@ class FasterWhisper:
 
     def expect(self, examples: Sequence[str]) -> None:
         """Have Whisper believe that it has just heard these commands; see `FreeRecognizer`."""
-        self._prompt = _prompt(examples)
+        self._prompt = _prompt(examples, self._language)
 
     def recognize(self, sound: bytes) -> Recognition:
         """Recognize an utterance; see `Recognizer`."""
@@ -143,18 +144,14 @@ class WhisperCpp:
             str(path), n_threads=threads, language=language, print_progress=False,
             print_realtime=False, redirect_whispercpp_logs_to=None,
         )  # fmt: skip
-        self._prompt = ''
         self.title = f"Whisper (whisper.cpp, '{path}')"
 
     def expect(self, examples: Sequence[str]) -> None:
-        """Do as `FasterWhisper` does."""
-        self._prompt = _prompt(examples)
+        """Do without: with a prompt, pywhispercpp has ended the process (its issue 141)."""
 
     def recognize(self, sound: bytes) -> Recognition:
         """Recognize an utterance; see `Recognizer`."""
-        segments = self._model.transcribe(
-            _samples(sound), no_context=True, temperature=0.0, initial_prompt=self._prompt
-        )
+        segments = self._model.transcribe(_samples(sound), no_context=True, temperature=0.0)
         text = ''.join(str(each.text) for each in segments)
         return _judged(text, math.nan, 0.0, 'whisper_cpp')
 
@@ -197,7 +194,7 @@ class TranscriptionServer:
 
     def expect(self, examples: Sequence[str]) -> None:
         """Send the commands along with each utterance, as what was said before it."""
-        self._form['prompt'] = _prompt(examples)
+        self._form['prompt'] = _prompt(examples, self._form['language'])
 
     def recognize(self, sound: bytes) -> Recognition:
         """Recognize an utterance; see `Recognizer`."""
@@ -239,9 +236,16 @@ def _not_installed(library: str, error: ImportError) -> RecognizerError:
     )
 
 
-def _prompt(examples: Sequence[str]) -> str:
-    """Return commands as Whisper writes sentences, as many as it takes notice of."""
+def _prompt(examples: Sequence[str], language: str) -> str:
+    """
+    Return commands as Whisper writes sentences, as many as it takes notice of.
+
+    They are English: where another language is expected there is no prompt, since Whisper goes on
+    in the language of what was said before.
+    """
     prompt = ''
+    if language != _LANGUAGE_OF_COMMANDS:
+        return prompt
     for example in examples:
         longer = f'{prompt} {example.capitalize()}.'.strip()
         if len(longer.split()) > _PROMPT_WORDS:

@@ -142,9 +142,11 @@ def test_record(world: World) -> None:
     world.talk()
     world.record._name.value = 'walk'
     world.record._press()
+    world.record.update()
+    assert 'Starting to record **walk**' in world.record._text.content
     path = world.folder / 'walk' / 'walk_0.mcap'
     world.run(lambda: path.exists() and path.stat().st_size > 10_000, 'nothing is recorded')
-    assert 'Recording **walk**' in world.record._text.content
+    world.run(lambda: '● Recording **walk**' in world.record._text.content, 'it does not say so')
     world.record._press()
     world.run(lambda: world.record.path == '', 'the recording does not end')
     assert '✔ Recorded **walk**' in world.record._text.content

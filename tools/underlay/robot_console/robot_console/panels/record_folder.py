@@ -37,7 +37,8 @@ class RecordFolder:
         self._context, self._folder = context, folder
         self._namespace, self._done = namespace, done
         self._child: Child | None = None
-        self._path, self._start_s = '', 0.0
+        self._path = ''
+        self._start_s: float | None = None
         gui = context.gui
         with gui.add_folder('Record'):
             self._name: Any = gui.add_text('Name', '', hint='Without one it is the time.')
@@ -66,10 +67,15 @@ class RecordFolder:
         if not self._child.is_running:
             self._finish(self._child)
             return
+        size, name = _folder_bytes(self._path), escaped(self._name_now())
+        if not size:  # the recorder takes its time to start
+            assign(self._text, content=f'Starting to record **{name}**')
+            return
+        if self._start_s is None:
+            self._start_s = time.monotonic()
         length = clock_text(time.monotonic() - self._start_s)
         state = 'Finishing' if self._child.is_ending else '● Recording'
-        size = size_text(_folder_bytes(self._path))
-        assign(self._text, content=f'{state} **{escaped(self._name_now())}**: {length}, {size}')
+        assign(self._text, content=f'{state} **{name}**: {length}, {size_text(size)}')
 
     def close(self) -> None:
         """Finish what is being recorded."""
@@ -91,7 +97,7 @@ class RecordFolder:
         os.makedirs(self._folder, exist_ok=True)
         self._path = bag_folder(self._folder, self._name.value, datetime.now())
         arguments = ['-o', self._path, '--disable-keyboard-controls', *chosen]
-        self._child, self._start_s = Child('record', arguments), time.monotonic()
+        self._child, self._start_s = Child('record', arguments), None
         assign(self._button, label=STOP)
 
     def _chosen(self) -> list[str]:
