@@ -127,12 +127,12 @@ def main() -> int:
     commands = [text for kind in KINDS for text in said[kind] if not SAY.match(text)]
     commands = commands[:: options.every]
     grammar = GrammarRecognizer(options.threshold)
-    unknown = grammar.set_grammar(planner.to_jsgf(world))
     try:
         whisper = FasterWhisper(options.whisper) if options.whisper else None
     except RecognizerError as error:
         parser.error(str(error))
     listener = Listener(grammar, whisper)
+    unknown = listener.set_grammar(planner.to_jsgf(world))
     print(f'{len(commands)} commands, {len(OTHER)} others; unknown words: {unknown or "none"}')
     print(
         f'{"voice":<18}{"right":>7}{"rejected":>10}{"wrong":>7}{"others taken":>14}'

@@ -224,6 +224,8 @@ def picture_command(browser: Any, address: str) -> None:
         frames.append(taken(tab))
         if times_s[-1] > begin_s + COMMAND_S:
             raise SystemExit(f'After {COMMAND_S:g} s the robot has not done it: {COMMAND}')
+    if panel.locator('#plan li:not(.succeeded)').count():
+        raise SystemExit(f'The robot has not done it: {COMMAND}')
     tab.wait_for_timeout(2000)  # it says what it has found
     times_s.append(time.monotonic())
     frames.append(taken(tab))

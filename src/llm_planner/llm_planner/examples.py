@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import cycle, islice, repeat
+from itertools import cycle, repeat
 
 from llm_planner.phrases import Choice, Option, Phrase, Series, Word
 from llm_planner.skills import Skill, Skills
 
-__all__ = ['ExampleWords', 'examples', 'fixed_words', 'words_of', 'worlds_examples']
+__all__ = ['ExampleWords', 'examples', 'fixed_words', 'worlds_examples']
 
 ExampleWords = Mapping[str, Iterator[str]]
 """By the type of an argument, what stands for it in one sentence after another."""
@@ -50,7 +50,7 @@ def fixed_words() -> ExampleWords:
     return {kind: repeat(text) for kind, text in fixed.items()}
 
 
-def words_of(skills: Skills, places: Sequence[str]) -> ExampleWords:
+def _words_of(skills: Skills, places: Sequence[str]) -> ExampleWords:
     """
     Return words that change from sentence to sentence, so that many are shown.
 
@@ -59,7 +59,7 @@ def words_of(skills: Skills, places: Sequence[str]) -> ExampleWords:
     skills
         Their vocabulary has the things and colours.
     places
-        The names of places, as they are said; at least one.
+        The names of places, as they are said.
 
     """
 
@@ -94,12 +94,12 @@ def worlds_examples(skills: Skills, places: Sequence[str]) -> list[str]:
         The names of places, as they are said.
 
     """
-    words = words_of(skills, places or ['room'])
+    words = _words_of(skills, places)
     said: list[str] = []
     for skill in skills:
         kinds = {argument.kind for argument in skill.arguments.values()}
         if 'text' not in kinds and (places or not kinds & {'place', 'places', 'target'}):
-            said += islice(examples(skill, skills, words), 1)
+            said += examples(skill, skills, words)[:1]
     return [*said, *(f'go to the {place}' for place in places)]
 
 

@@ -46,20 +46,15 @@ class Looking:
     def look_at(self, target: Any) -> SkillRun:
         """Turn the head towards a thing or a place, and the body too if that is behind."""
         position_m = self._recall.position(target)
+        what = in_words(target) if isinstance(target, str) else target.text
         yield from self._walking.face(position_m)
-        try:
-            yield from self._look(position_m)
-        except SkillError as error:
-            if error.code == 'UNAVAILABLE':
-                raise
-            what = in_words(target) if isinstance(target, str) else target.text
-            raise SkillError(f'I cannot turn my head so that I see {what} from here.') from error
+        yield from self._look(position_m, f'I cannot turn my head so that I see {what} from here.')
 
-    def _look(self, position_m: tuple[float, float, float]) -> SkillRun:
+    def _look(self, position_m: tuple[float, float, float], otherwise: str = '') -> SkillRun:
         goal = PointHead.Goal()
         goal.target.header.frame_id = 'map'
         goal.target.point.x, goal.target.point.y, goal.target.point.z = map(float, position_m)
-        yield from self._robot.act(PointHead, 'look_at', goal)
+        yield from self._robot.act(PointHead, 'look_at', goal, otherwise)
 
     def glance_at(self, position_m: tuple[float, float, float]) -> SkillRun:
         """Look at something for a moment if that is possible; what fails does not matter."""

@@ -61,7 +61,9 @@ class Robot:
         while begin_s <= self.now_s() < begin_s + duration_s:
             yield
 
-    def act(self, kind: Any, name: str, goal: Any) -> Generator[None, None, Any]:
+    def act(
+        self, kind: Any, name: str, goal: Any, otherwise: str = ''
+    ) -> Generator[None, None, Any]:
         """
         Send a goal to an action, and wait for its result; closed before, cancel it.
 
@@ -71,6 +73,8 @@ class Robot:
             The type and name of the action.
         goal
             The goal.
+        otherwise
+            Why it did not succeed, for a result that cannot say so itself.
 
         Returns
         -------
@@ -97,7 +101,8 @@ class Robot:
             if not end.done():
                 sent.add_done_callback(_cancel)
         if answer.status != GoalStatus.STATUS_SUCCEEDED:
-            raise SkillError(_reason(answer.result) or f"'{name}' did not succeed.")
+            reason = _reason(answer.result) or otherwise
+            raise SkillError(reason or f"'{name}' did not succeed.")
         return answer.result
 
     def _accepted(
