@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from humanoid_common.naming import did_you_mean, shortened
 from humanoid_perception.detection import COLOURS
 from humanoid_perception.places import Places
-from humanoid_perception.remembered import RememberedThing
+from humanoid_perception.remembered import greatest_sigma_m, RememberedThing
 
 __all__ = ['Question', 'QuestionError', 'find', 'place_of']
 
@@ -32,7 +32,8 @@ def place_of(thing: RememberedThing, places: Places) -> tuple[str, str]:
     """Return the surface on which a thing stands and the room in which it is; empty if none."""
     x, y, z = (float(each) for each in thing.position_m)
     bottom = z - 0.5 * float(thing.size_m[2])
-    return places.surface_at(x, y, bottom), places.room_at(x, y)
+    sigma_m = greatest_sigma_m(thing.map_covariance_m2)
+    return places.surface_at(x, y, bottom, sigma_m), places.room_at(x, y)
 
 
 def find(

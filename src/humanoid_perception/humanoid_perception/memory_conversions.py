@@ -132,7 +132,7 @@ def _fill_pose(message: PoseWithCovariance, thing: RememberedThing) -> None:
     message.pose.orientation.z = math.sin(thing.yaw_rad / 2)
     message.pose.orientation.w = math.cos(thing.yaw_rad / 2)
     covariance = np.zeros((6, 6))
-    covariance[:3, :3] = thing.covariance_m2
+    covariance[:3, :3] = thing.map_covariance_m2
     covariance[3:, 3:] = -np.eye(3)
     message.covariance = covariance.ravel()
 

@@ -22,6 +22,8 @@ Point = tuple[float, float]
 Outline = tuple[Point, ...]
 _PREFIX = 'places_'
 _TOLERANCE_M = 0.08
+_MOST_SIGMA_M = 0.1
+"""What is less sure than this is looked for no farther from a surface."""
 
 
 class PlacesError(Exception):
@@ -42,18 +44,27 @@ class Surface:
         """Return the mean of its corners in the map."""
         return _mean(self.outline_m)
 
-    def misfit_m(self, x_m: float, y_m: float, bottom_m: float) -> float:
+    def misfit_m(self, x_m: float, y_m: float, bottom_m: float, sigma_m: float = 0.0) -> float:
         """
         Return how far the underside of a thing is from the surface.
+
+        Parameters
+        ----------
+        x_m, y_m, bottom_m
+            Where the middle of its underside is in the map.
+        sigma_m
+            The standard deviation of that.
 
         Returns
         -------
         float
-            The difference in height in m; infinite beyond the tolerance, or beside the outline.
+            The difference in height in m; infinite if the thing is farther above, below or beside
+            the surface than the tolerance and two standard deviations.
 
         """
         above_m = abs(bottom_m - self.height_m)
-        is_on = above_m <= self.tolerance_m and self.distance_m((x_m, y_m)) <= self.tolerance_m
+        reach_m = self.tolerance_m + 2.0 * min(sigma_m, _MOST_SIGMA_M)
+        is_on = above_m <= reach_m and self.distance_m((x_m, y_m)) <= reach_m
         return above_m if is_on else math.inf
 
     def distance_m(self, point_m: Point) -> float:
@@ -102,9 +113,19 @@ class Places:
         """Return the names of surfaces and rooms."""
         return [*(each.name for each in self.surfaces), *(each.name for each in self.rooms)]
 
-    def surface_at(self, x_m: float, y_m: float, bottom_m: float) -> str:
-        """Return the name of the surface below a thing; empty if it stands on none."""
-        fits = [(each.misfit_m(x_m, y_m, bottom_m), each.name) for each in self.surfaces]
+    def surface_at(self, x_m: float, y_m: float, bottom_m: float, sigma_m: float = 0.0) -> str:
+        """
+        Return the name of the surface below a thing; empty if it stands on none.
+
+        Parameters
+        ----------
+        x_m, y_m, bottom_m
+            Where the middle of its underside is in the map.
+        sigma_m
+            The standard deviation of that.
+
+        """
+        fits = [(each.misfit_m(x_m, y_m, bottom_m, sigma_m), each.name) for each in self.surfaces]
         best = min(fits, default=(math.inf, ''))
         return best[1] if best[0] < math.inf else ''
 

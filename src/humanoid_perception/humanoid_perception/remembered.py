@@ -9,7 +9,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ['RememberedThing', 'Sighting', 'Votes', 'sighting_noise']
+__all__ = ['RememberedThing', 'Sighting', 'Votes', 'greatest_sigma_m', 'sighting_noise']
 
 Array = npt.NDArray[np.float64]
 Pose2 = tuple[float, float, float]
@@ -17,6 +17,8 @@ Pose2 = tuple[float, float, float]
 
 _FLOOR_M = 0.012
 """Looks from about the same place err alike: none makes a position surer than this."""
+_LOCALISATION_M = 0.04
+"""The standard deviation of where the robot believes to be in the map, along an axis."""
 _SURPRISE = 11.3
 """A squared Mahalanobis distance that one look of a hundred exceeds, if the thing is at rest."""
 _MOST_LOOKS = 20.0
@@ -78,6 +80,11 @@ def sighting_noise(
     across_m = range_m * (0.010 + 0.03 * abs(turn_rad_s))
     noise = across_m**2 * (np.eye(3) - ahead) + along_m**2 * ahead
     return np.asarray(noise + base_m**2 * np.eye(3))
+
+
+def greatest_sigma_m(covariance_m2: Array) -> float:
+    """Return the root of the greatest variance along an axis, of a covariance (n, n) in m^2."""
+    return math.sqrt(float(np.max(np.diag(covariance_m2))))
 
 
 class Votes:
@@ -183,8 +190,18 @@ class RememberedThing:
 
     @property
     def sigma_m(self) -> float:
-        """How unsure its position is: the root of the greatest variance along an axis."""
-        return math.sqrt(float(np.max(np.diag(self.covariance_m2))))
+        """How unsure its position is, as seen by the robot: `greatest_sigma_m`."""
+        return greatest_sigma_m(self.covariance_m2)
+
+    @property
+    def map_covariance_m2(self) -> Array:
+        """
+        The covariance (3, 3) of its position in the map.
+
+        It also holds how exactly the robot knows where it is. All sightings have that error in
+        common, so that more of them do not lessen it.
+        """
+        return self.covariance_m2 + _LOCALISATION_M**2 * np.diag((1.0, 1.0, 0.0))
 
     def drift(self, passed_s: float, rate_m2_s: float, most_m: float) -> None:
         """Let the position become less sure while time passes, up to a standard deviation."""

@@ -81,6 +81,17 @@ def test_positions_come_closer_with_every_look(seed: int) -> None:
     assert error < 4.0 * same.sigma_m
 
 
+def test_looks_do_not_make_the_place_in_the_map_surer_than_that_of_the_robot() -> None:
+    """Every look has the error of the robot's own pose; heights do not."""
+    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    watch(memory, world, 60, radius=1.0)
+    (thing,) = memory.things
+    sigmas_m = np.sqrt(np.diag(thing.map_covariance_m2))
+    assert thing.sigma_m < 0.03
+    assert (sigmas_m[:2] > 0.04).all()
+    assert sigmas_m[2] < 0.03
+
+
 @pytest.mark.parametrize('seed', SEEDS)
 def test_a_crowded_table_is_remembered_as_it_is(seed: int) -> None:
     """Neighbours are not mixed up; nothing is there twice."""

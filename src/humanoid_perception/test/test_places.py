@@ -37,6 +37,24 @@ def test_a_thing_stands_on_the_surface_below_it(at: tuple[float, float, float], 
     assert PLACES.surface_at(*at) == name
 
 
+@pytest.mark.parametrize(
+    ('at', 'sigma_m', 'name'),
+    [
+        ((1.15, 0.5, 0.7), 0.0, ''),
+        ((1.15, 0.5, 0.7), 0.05, 'table'),
+        ((0.5, 0.5, 0.85), 0.05, 'table'),
+        ((0.5, 0.5, 0.48), 0.1, 'board'),
+        ((0.5, 0.5, 0.52), 0.1, 'table'),
+        ((1.5, 0.5, 0.7), 5.0, ''),
+    ],
+)
+def test_what_is_less_sure_may_be_farther_from_its_surface(
+    at: tuple[float, float, float], sigma_m: float, name: str
+) -> None:
+    """The nearest in height is meant; beyond a limit it stands on none, however unsure it is."""
+    assert PLACES.surface_at(*at, sigma_m) == name
+
+
 def test_rooms_are_where_they_are() -> None:
     """Outside of all there is none."""
     assert PLACES.room_at(0.0, 0.0) == 'den'

@@ -202,8 +202,7 @@ def spoken_places(world: World, more: Mapping[str, Iterable[str]]) -> dict[str, 
     """
     meant: dict[str, list[str]] = {}
     for name in world.place_names:
-        spoken = {in_words(name), *(more.get(name, ()))}
-        for text in spoken:
+        for text in dict.fromkeys((in_words(name), *more.get(name, ()))):
             meant.setdefault(text, []).append(name)
     for name in world.places:
         last = in_words(name).split()[-1]

@@ -9,6 +9,7 @@ from humanoid_common.inhibition import Inhibition
 from humanoid_common.qos import LATCHED
 from humanoid_perception.memory_conversions import planar_of, pose_of
 from humanoid_perception.places import Places, Room, Surface
+from humanoid_perception.remembered import greatest_sigma_m
 from llm_planner.skills import Skill, Skills
 from llm_planner.world import base_name, Thing, World
 import numpy as np
@@ -156,7 +157,9 @@ def _thing(detection: Any, places: Places) -> Thing:
         (name[: -len(class_id) - 1] for name in names if name.endswith(f' {class_id}')), ''
     )
     centre, size = detection.bbox.center.position, detection.bbox.size
-    place = places.surface_at(centre.x, centre.y, centre.z - 0.5 * size.z)
+    covariance_m2 = np.reshape(detection.results[0].pose.covariance, (6, 6))[:3, :3]
+    sigma_m = greatest_sigma_m(covariance_m2)
+    place = places.surface_at(centre.x, centre.y, centre.z - 0.5 * size.z, sigma_m)
     return Thing(
         detection.id,
         class_id,
