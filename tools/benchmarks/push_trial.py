@@ -29,6 +29,7 @@ class PushTrial:
     speed_m_s: float = 0.3
     noise: float = 0.0
     seed: int = 0
+    hands: bool = False
 
     @property
     def is_outwards(self) -> bool:
@@ -42,7 +43,7 @@ def stands_after(trial: PushTrial) -> bool:
     settings = BackendSettings(
         Physics(self_collision='all'), noise=REALISTIC.scaled(trial.noise), seed=trial.seed
     )
-    robot = LockstepRobot(settings)
+    robot = LockstepRobot(settings, hands=trial.hands)
     robot.wait(1.0)
     robot.drive(trial.speed_m_s)
     robot.wait(BEGIN_S)

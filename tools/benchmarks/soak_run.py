@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
+from humanoid_control.controllers import TrajectoryPoint, TrajectoryRequest
 from humanoid_control.walking import VelocityCommand
 from humanoid_simulation.backend import BackendSettings
 from humanoid_simulation.backend.noise import REALISTIC
@@ -17,6 +18,10 @@ from humanoid_simulation.testing.lockstep_robot import LockstepRobot
 import numpy as np
 
 MASS_LINK = 'torso'
+HAND_LINK, HAND_KG = 'left_palm', 0.3
+ARM = 'left_arm_controller'
+CARRYING_RAD = (0.2, 0.15, 0.0, -1.77, 0.0, 0.0)
+"""The upper arm hangs, and the forearm is level."""
 SETTLE_S = 1.0
 WAY_S = 0.5
 LONGEST_STALL_TICKS = 10
@@ -92,11 +97,35 @@ def drawn_segment(random: np.random.Generator, push_ns: float) -> Segment:
 class SoakRun:
     """A robot that walks in a world of its own, without ROS."""
 
-    def __init__(self, conditions: Conditions, push_ns: float, drop_outs: float) -> None:
-        """Make the world; `drop_outs` is the chance at a tick that control begins to stall."""
+    def __init__(
+        self,
+        conditions: Conditions,
+        push_ns: float,
+        drop_outs: float,
+        hands: bool = False,
+        load_kg: float = 0.0,
+    ) -> None:
+        """
+        Make the world.
+
+        Parameters
+        ----------
+        conditions, push_ns
+            What differs from run to run, and the impulse of the pushes.
+        drop_outs
+            The chance at a tick that control begins to stall.
+        hands
+            Whether the robot has wrists and grippers.
+        load_kg
+            What the left hand carries, held before the body.
+
+        """
         self._conditions, self._push_ns = conditions, push_ns
+        masses = {MASS_LINK: conditions.mass_factor}
+        if load_kg:
+            masses[HAND_LINK] = 1.0 + load_kg / HAND_KG
         settings = BackendSettings(
-            Physics(mass_factors={MASS_LINK: conditions.mass_factor}),
+            Physics(mass_factors=masses),
             noise=REALISTIC,
             seed=conditions.seed,
             latency_periods=conditions.latency_periods,
@@ -105,10 +134,19 @@ class SoakRun:
         scene = Scene(floor=Floor(friction=conditions.friction))
         stalls = np.random.default_rng([conditions.seed, 3])
         misses = DropOuts(stalls, drop_outs, LONGEST_STALL_TICKS).misses
-        self._robot = LockstepRobot(settings, scene, misses)
+        self._robot = LockstepRobot(settings, scene, misses, hands)
+        if load_kg:
+            self._hold_hand_before_body()
         self._random = np.random.default_rng([conditions.seed, 2])
         self._distance_m = 0.0
         self._alarms, self._was_blocked = 0, False
+
+    def _hold_hand_before_body(self) -> None:
+        """Raise the left hand to where things are carried."""
+        control = self._robot.walking.control
+        arm = control.trajectory_controllers[ARM]
+        request = TrajectoryRequest(arm.own, [TrajectoryPoint(SETTLE_S, CARRYING_RAD)])
+        arm.accept(control.checked_goal(ARM, request), lambda end: None)
 
     def run(self, duration_s: float) -> SoakResult:
         """Walk until the time is over or the robot falls."""

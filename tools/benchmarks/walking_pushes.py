@@ -35,11 +35,21 @@ def main() -> int:
         '--noise', type=in_range(float, 0.0), default=0.0, help="factor of the sensors' noise"
     )
     parser.add_argument('--seed', type=in_range(int, 0), default=0)
+    parser.add_argument('--hands', action='store_true', help='give the robot hands')
     parser.add_argument('--processes', type=in_range(int, 1), default=1)
     options = parser.parse_args()
     phases = [number / options.phases for number in range(options.phases)]
     trials = [
-        PushTrial(impulse, direction, side, phase, options.speed, options.noise, options.seed)
+        PushTrial(
+            impulse,
+            direction,
+            side,
+            phase,
+            options.speed,
+            options.noise,
+            options.seed,
+            options.hands,
+        )
         for impulse in options.impulses
         for direction in options.directions
         for side in SIDES

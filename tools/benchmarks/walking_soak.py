@@ -31,13 +31,25 @@ def main() -> int:
         default=0.0,
         help='share of the ticks at which control stalls',
     )
+    parser.add_argument('--hands', action='store_true', help='give the robot hands')
+    parser.add_argument(
+        '--load',
+        type=in_range(float, 0.0, 5.0),
+        default=0.0,
+        metavar='KG',
+        help='what its left hand carries',
+    )
     options = parser.parse_args()
+    if options.load and not options.hands:
+        parser.error('--load needs --hands: nothing carries without')
     if options.runs < 1 or options.seconds <= 0.0:
         parser.error('--runs and --seconds must be above zero: nothing else shows anything')
     print('| run | friction | mass | latency | walked | result |\n|---|---|---|---|---|---|')
     begin_s, results = time.process_time(), []
     for seed in range(options.first_seed, options.first_seed + options.runs):
-        run = SoakRun(Conditions.drawn(seed), options.push, options.drop_outs)
+        run = SoakRun(
+            Conditions.drawn(seed), options.push, options.drop_outs, options.hands, options.load
+        )
         results.append(run.run(options.seconds))
         print(row(results[-1]), flush=True)
     print(summary(results, time.process_time() - begin_s))

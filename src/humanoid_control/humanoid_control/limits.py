@@ -13,21 +13,23 @@ import numpy as np
 
 @dataclass(frozen=True, eq=False)
 class JointLimits:
-    """Range, speed and strength of n joints; each array is (n,)."""
+    """Range, speed and strength of n joints, which may slide: then in m, m/s and N; each (n,)."""
 
     lower_rad: Array
     upper_rad: Array
     velocity_rad_s: Array
     effort_nm: Array
+    kp_nm_rad: Array
+    """The stiffness of the servos, which makes an effort of a target farther off."""
 
     @classmethod
     def of(cls, drives: Mapping[str, Drive], joints: Sequence[str]) -> JointLimits:
         """Return the limits of the joints, in their order."""
         columns = [
-            (drive.lower_rad, drive.upper_rad, drive.velocity_rad_s, drive.effort_nm)
+            (drive.lower, drive.upper, drive.velocity, drive.effort, drive.kp)
             for drive in (drives[joint] for joint in joints)
         ]
-        return cls(*np.array(columns, dtype=np.float64).reshape(-1, 4).T.copy())
+        return cls(*np.array(columns, dtype=np.float64).reshape(-1, 5).T.copy())
 
     def limited(self, targets: JointTargets, last_rad: Array, elapsed_s: float) -> JointTargets:
         """

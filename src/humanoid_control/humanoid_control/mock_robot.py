@@ -63,12 +63,15 @@ class MockRobot(Node):
         self, parameters: HostParameters
     ) -> tuple[dict[str, WalkingRobotControl], MockBackend]:
         """Return the control of every robot, and what moves them."""
-        scale, prefix = parameters.scale, parameters.prefix
+        scale, prefix, hands = parameters.scale, parameters.prefix, parameters.hands
         try:
-            model = load_robot(humanoid_urdf(scale, prefix), 'the humanoid')
+            model = load_robot(humanoid_urdf(scale, prefix, hands=hands), 'the humanoid')
         except DescriptionError as error:
             raise NodeStartError(f'The mock robot has no model. {error}') from error
-        drives, say = load_drives(scale, prefix), Refusals(self.get_logger().error).add
+        drives, say = (
+            load_drives(scale, prefix, hands=hands),
+            Refusals(self.get_logger().error).add,
+        )
         controls = {
             name: WalkingRobotControl.of(model, drives, scale, time.monotonic, say, self._able)
             for name in parameters.robots

@@ -11,15 +11,15 @@ import numpy as np
 JOINTS = ('left_elbow', 'right_elbow', 'left_knee')
 DRIVES = {
     name: Drive(
-        lower_rad=-2.0,
-        upper_rad=1.0,
-        effort_nm=20.0,
-        velocity_rad_s=10.0,
-        damping_nms_rad=0.2,
-        friction_nm=0.1,
-        kp_nm_rad=60.0,
-        kd_nms_rad=1.8,
-        armature_kgm2=0.01,
+        lower=-2.0,
+        upper=1.0,
+        effort=20.0,
+        velocity=10.0,
+        damping=0.2,
+        friction=0.1,
+        kp=60.0,
+        kd=1.8,
+        armature=0.01,
     )
     for name in JOINTS
 }

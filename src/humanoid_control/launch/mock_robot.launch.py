@@ -17,6 +17,7 @@ def generate_launch_description() -> LaunchDescription:
     given = {
         'scale': ParameterValue(LaunchConfiguration('scale'), value_type=float),
         'prefix': ParameterValue(LaunchConfiguration('prefix'), value_type=str),
+        'hands': ParameterValue(LaunchConfiguration('hands'), value_type=bool),
         'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool),
     }
     return LaunchDescription(
@@ -28,6 +29,12 @@ def generate_launch_description() -> LaunchDescription:
                 'prefix',
                 default_value='',
                 description='What the names of all links and joints begin with.',
+            ),
+            DeclareLaunchArgument(
+                'hands',
+                default_value='false',
+                choices=['true', 'false'],
+                description='Give the arms wrists and grippers.',
             ),
             DeclareLaunchArgument(
                 'use_sim_time',

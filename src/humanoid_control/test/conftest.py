@@ -33,4 +33,4 @@ def _robot(urdf: str) -> Robot:
 def _model(robot: Robot, scale: float) -> BodyModel:
     """Return the humanoid with all its joints and their armature."""
     drives = load_drives(scale)
-    return BodyModel.of(robot, tuple(drives), [d.armature_kgm2 for d in drives.values()])
+    return BodyModel.of(robot, tuple(drives), [d.armature for d in drives.values()])

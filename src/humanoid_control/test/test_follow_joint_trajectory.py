@@ -15,7 +15,7 @@ from control_msgs.msg import JointComponentTolerance, JointTolerance
 from controller_manager_msgs.srv import ListControllers
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.hosting.conversions import seconds
-from humanoid_control.hosting.follow_joint_trajectory import FEEDBACK_RATE_HZ
+from humanoid_control.hosting.goal_server import FEEDBACK_RATE_HZ
 from humanoid_control.mock_robot import MockRobot
 from humanoid_control.trajectory_testing import trajectory_goal, TrajectoryClient
 from humanoid_description.drives import load_drives
@@ -280,7 +280,7 @@ def test_a_hundred_goals_at_random(world: World) -> None:
         GoalStatus.STATUS_ABORTED,
     }
     for joint, rate in fastest.items():
-        assert rate <= 1.02 * drives[joint].velocity_rad_s, joint
+        assert rate <= 1.02 * drives[joint].velocity, joint
     service = 'controller_manager/list_controllers'
     asked = world.node.create_client(ListControllers, service)
     world.wait(service, asked.service_is_ready)

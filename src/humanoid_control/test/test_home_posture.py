@@ -44,7 +44,7 @@ def test_joints_are_within_their_ranges(robot: Robot) -> None:
     drives = load_drives()
     home = HomePosture.of(walking(robot, 1.0), WalkParameters())
     for drive, position in zip(drives.values(), home.positions_rad):
-        assert drive.lower_rad + 0.05 < position < drive.upper_rad - 0.05 or position == 0.0
+        assert drive.lower + 0.05 < position < drive.upper - 0.05 or position == 0.0
 
 
 def test_a_joint_without_a_drive_is_refused(robot: Robot) -> None:

@@ -33,15 +33,15 @@ JOINTS = (*ARM, 'head_yaw', 'left_knee')
 VELOCITY_RAD_S = 2.0
 DRIVES = {
     name: Drive(
-        lower_rad=-2.0,
-        upper_rad=1.0,
-        effort_nm=20.0,
-        velocity_rad_s=VELOCITY_RAD_S,
-        damping_nms_rad=0.2,
-        friction_nm=0.1,
-        kp_nm_rad=60.0,
-        kd_nms_rad=1.8,
-        armature_kgm2=0.01,
+        lower=-2.0,
+        upper=1.0,
+        effort=20.0,
+        velocity=VELOCITY_RAD_S,
+        damping=0.2,
+        friction=0.1,
+        kp=60.0,
+        kd=1.8,
+        armature=0.01,
     )
     for name in JOINTS
 }

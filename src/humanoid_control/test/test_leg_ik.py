@@ -37,7 +37,7 @@ class Leg:
         """Return postures within the limits whose knee is bent, one a row."""
         drives = load_drives()
         chosen = [drives[joint] for joint in self.geometry.joints]
-        lower, upper = np.array([(d.lower_rad, d.upper_rad) for d in chosen]).T
+        lower, upper = np.array([(d.lower, d.upper) for d in chosen]).T
         lower[3] = BENT_RAD
         return np.random.default_rng(6).uniform(lower, upper, (POSTURES, 6))
 

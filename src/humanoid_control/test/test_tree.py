@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from humanoid_control.dynamics import DynamicsError
 from humanoid_control.dynamics.tree import Tree
-from humanoid_description.robot import Joint, Robot
+from humanoid_description.robot import Joint, Mimic, Robot
 import numpy as np
 import pytest
 
@@ -89,7 +89,7 @@ def test_joint_that_does_not_turn(robot: Robot, kind: str) -> None:
 
 def test_joint_that_mimics(robot: Robot) -> None:
     """A joint that follows another one has no motion of its own."""
-    joint = replace(robot.joint['left_knee'], mimics='right_knee')
+    joint = replace(robot.joint['left_knee'], mimics=Mimic('right_knee'))
     with pytest.raises(DynamicsError, match="mimics 'right_knee'"):
         Tree.of(with_joint(robot, joint), ('left_knee',))
 

@@ -15,7 +15,7 @@ class StubWalker:
     """Counts what it is told; a fall makes it forget its velocity by itself."""
 
     def __init__(self) -> None:
-        self.robot = SimpleNamespace(body=SimpleNamespace(joints=('knee',)))
+        self.robot = SimpleNamespace(joints=('knee',))
         self.velocity = STANDING
         self.commands = 0
 

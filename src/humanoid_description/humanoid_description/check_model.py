@@ -43,6 +43,7 @@ def _parser() -> argparse.ArgumentParser:
     humanoid.add_argument('--scale', type=float, help='its size, 0.5 to 1.3 (default: 1.0)')
     humanoid.add_argument('--prefix', help='what the names begin with')
     humanoid.add_argument('--upper-body-only', action='store_true', help='leave out the legs')
+    humanoid.add_argument('--hands', action='store_true', help='give it wrists and grippers')
     return parser
 
 
@@ -51,10 +52,11 @@ def _urdf(arguments: argparse.Namespace) -> tuple[str, str]:
     path: Path | None = arguments.file
     if path is None:
         return _humanoid(arguments)
-    if arguments.scale is not None or arguments.prefix is not None or arguments.upper_body_only:
+    has_options = arguments.scale is not None or arguments.prefix is not None
+    if has_options or arguments.upper_body_only or arguments.hands:
         raise DescriptionError(
-            f'{path} is checked as it is. Leave out --scale, --prefix and --upper-body-only, '
-            'which say which humanoid to make, or leave out the file.'
+            f'{path} is checked as it is. Leave out --scale, --prefix, --upper-body-only and '
+            '--hands, which say which humanoid to make, or leave out the file.'
         )
     try:
         return _file(path, arguments.arguments)
@@ -80,7 +82,7 @@ def _given(path: Path, words: Sequence[str]) -> dict[str, str]:
     if ':=' in str(path):
         raise DescriptionError(
             f"'{path}' is an argument of a xacro file: name the file before it. The humanoid has "
-            'the options --scale, --prefix and --upper-body-only.'
+            'the options --scale, --prefix, --upper-body-only and --hands.'
         )
     for word in words:
         if ':=' not in word[1:]:
@@ -99,10 +101,11 @@ def _humanoid(arguments: argparse.Namespace) -> tuple[str, str]:
 
     scale = 1.0 if arguments.scale is None else arguments.scale
     load_scaling().check(scale)
-    urdf = humanoid_urdf(scale, arguments.prefix or '', arguments.upper_body_only)
+    urdf = humanoid_urdf(scale, arguments.prefix or '', arguments.upper_body_only, arguments.hands)
     which = 'The upper body of the humanoid' if arguments.upper_body_only else 'The humanoid'
+    hands = ' with hands' if arguments.hands else ''
     prefix = f" with the prefix '{arguments.prefix}'" if arguments.prefix else ''
-    return urdf, f'{which}{prefix} at scale {scale:g}'
+    return urdf, f'{which}{hands}{prefix} at scale {scale:g}'
 
 
 def _check(text: str, source: str, folder: Path) -> int:

@@ -8,8 +8,9 @@ the gains of the servos as well, for which a URDF has no place.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from humanoid_description.files import load_config
@@ -18,42 +19,77 @@ from humanoid_description.scaling import load_scaling, Scaling
 SIDES = ('left', 'right')
 
 
+REVOLUTE, PRISMATIC = 'revolute', 'prismatic'
+
+
 @dataclass(frozen=True)
 class Drive:
-    """What moves a joint: its range, its strength and the gains of its servo."""
+    """
+    What moves a joint.
 
-    lower_rad: float
-    upper_rad: float
-    effort_nm: float
-    velocity_rad_s: float
-    damping_nms_rad: float
-    friction_nm: float
-    kp_nm_rad: float
-    kd_nms_rad: float
-    armature_kgm2: float
+    Attributes
+    ----------
+    lower, upper
+        Its range: rad, or m for a prismatic joint.
+    effort, velocity
+        Its strength, in N m or N, and its greatest speed, in rad/s or m/s.
+    damping, friction
+        Of the joint itself: N m s/rad or N s/m, and N m or N.
+    kp, kd
+        The gains of its servo: N m/rad or N/m, and N m s/rad or N s/m.
+    armature
+        The rotor's inertia seen at the joint: kg m2, or kg.
+    kind
+        The type of the joint, as in a URDF: `revolute` or `prismatic`.
+
+    """
+
+    lower: float
+    upper: float
+    effort: float
+    velocity: float
+    damping: float
+    friction: float
+    kp: float
+    kd: float
+    armature: float
+    kind: str = REVOLUTE
 
 
 def load_drives(
-    scale: float = 1.0, prefix: str = '', upper_body_only: bool = False
+    scale: float = 1.0, prefix: str = '', upper_body_only: bool = False, hands: bool = False
 ) -> dict[str, Drive]:
-    """Return the drive of every joint of the humanoid that the arguments describe."""
-    drives = drives_of(load_config('joints.yaml'), load_scaling(), scale, upper_body_only)
+    """
+    Return the drive of every joint of a humanoid.
+
+    Parameters
+    ----------
+    scale, prefix, upper_body_only, hands
+        The arguments of the model. Joints that mimic others have no drive.
+
+    Raises
+    ------
+    DescriptionError
+        There is no model of this scale.
+
+    """
+    limbs = ('arm', *(('hand',) if hands else ()), *(() if upper_body_only else ('leg',)))
+    drives = drives_of(load_config('joints.yaml'), load_scaling(), scale, limbs)
     return {prefix + name: drive for name, drive in drives.items()}
 
 
 def drives_of(
-    table: Mapping[str, Any], scaling: Scaling, scale: float, upper_body_only: bool
+    table: Mapping[str, Any], scaling: Scaling, scale: float, limbs: Sequence[str]
 ) -> dict[str, Drive]:
-    """Build the drives from the content of the file."""
-    limbs = ('arm',) if upper_body_only else ('arm', 'leg')
+    """Build the drives of trunk, head and some limbs from the content of the file."""
     return {
-        name: _drive(entry, table['dynamics'], _Factors(scaling, scale), mirrored)
+        name: _drive(entry, table['dynamics'], scaling, scale, mirrored)
         for name, entry, mirrored in _entries(table, limbs)
     }
 
 
 def _entries(
-    table: Mapping[str, Any], limbs: tuple[str, ...]
+    table: Mapping[str, Any], limbs: Sequence[str]
 ) -> Iterator[tuple[str, Mapping[str, Any], bool]]:
     """Yield every joint: its name, its entry, and whether it turns the other way."""
     for name, entry in table['middle'].items():
@@ -61,35 +97,36 @@ def _entries(
     for side in SIDES:
         for limb in limbs:
             for kind, entry in table[limb].items():
-                yield f'{side}_{kind}', entry, side == 'right' and entry['axis'] != 'y'
+                turned = _kind(entry) == REVOLUTE and entry['axis'] != 'y'
+                yield f'{side}_{kind}', entry, side == 'right' and turned
 
 
-@dataclass(frozen=True)
-class _Factors:
-    """Multiplies values by what the scale makes of their quantity."""
-
-    scaling: Scaling
-    scale: float
-
-    def of(self, values: Mapping[str, float], quantity: str) -> float:
-        """Return the value of a quantity, at the scale."""
-        return values[quantity] * self.scaling.factor(quantity, self.scale)
+def _kind(entry: Mapping[str, Any]) -> str:
+    """Return the type of a joint."""
+    return str(entry.get('type', REVOLUTE))
 
 
 def _drive(
-    entry: Mapping[str, Any], dynamics: Mapping[str, float], scaled: _Factors, mirrored: bool
+    entry: Mapping[str, Any],
+    dynamics: Mapping[str, Any],
+    scaling: Scaling,
+    scale: float,
+    mirrored: bool,
 ) -> Drive:
     """Build one drive."""
-    limit, servo = entry['limit'], entry['servo']
+    kind = _kind(entry)
+    limit, servo, common = entry['limit'], entry['servo'], dynamics[kind]
     lower, upper = limit['lower'], limit['upper']
+    grown = partial(scaling.joint_factor, kind, scale=scale)
     return Drive(
-        lower_rad=-upper if mirrored else lower,
-        upper_rad=-lower if mirrored else upper,
-        effort_nm=scaled.of(limit, 'effort'),
-        velocity_rad_s=scaled.of(limit, 'velocity'),
-        damping_nms_rad=scaled.of(dynamics, 'damping'),
-        friction_nm=scaled.of(dynamics, 'friction'),
-        kp_nm_rad=scaled.of(servo, 'kp'),
-        kd_nms_rad=scaled.of(servo, 'kd'),
-        armature_kgm2=scaled.of(servo, 'armature'),
+        lower=(-upper if mirrored else lower) * grown('travel'),
+        upper=(-lower if mirrored else upper) * grown('travel'),
+        effort=limit['effort'] * grown('effort'),
+        velocity=limit['velocity'] * grown('velocity'),
+        damping=common['damping'] * grown('damping'),
+        friction=common['friction'] * grown('friction'),
+        kp=servo['kp'] * grown('kp'),
+        kd=servo['kd'] * grown('kd'),
+        armature=servo['armature'] * grown('armature'),
+        kind=kind,
     )

@@ -12,14 +12,30 @@ from humanoid_description.errors import DescriptionError
 from humanoid_description.files import share
 
 
-def humanoid_urdf(scale: float = 1.0, prefix: str = '', upper_body_only: bool = False) -> str:
-    """Return the URDF of the humanoid."""
+def humanoid_urdf(
+    scale: float = 1.0, prefix: str = '', upper_body_only: bool = False, hands: bool = False
+) -> str:
+    """
+    Return the URDF of the humanoid.
+
+    Parameters
+    ----------
+    scale, prefix, upper_body_only, hands
+        The arguments of the model.
+
+    Raises
+    ------
+    DescriptionError
+        xacro is missing, or refuses an argument.
+
+    """
     return expand(
         share() / 'urdf' / 'humanoid.urdf.xacro',
         {
             'scale': repr(scale),
             'prefix': prefix,
             'upper_body_only': str(upper_body_only).lower(),
+            'hands': str(hands).lower(),
         },
     )
 

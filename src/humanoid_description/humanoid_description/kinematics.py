@@ -21,12 +21,16 @@ def chain(robot: Robot, link: str, base: str | None = None) -> list[Joint]:
 
 
 def pose_along(joints: list[Joint], positions: Mapping[str, Array | float]) -> Array:
-    """Return the pose at the end of a chain; joints that have no position are at zero."""
+    """
+    Return the pose at the end of a chain.
+
+    Joints that have no position are at zero; those that mimic another go by that one's position.
+    """
     pose: Array = np.eye(4)
     for joint in joints:
         pose = pose @ joint.pose
         if joint.is_driven:
-            pose = pose @ joint_motion(joint, positions.get(joint.name, 0.0))
+            pose = pose @ joint_motion(joint, _position(joint, positions))
     return pose
 
 
@@ -45,6 +49,14 @@ def joint_motion(joint: Joint, position: Array | float) -> Array:
     else:
         motion[..., :3, :3] += _turn_less_identity(axis, position[..., None, None])
     return motion
+
+
+def _position(joint: Joint, positions: Mapping[str, Array | float]) -> Array | float:
+    """Return the position of a joint, which may follow that of another."""
+    mimics = joint.mimics
+    if mimics is None or joint.name in positions:
+        return positions.get(joint.name, 0.0)
+    return mimics.multiplier * positions.get(mimics.joint, 0.0) + mimics.offset
 
 
 def _turn_less_identity(axis: Array, angle: Array) -> Array:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from humanoid_description.robot import Array, Body, Joint, Limits, Link, Robot, Shape
+from humanoid_description.robot import Array, Body, Joint, Limits, Link, Mimic, Robot, Shape
 from humanoid_description.urdf_text import readable
 import numpy as np
 
@@ -80,8 +80,15 @@ def _joint(joint: Any) -> Joint:
         _pose(joint),
         np.array(FORWARD if axis is None else _numbers(axis.get('xyz'), FORWARD)),
         None if limit is None else _limits(limit),
-        None if mimic is None else mimic.get('joint'),
+        None if mimic is None else _mimic(mimic),
         joint.sourceline,
+    )
+
+
+def _mimic(mimic: Any) -> Mimic:
+    """Build how a joint follows another."""
+    return Mimic(
+        mimic.get('joint'), float(mimic.get('multiplier', 1.0)), float(mimic.get('offset', 0.0))
     )
 
 

@@ -56,6 +56,15 @@ class Limits:
     velocity: float | None
 
 
+@dataclass(frozen=True)
+class Mimic:
+    """How a joint follows another: by a multiple of its position, and an offset in rad or m."""
+
+    joint: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+
 @dataclass(frozen=True, eq=False)
 class Joint:
     """A connection: pose says where the child sits in the parent while the joint is at zero."""
@@ -67,7 +76,7 @@ class Joint:
     pose: Array
     axis: Array
     limits: Limits | None = None
-    mimics: str | None = None
+    mimics: Mimic | None = None
     line: int | None = None
 
     @property

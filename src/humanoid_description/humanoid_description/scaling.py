@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from humanoid_description.errors import DescriptionError
 from humanoid_description.files import load_config
@@ -16,12 +17,13 @@ class Scaling:
 
     smallest: float
     largest: float
-    exponents: Mapping[str, float]
+    exponents: Mapping[str, Any]
+    """By quantity; those of joints by type of joint and quantity."""
 
-    def factor(self, quantity: str, scale: float) -> float:
-        """Return what a quantity is multiplied by in a robot of this scale."""
+    def joint_factor(self, kind: str, quantity: str, scale: float) -> float:
+        """Return by what a quantity of a type of joint is multiplied in a robot of this scale."""
         self.check(scale)
-        return float(scale ** self.exponents[quantity])
+        return float(scale ** self.exponents[kind][quantity])
 
     def check(self, scale: float) -> None:
         """Refuse a scale that is out of range."""

@@ -15,7 +15,7 @@ def generate_launch_description() -> LaunchDescription:
     """Describe the robot state publisher."""
     share = FindPackageShare('humanoid_description')
     urdf = ['xacro "', PathJoinSubstitution([share, 'urdf', 'humanoid.urdf.xacro']), '"']
-    for argument in ('scale', 'prefix', 'upper_body_only'):
+    for argument in ('scale', 'prefix', 'upper_body_only', 'hands'):
         urdf += [f' {argument}:=', LaunchConfiguration(argument)]
     description = {'robot_description': ParameterValue(Command(urdf), value_type=str)}
     time = {'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)}
@@ -34,6 +34,12 @@ def generate_launch_description() -> LaunchDescription:
                 default_value='false',
                 choices=['true', 'false'],
                 description='Leave out the legs.',
+            ),
+            DeclareLaunchArgument(
+                'hands',
+                default_value='false',
+                choices=['true', 'false'],
+                description='Give the arms wrists and grippers.',
             ),
             DeclareLaunchArgument(
                 'use_sim_time',

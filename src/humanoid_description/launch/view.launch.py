@@ -22,7 +22,7 @@ def generate_launch_description() -> LaunchDescription:
     model = PathJoinSubstitution([share, 'launch', 'description.launch.py'])
     view = PathJoinSubstitution([share, 'config', 'robot_view.rviz'])
     gui, prefix = LaunchConfiguration('gui'), LaunchConfiguration('prefix')
-    forwarded = ('scale', 'prefix', 'upper_body_only', 'use_sim_time')
+    forwarded = ('scale', 'prefix', 'upper_body_only', 'hands', 'use_sim_time')
     time = {'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)}
     return LaunchDescription(
         [
@@ -45,6 +45,12 @@ def generate_launch_description() -> LaunchDescription:
                 default_value='false',
                 choices=['true', 'false'],
                 description='Leave out the legs.',
+            ),
+            DeclareLaunchArgument(
+                'hands',
+                default_value='false',
+                choices=['true', 'false'],
+                description='Give the arms wrists and grippers.',
             ),
             DeclareLaunchArgument(
                 'use_sim_time',

@@ -368,13 +368,17 @@ BROKEN: dict[str, tuple[Break, str]] = {
 
 
 @pytest.mark.parametrize('scale', ['0.5', '0.65', '1.0', '1.3'])
-@pytest.mark.parametrize('more', [[], ['--upper-body-only', '--prefix', 'r1_']])
+@pytest.mark.parametrize('more', [[], ['--hands'], ['--upper-body-only', '--prefix', 'r1_']])
 def test_humanoid_is_sound(
     scale: str, more: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     """The humanoid passes every check in every size, whole or without legs."""
     assert main(['--scale', scale, *more]) == 0
-    which = "The upper body of the humanoid with the prefix 'r1_'" if more else 'The humanoid'
+    which = {
+        0: 'The humanoid',
+        1: 'The humanoid with hands',
+        3: "The upper body of the humanoid with the prefix 'r1_'",
+    }[len(more)]
     verdict = f'{which} at scale {float(scale):g} is sound: 18 checks passed.\n'
     assert capsys.readouterr().out.endswith(verdict)
 

@@ -19,21 +19,29 @@ def number(joint: ElementTree.Element, path: str, attribute: str) -> float:
 
 
 @pytest.mark.parametrize('upper_body_only', [False, True])
+@pytest.mark.parametrize('hands', [False, True])
 @pytest.mark.parametrize(('scale', 'prefix'), [(1.0, ''), (0.5, 'r1_'), (1.3, '')])
-def test_drives_are_those_of_the_model(scale: float, prefix: str, upper_body_only: bool) -> None:
+def test_drives_are_those_of_the_model(
+    scale: float, prefix: str, upper_body_only: bool, hands: bool
+) -> None:
     """Names, ranges, strengths and friction are the same in the URDF and in Python."""
-    robot = ElementTree.fromstring(humanoid_urdf(scale, prefix, upper_body_only))
-    drives = load_drives(scale, prefix, upper_body_only)
-    joints = {joint.attrib['name']: joint for joint in robot.findall("joint[@type='revolute']")}
+    robot = ElementTree.fromstring(humanoid_urdf(scale, prefix, upper_body_only, hands))
+    drives = load_drives(scale, prefix, upper_body_only, hands)
+    joints = {
+        joint.attrib['name']: joint
+        for joint in robot.findall('joint')
+        if joint.attrib['type'] != 'fixed' and joint.find('mimic') is None
+    }
     assert set(drives) == set(joints)
     for name, drive in drives.items():
         joint = joints[name]
-        assert number(joint, 'limit', 'lower') == drive.lower_rad
-        assert number(joint, 'limit', 'upper') == drive.upper_rad
-        assert number(joint, 'limit', 'effort') == pytest.approx(drive.effort_nm)
-        assert number(joint, 'limit', 'velocity') == pytest.approx(drive.velocity_rad_s)
-        assert number(joint, 'dynamics', 'damping') == pytest.approx(drive.damping_nms_rad)
-        assert number(joint, 'dynamics', 'friction') == pytest.approx(drive.friction_nm)
+        assert joint.attrib['type'] == drive.kind
+        assert number(joint, 'limit', 'lower') == drive.lower
+        assert number(joint, 'limit', 'upper') == drive.upper
+        assert number(joint, 'limit', 'effort') == pytest.approx(drive.effort)
+        assert number(joint, 'limit', 'velocity') == pytest.approx(drive.velocity)
+        assert number(joint, 'dynamics', 'damping') == pytest.approx(drive.damping)
+        assert number(joint, 'dynamics', 'friction') == pytest.approx(drive.friction)
 
 
 def test_gains() -> None:
@@ -41,14 +49,22 @@ def test_gains() -> None:
     drives = load_drives()
     for name in ('left_knee', 'right_knee'):
         drive = drives[name]
-        assert (drive.kp_nm_rad, drive.kd_nms_rad, drive.armature_kgm2) == (500.0, 15.0, 0.04)
+        assert (drive.kp, drive.kd, drive.armature) == (500.0, 15.0, 0.04)
 
 
 def test_mirrored_range() -> None:
     """A roll of the right side has the range of the left one the other way round."""
     drives = load_drives()
     left, right = drives['left_shoulder_roll'], drives['right_shoulder_roll']
-    assert (right.lower_rad, right.upper_rad) == (-left.upper_rad, -left.lower_rad)
+    assert (right.lower, right.upper) == (-left.upper, -left.lower)
+
+
+def test_a_gripper_of_another_size_grips_what_is_larger() -> None:
+    """The gap grows with the robot, and the force with the weight of what is held."""
+    small, large = (load_drives(scale, hands=True)['right_gripper'] for scale in (0.5, 1.0))
+    assert (large.lower, large.upper, large.effort) == (0.0, 0.05, 40.0)
+    assert small.upper == pytest.approx(0.025)
+    assert small.effort == pytest.approx(40.0 / 8.0)
 
 
 def test_scale_out_of_range() -> None:

@@ -9,6 +9,10 @@ from xml.etree import ElementTree
 
 from humanoid_description.errors import DescriptionError
 from humanoid_description.expansion import humanoid_urdf
+from humanoid_description.geometry import outline
+from humanoid_description.kinematics import poses
+from humanoid_description.loading import load_robot
+import numpy as np
 import pytest
 
 ARM = ('shoulder', 'shoulder_roll', 'shoulder_yaw', 'elbow')
@@ -78,6 +82,36 @@ def test_upper_body_only() -> None:
     robot = ElementTree.fromstring(humanoid_urdf(upper_body_only=True))
     assert set(names(robot, "joint[@type='revolute']")) == UPPER_BODY
     assert not {'left_thigh', 'l_sole', 'l_foot_contact'} & set(names(robot, 'link'))
+
+
+def test_hands() -> None:
+    """Each arm gets a wrist of two joints and a gripper, whose thumb follows the finger."""
+    robot = ElementTree.fromstring(humanoid_urdf(hands=True))
+    for side in ('left', 'right'):
+        assert {f'{side}_wrist_yaw', f'{side}_wrist_pitch'} <= set(
+            names(robot, "joint[@type='revolute']")
+        )
+        thumb = robot.find(f"joint[@name='{side}_gripper_thumb']/mimic")
+        assert thumb is not None
+        assert thumb.attrib == {'joint': f'{side}_gripper'}
+
+
+@pytest.mark.parametrize('gap_m', [0.0, 0.06, 0.1])
+def test_what_is_gripped_is_in_the_middle_of_the_hand(gap_m: float) -> None:
+    """The inner sides of finger and thumb are as far apart as the gap, about the gripper frame."""
+    robot = load_robot(humanoid_urdf(hands=True), 'the humanoid')
+    at = poses(robot, {'left_gripper': gap_m / 2, 'right_gripper': gap_m / 2})
+    for side, frame in (('left', 'l_gripper'), ('right', 'r_gripper')):
+        inverse = np.linalg.inv(at[frame])
+        edges_m = []
+        for part in ('finger', 'thumb'):
+            link = f'{side}_{part}'
+            corners = outline(robot.link[link].collisions, inverse @ at[link])
+            assert corners[:, 2].min() < -0.03 < 0.03 < corners[:, 2].max()
+            edges_m.append((corners[:, 1].min(), corners[:, 1].max()))
+        inner, outer = sorted(edges_m)
+        assert outer[0] - inner[1] == pytest.approx(gap_m, abs=1e-9)
+        assert outer[0] + inner[1] == pytest.approx(0.0, abs=1e-9)
 
 
 def test_prefix(robot: ElementTree.Element) -> None:

@@ -22,6 +22,7 @@ MODELS = {
     'humanoid': humanoid_urdf,
     'humanoid-0.5': lambda: humanoid_urdf(0.5),
     'humanoid-1.3': lambda: humanoid_urdf(1.3),
+    'hands': lambda: humanoid_urdf(hands=True),
     'upper body': lambda: humanoid_urdf(prefix='r1_', upper_body_only=True),
     'simple_arm': lambda: (
         Path(get_package_share_directory('robot_description')) / 'urdf' / 'simple_arm.urdf'
@@ -33,7 +34,7 @@ def in_yourdfpy(urdf: str, robot: Robot, angles: Angles) -> tuple[float, Poses]:
     """Return mass and poses as yourdfpy has them."""
     yourdfpy = pytest.importorskip('yourdfpy')
     model = yourdfpy.URDF.load(io.BytesIO(urdf.encode()), load_meshes=False)
-    model.update_cfg(angles)
+    model.update_cfg({name: angles[name] for name in model.actuated_joint_names})
     mass_kg = sum(link.inertial.mass for link in model.robot.links if link.inertial)
     return mass_kg, {name: model.get_transform(name, robot.roots[0]) for name in robot.link}
 
@@ -47,7 +48,7 @@ def in_mujoco(urdf: str, robot: Robot, angles: Angles) -> tuple[float, Poses]:
     model = spec.compile()
     data = mujoco.MjData(model)
     data.qpos[:7] = (0, 0, 0, 1, 0, 0, 0)
-    for name, angle in angles.items():
+    for name, angle in with_followers(robot, angles).items():
         data.joint(name).qpos = angle
     mujoco.mj_kinematics(model, data)
     found = {}
@@ -63,7 +64,7 @@ def in_pin(urdf: str, robot: Robot, angles: Angles) -> tuple[float, Poses]:
     pin = pytest.importorskip('pinocchio')
     model = pin.buildModelFromXML(urdf, pin.JointModelFreeFlyer())
     data, positions = model.createData(), pin.neutral(model)
-    for name, angle in angles.items():
+    for name, angle in with_followers(robot, angles).items():
         positions[model.joints[model.getJointId(name)].idx_q] = angle
     pin.framesForwardKinematics(model, data, positions)
     frames = {name: model.getFrameId(name, pin.FrameType.BODY) for name in robot.link}
@@ -77,7 +78,16 @@ def random_angles(robot: Robot) -> Angles:
     return {
         joint.name: float(generator.uniform(joint.limits.lower, joint.limits.upper))
         for joint in robot.joints
-        if joint.is_driven and joint.limits
+        if joint.is_driven and joint.limits and not joint.mimics
+    }
+
+
+def with_followers(robot: Robot, angles: Angles) -> Angles:
+    """Return the positions of all joints, also of those that mimic others."""
+    return angles | {
+        joint.name: joint.mimics.multiplier * angles[joint.mimics.joint] + joint.mimics.offset
+        for joint in robot.joints
+        if joint.mimics
     }
 
 

@@ -34,7 +34,7 @@ def swing(scale: float) -> np.ndarray[Any, Any]:
     data = mujoco.MjData(model)
     ordered = [drives[model.joint(index).name] for index in range(model.njnt)]
     kp, kd, effort, model.dof_armature[:] = np.array(
-        [(d.kp_nm_rad, d.kd_nms_rad, d.effort_nm, d.armature_kgm2) for d in ordered]
+        [(d.kp, d.kd, d.effort, d.armature) for d in ordered]
     ).T
     angles = []
     for step in range(STEPS):

@@ -46,7 +46,10 @@ def test_fixed_frame(view: dict[str, Any], robot: ElementTree.Element) -> None:
     assert view['Global Options']['Fixed Frame'] == robot.findall('link')[0].attrib['name']
 
 
-MODEL = {'scale': '1.0', 'prefix': '', 'upper_body_only': 'false', 'use_sim_time': 'false'}
+MODEL = {
+    'scale': '1.0', 'prefix': '', 'upper_body_only': 'false', 'hands': 'false',
+    'use_sim_time': 'false',
+}  # fmt: skip
 
 
 @pytest.mark.parametrize(

@@ -196,7 +196,7 @@ class RememberedThing:
     @property
     def map_covariance_m2(self) -> Array:
         """
-        The covariance (3, 3) of its position in the map.
+        Return the covariance (3, 3) of its position in the map.
 
         It also holds how exactly the robot knows where it is. All sightings have that error in
         common, so that more of them do not lessen it.

@@ -18,7 +18,7 @@ _FIRST_ROBOT = 8
 MOST_ROBOTS = 20
 _ALL_ROBOTS = ((1 << MOST_ROBOTS) - 1) << _FIRST_ROBOT
 
-_ARMS = ('upper_arm', 'forearm')
+_ARMS = ('upper_arm', 'forearm', 'palm', 'finger', 'thumb')
 _TRUNK = ('base_link', 'torso', 'head', 'left_thigh', 'right_thigh')
 _LEGS = ('thigh', 'shank', 'foot')
 

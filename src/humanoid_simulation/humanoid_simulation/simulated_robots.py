@@ -33,7 +33,7 @@ def simulated_robots(
 
     :param say: gets a sentence when a controller is at fault
     """
-    description = humanoid(parameters.scale, parameters.prefix)
+    description = humanoid(parameters.scale, parameters.prefix, parameters.hands)
     model = load_robot(description.urdf, 'the humanoid')
     imu = parameters.noise.imu(_settings(parameters).period_s)
     controls = {

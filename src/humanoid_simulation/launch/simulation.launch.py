@@ -23,6 +23,7 @@ def generate_launch_description() -> LaunchDescription:
             ('start_paused', bool),
             ('scale', float),
             ('prefix', str),
+            ('hands', bool),
         )
     }
     return LaunchDescription(
@@ -51,6 +52,12 @@ def generate_launch_description() -> LaunchDescription:
                 'prefix',
                 default_value='',
                 description='What the names of all links and joints begin with.',
+            ),
+            DeclareLaunchArgument(
+                'hands',
+                default_value='false',
+                choices=['true', 'false'],
+                description='Give the arms wrists and grippers.',
             ),
             Node(
                 package='humanoid_simulation',

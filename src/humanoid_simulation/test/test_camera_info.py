@@ -53,7 +53,7 @@ def optical_frame(backend: MujocoBackend) -> tuple[np.ndarray, np.ndarray]:
     description = humanoid()
     joints = tuple(description.drives)
     robot = load_robot(description.urdf, 'the humanoid')
-    armature = np.array([drive.armature_kgm2 for drive in description.drives.values()])
+    armature = np.array([drive.armature for drive in description.drives.values()])
     base, observed = backend.ground_truth(), backend.observe()['']
     state = BodyModel.of(robot, joints, armature).state(
         from_quaternion(base.orientation),

@@ -57,13 +57,13 @@ def test_joints_are_those_of_the_urdf_and_of_the_drives(description: RobotDescri
         limits = robot.joint[name].limits
         assert limits is not None
         assert tuple(joint.range) == pytest.approx((limits.lower, limits.upper))
-        assert tuple(servo.forcerange) == pytest.approx((-drive.effort_nm, drive.effort_nm))
-        assert limits.effort == drive.effort_nm
-        assert servo.gainprm[0] == drive.kp_nm_rad
-        assert servo.biasprm[2] == -drive.kd_nms_rad
-        assert joint.armature[0] == drive.armature_kgm2
-        assert joint.damping[0] == drive.damping_nms_rad
-        assert joint.frictionloss[0] == drive.friction_nm
+        assert tuple(servo.forcerange) == pytest.approx((-drive.effort, drive.effort))
+        assert limits.effort == drive.effort
+        assert servo.gainprm[0] == drive.kp
+        assert servo.biasprm[2] == -drive.kd
+        assert joint.armature[0] == drive.armature
+        assert joint.damping[0] == drive.damping
+        assert joint.frictionloss[0] == drive.friction
 
 
 def test_a_robot_with_a_prefix_is_simulated_as_well() -> None:

@@ -23,6 +23,8 @@ class Observation:
     """
     What the sensors of a robot with n joints say at a moment, in the order of its joints.
 
+    Of joints that slide, positions are in m, velocities in m/s and efforts in N.
+
     The orientation is that of `imu_link` in the world, a unit quaternion w, x, y, z; rates and
     acceleration (specific force: +g upwards at rest) are in `imu_link`. Feet are left, right:
     force and torque of the ground on the foot, about the sole and in its axes.
@@ -78,7 +80,7 @@ class ImuNoise:
 @dataclass(frozen=True, eq=False)
 class JointTargets:
     """
-    What the drives of n joints are to do; each array is (n,).
+    What the drives of n joints are to do; each array is (n,), in the units of `Observation`.
 
     A drive exerts kp (position - q) + kd (velocity - dq) + effort, within its limits, with the
     gains of the model. Until new targets come, it goes on towards them.

@@ -24,9 +24,7 @@ class ServoBank:
     def __init__(self, drives: Mapping[str, Drive], home_rad: Array) -> None:
         """Begin at rest at home, or at the end of the range that is next to it."""
         limits = JointLimits.of(drives, tuple(drives))
-        gains = [
-            (each.kp_nm_rad, each.kd_nms_rad, each.damping_nms_rad) for each in drives.values()
-        ]
+        gains = [(each.kp, each.kd, each.damping) for each in drives.values()]
         kp, kd, damping = np.array(gains).T
         self._limits = limits
         self._rate_1_s = kp / (kd + damping)

@@ -3,6 +3,13 @@
 
 from humanoid_control.controllers.commands import CommandError, JointNames, PartialTargets
 from humanoid_control.controllers.follower import Follower
+from humanoid_control.controllers.goal_controller import GoalController
+from humanoid_control.controllers.gripper_controller import (
+    Grip,
+    GripperController,
+    GripResult,
+    GripState,
+)
 from humanoid_control.controllers.hold import Hold
 from humanoid_control.controllers.interface import Controller, Guest
 from humanoid_control.controllers.joint_trajectory_controller import (
@@ -27,7 +34,12 @@ __all__ = [
     'ControllerManager',
     'ErrorCode',
     'Follower',
+    'GoalController',
     'GoalResult',
+    'Grip',
+    'GripResult',
+    'GripState',
+    'GripperController',
     'Guest',
     'Hold',
     'JointNames',

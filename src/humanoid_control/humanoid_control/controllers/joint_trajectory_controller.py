@@ -3,22 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
 from humanoid_control.backends import Array, JointTargets, Observation
-from humanoid_control.controllers.interface import Mask
+from humanoid_control.controllers.goal_controller import GoalController
 from humanoid_control.controllers.spline import Spline
 from humanoid_control.controllers.trajectory_goal import TrajectoryGoal
 from humanoid_control.controllers.trajectory_runner import spline_from
-import numpy as np
 
 REACHED = 'Goal reached.'
-PREEMPTED = 'A newer goal took its place.'
-CANCELED = 'Canceled: the joints are held where they were.'
-RESTARTED = 'The robot was reset, or its mode changed.'
-DEACTIVATED = 'The controller was deactivated.'
 
 
 class ErrorCode(IntEnum):
@@ -53,87 +48,23 @@ class Progress:
     actual_rad_s: Array
 
 
-Done = Callable[[GoalResult], None]
-
-
-class JointTrajectoryController:
+class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
     """
-    Runs one goal at a time on the joints that it claims.
+    Moves its joints along trajectories, and holds them in the last pose.
 
-    It claims them with its first goal and keeps them, held in the last pose, until it is
-    deactivated or the robot begins anew: what was reached stays. A new goal goes on from the
-    position and the velocity that the joints were told last.
+    A new goal goes on from the position and the velocity that the joints were told last.
     """
 
-    way_out = 'deactivate that controller (ros2 control switch_controllers --deactivate)'
+    kind = 'joint_trajectory_controller/JointTrajectoryController'
 
     def __init__(self, name: str, joints: Sequence[str], own: Sequence[str]) -> None:
-        """
-        Claim nothing yet.
-
-        Parameters
-        ----------
-        name
-            What users call the controller.
-        joints
-            All joints of the robot, in the order of its targets.
-        own
-            The joints that the controller moves, all at once.
-
-        """
-        self.name, self.joints, self.own = name, tuple(joints), tuple(own)
-        self.places = np.array([self.joints.index(joint) for joint in own], dtype=np.intp)
-        self.is_active = True
+        """Claim nothing yet; see `GoalController`."""
+        super().__init__(name, joints, own)
         self.progress: Progress | None = None
         """Of the goal that runs."""
-        self._mask = np.zeros(len(self.joints), dtype=np.bool_)
-        self._mask[self.places] = True
-        self._none = np.zeros_like(self._mask)
-        self._claims = self._starts = False
-        self._goal: TrajectoryGoal | None = None
-        self._done: Done = _nobody
         self._spline: Spline | None = None
         self._start_s = 0.0
         self._hold_rad: Array | None = None
-        rest = np.zeros(len(self.joints))
-        self._targets = JointTargets(rest, rest.copy(), rest.copy())
-
-    @property
-    def has_goal(self) -> bool:
-        """Whether a goal runs, or is to start with the next period."""
-        return self._goal is not None
-
-    @property
-    def waits(self) -> bool:
-        """Whether it is to be started, even if it has its joints already."""
-        return self._starts
-
-    def accept(self, goal: TrajectoryGoal, done: Done) -> None:
-        """Run a goal from the next period on, not the present one; `done` hears its end."""
-        self._end(GoalResult(ErrorCode.INVALID_GOAL, PREEMPTED))
-        self._goal, self._done = goal, done
-        self._claims = self._starts = True
-
-    def cancel_goal(self) -> None:
-        """End the goal as its client asks; hold the joints where they were told to be last."""
-        self._end(GoalResult(ErrorCode.SUCCESSFUL, CANCELED, is_canceled=True))
-
-    def abort(self, why: str) -> None:
-        """End the goal; hold the joints, as soon as they are there to be held."""
-        self._end(GoalResult(ErrorCode.INVALID_GOAL, why))
-
-    def release(self, why: str) -> None:
-        """End the goal, and give the joints back."""
-        self.abort(why)
-        self._claims = self._starts = False
-
-    def cancel(self) -> None:
-        """Begin anew: no goal, no joints."""
-        self.release(RESTARTED)
-
-    def wanted(self, now_s: float) -> Mask:
-        """Return its joints among all, (n,), once it has had a goal."""
-        return self._mask if self._claims else self._none
 
     def start(self, observation: Observation, held: JointTargets) -> None:
         """Begin from what the joints were told last: the goal, or to hold them there."""
@@ -183,14 +114,14 @@ class JointTrajectoryController:
         elif late_s > goal.goal_time_s:
             self._end(_goal_violated(fault, goal.goal_time_s), stays=True)
 
-    def _end(self, result: GoalResult, stays: bool = False) -> None:
-        """Say how the goal ended; unless the joints stay as they are told now, hold them."""
-        if self._goal is None:
-            return
-        done, self._done = self._done, _nobody
-        self._goal = self._spline = self.progress = self._hold_rad = None
-        self._starts = not stays
-        done(result)
+    def _ended(self, why: str, is_canceled: bool) -> GoalResult:
+        """Return the result of a goal that is ended from outside."""
+        code = ErrorCode.SUCCESSFUL if is_canceled else ErrorCode.INVALID_GOAL
+        return GoalResult(code, why, is_canceled)
+
+    def _forget(self) -> None:
+        """Drop the way of the goal that has ended."""
+        self._spline = self.progress = self._hold_rad = None
 
 
 def _path_violated(fault: str, time_s: float) -> GoalResult:
@@ -209,7 +140,3 @@ def _goal_violated(fault: str, goal_time_s: float) -> GoalResult:
         f'Goal tolerance violated {goal_time_s:g} s after the end of the trajectory: {fault}. '
         'The joints are held there.',
     )
-
-
-def _nobody(result: GoalResult) -> None:
-    """Tell nobody."""

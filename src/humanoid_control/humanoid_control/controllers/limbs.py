@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The controllers of arms and head."""
+"""The controllers of arms, head and grippers."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
+from humanoid_control.controllers.gripper_controller import GripperController
 from humanoid_control.controllers.joint_trajectory_controller import JointTrajectoryController
+from humanoid_control.limits import JointLimits
 
 LIMBS = {
     'left_arm_controller': ('left_shoulder', 'left_elbow', 'left_wrist'),
@@ -13,6 +15,30 @@ LIMBS = {
     'head_controller': ('head_',),
 }
 """What the names of the joints of a controller contain, after a prefix."""
+
+
+GRIPPERS = {'left_gripper_controller': 'left_gripper', 'right_gripper_controller': 'right_gripper'}
+"""What the name of the joint of a gripper ends with."""
+
+
+def gripper_controllers(
+    joints: Sequence[str], limits: JointLimits
+) -> tuple[GripperController, ...]:
+    """
+    Make the controllers of the grippers that a robot has.
+
+    Parameters
+    ----------
+    joints, limits
+        All joints of the robot, in the order of its targets, and what they can do.
+
+    """
+    return tuple(
+        GripperController(name, joints, joint, limits)
+        for name, end in GRIPPERS.items()
+        for joint in joints
+        if joint.endswith(end)
+    )
 
 
 def limb_controllers(joints: Sequence[str]) -> tuple[JointTrajectoryController, ...]:

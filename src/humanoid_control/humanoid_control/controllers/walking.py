@@ -23,7 +23,7 @@ class WalkingController:
     def __init__(self, walker: Walker) -> None:
         """Take the walker."""
         self.walker = walker
-        self.joints = tuple(walker.robot.body.joints)
+        self.joints = walker.robot.joints
 
     def start(self, observation: Observation, held: JointTargets) -> None:
         """Begin from where the feet are, without a velocity."""

@@ -112,7 +112,7 @@ def _check_joint(joint: Joint) -> None:
         )
     if joint.mimics is not None:
         raise DynamicsError(
-            f"{named(joint)} mimics '{joint.mimics}' and has no motion of its own. "
+            f"{named(joint)} mimics '{joint.mimics.joint}' and has no motion of its own. "
             'Leave it out, and it is taken as fixed at zero.'
         )
 

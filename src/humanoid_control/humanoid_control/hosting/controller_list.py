@@ -6,15 +6,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import Any
 
 from humanoid_common.naming import did_you_mean, shortened
-from humanoid_control.controllers import JointTrajectoryController
-from humanoid_control.controllers.joint_trajectory_controller import DEACTIVATED
+from humanoid_control.controllers import GoalController
+from humanoid_control.controllers.goal_controller import DEACTIVATED
 from humanoid_control.hosting.robot_control import RobotControl
 
 ACTIVE, INACTIVE = 'active', 'inactive'
-TRAJECTORY_TYPE = 'joint_trajectory_controller/JointTrajectoryController'
-"""The type of those that take goals, by the name that clients look for."""
 QUANTITIES = ('position', 'velocity', 'effort')
 """What a joint is told, and what it says."""
 
@@ -61,7 +60,7 @@ def controllers_of(control: RobotControl) -> list[ControllerInfo]:
     limbs = [
         ControllerInfo(
             name,
-            TRAJECTORY_TYPE,
+            controller.kind,
             controller.is_active and manager.is_lent(controller.places),
             manager.joints_of(name),
             controller.own,
@@ -81,7 +80,7 @@ def controllers_of(control: RobotControl) -> list[ControllerInfo]:
             (),
         )
         for guest in manager.guests
-        if not isinstance(guest, JointTrajectoryController)
+        if not isinstance(guest, GoalController)
     ]
     return limbs + modes + others
 
@@ -133,7 +132,7 @@ def switch(
     return all(any(not faults[name] for name in names) for names in lists), message
 
 
-def _set(controller: JointTrajectoryController, active: bool) -> None:
+def _set(controller: GoalController[Any, Any], active: bool) -> None:
     """Activate or deactivate a controller; one that is not active owns nothing."""
     if not active:
         controller.release(DEACTIVATED)

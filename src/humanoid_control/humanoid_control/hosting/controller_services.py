@@ -19,7 +19,6 @@ from humanoid_control.hosting.controller_list import (
     controllers_of,
     interfaces_of,
     switch,
-    TRAJECTORY_TYPE,
 )
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.hosting.topics.filling import topic
@@ -89,7 +88,7 @@ class ControllerServices:
         return response
 
     def _list_types(self, _: Any, response: Any) -> Any:
-        response.types = sorted({TRAJECTORY_TYPE, *(each.kind for each in self._controllers())})
+        response.types = sorted({each.kind for each in self._controllers()})
         response.base_classes = [BASE_CLASS] * len(response.types)
         return response
 

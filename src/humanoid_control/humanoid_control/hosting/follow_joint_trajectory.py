@@ -19,43 +19,17 @@ from humanoid_control.controllers import (
     TrajectoryRequest,
 )
 from humanoid_control.hosting.conversions import points_of, seconds
-from humanoid_control.hosting.every import Every
+from humanoid_control.hosting.goal_server import GoalServer
 from humanoid_control.hosting.refusals import Refusals
 from humanoid_control.hosting.robot_control import RobotControl
-from humanoid_control.hosting.topics.filling import fill_stamp, topic
-from rclpy.action import ActionServer, CancelResponse, GoalResponse
+from humanoid_control.hosting.topics.filling import fill_stamp
 from rclpy.action.server import ServerGoalHandle
 from rclpy.node import Node
-from rclpy.task import Future
 from trajectory_msgs.msg import JointTrajectoryPoint
 
-ACTION = 'follow_joint_trajectory'
-FEEDBACK_RATE_HZ = 20.0
 
-
-class FollowJointTrajectoryServers:
-    """Offers `follow_joint_trajectory` below the name of each controller of a robot."""
-
-    def __init__(self, node: Node, robot: str, control: RobotControl) -> None:
-        """Offer the actions of a robot that has a name, or is alone."""
-        refusals = Refusals(node.get_logger().warning)
-        self._servers = [
-            _Server(node, topic(robot, f'{name}/{ACTION}'), control, controller, refusals)
-            for name, controller in control.controllers.items()
-        ]
-        self._due = Every(FEEDBACK_RATE_HZ)
-
-    def tell(self, time_s: float) -> None:
-        """Take note of the robot's time; publish how goals go, if it is time."""
-        is_due = self._due.is_due(time_s)
-        for server in self._servers:
-            server.time_s = time_s
-            if is_due:
-                server.publish_feedback()
-
-
-class _Server:
-    """The action of one controller."""
+class FollowJointTrajectoryServer(GoalServer[TrajectoryGoal, GoalResult]):
+    """The action of one controller; see `GoalServer`."""
 
     def __init__(
         self,
@@ -65,27 +39,12 @@ class _Server:
         controller: JointTrajectoryController,
         refusals: Refusals,
     ) -> None:
-        self._node, self._name = node, name
+        super().__init__(node, FollowJointTrajectory, name, controller, refusals)
         self._control, self._controller = control, controller
-        self._refusals = refusals
-        self._checked: TrajectoryGoal | None = None
-        self._current: ServerGoalHandle | None = None
-        self._ends: dict[bytes, Future] = {}
-        self.time_s = 0.0
-        """The robot's time."""
-        self._server = ActionServer(
-            node,
-            FollowJointTrajectory,
-            name,
-            self._execute,
-            goal_callback=self._check,
-            handle_accepted_callback=self._start,
-            cancel_callback=self._cancel,
-        )
 
     def publish_feedback(self) -> None:
         """Say where the joints should be and are, if a goal runs."""
-        progress, goal = self._controller.progress, self._current
+        progress, goal = self._controller.progress, self.current
         if progress is None or goal is None:
             return
         feedback = FollowJointTrajectory.Feedback(joint_names=self._controller.own)
@@ -97,48 +56,23 @@ class _Server:
         feedback.error = _point(progress.time_s, desired - actual, desired_speed - actual_speed)
         goal.publish_feedback(feedback)
 
-    def _check(self, goal: FollowJointTrajectory.Goal) -> GoalResponse:
-        """Accept a goal that can be done; say why another is rejected."""
-        try:
-            request = _request(goal, self.time_s)
-            self._checked = self._control.checked_goal(self._controller.name, request)
-        except CommandError as error:
-            self._refusals.add(f"Rejected a goal of '{self._name}'. {error}")
-            return GoalResponse.REJECT
-        return GoalResponse.ACCEPT
+    def checked(self, goal: FollowJointTrajectory.Goal) -> TrajectoryGoal:
+        """Return what a goal asks of the controller, or raise CommandError."""
+        request = _request(goal, self.time_s)
+        return self._control.checked_goal(self._controller.name, request)
 
-    def _start(self, handle: ServerGoalHandle) -> None:
-        """Give the goal that was just checked to the controller."""
-        if self._checked is None:
-            raise RuntimeError('A goal was accepted that was not checked.')
-        end = self._ends[bytes(handle.goal_id.uuid)] = Future(executor=self._node.executor)
-        self._controller.accept(self._checked, end.set_result)
-        self._checked, self._current = None, handle
-        handle.execute()
-
-    async def _execute(self, handle: ServerGoalHandle) -> Any:
-        """Wait for the end of a goal, and say how it ended."""
-        goal_id = bytes(handle.goal_id.uuid)
-        end: GoalResult = await self._ends[goal_id]
-        del self._ends[goal_id]
-        if self._current is handle:
-            self._current = None
+    def finished(self, handle: ServerGoalHandle, end: GoalResult) -> tuple[Any, str]:
+        """Set how a goal ended; return its result, and a sentence if that is a failure."""
+        trouble = ''
         if end.is_canceled:
             handle.canceled()
         elif end.code:
             handle.abort()
-            self._node.get_logger().warning(f"Aborted a goal of '{self._name}'. {end.message}")
+            trouble = end.message
         else:
             handle.succeed()
-        return FollowJointTrajectory.Result(error_code=int(end.code), error_string=end.message)
-
-    def _cancel(self, handle: ServerGoalHandle) -> CancelResponse:
-        """End a goal as its client asks, unless it has ended meanwhile."""
-        end = self._ends.get(bytes(handle.goal_id.uuid))
-        if end is None or end.done():
-            return CancelResponse.REJECT
-        self._controller.cancel_goal()
-        return CancelResponse.ACCEPT
+        result = FollowJointTrajectory.Result(error_code=int(end.code), error_string=end.message)
+        return result, trouble
 
 
 def _request(goal: FollowJointTrajectory.Goal, now_s: float) -> TrajectoryRequest:

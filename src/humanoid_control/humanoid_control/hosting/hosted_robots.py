@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from humanoid_control.backends import Observation
+from humanoid_control.hosting.controller_actions import ControllerActions
 from humanoid_control.hosting.controller_services import ControllerServices
 from humanoid_control.hosting.fall_report import FallReport
-from humanoid_control.hosting.follow_joint_trajectory import FollowJointTrajectoryServers
 from humanoid_control.hosting.obstacle_report import ObstacleReport
 from humanoid_control.hosting.parameters import HostParameters
 from humanoid_control.hosting.robot_inputs import RobotInputs
@@ -55,8 +55,7 @@ class HostedRobots:
             name: RobotOutputs(node, name, robot, parameters) for name, robot in robots.items()
         }
         self._actions = {
-            name: FollowJointTrajectoryServers(node, name, robot.control)
-            for name, robot in robots.items()
+            name: ControllerActions(node, name, robot.control) for name, robot in robots.items()
         }
         rate_hz, prefix = parameters.control_rate_hz, parameters.prefix
         self._services = [

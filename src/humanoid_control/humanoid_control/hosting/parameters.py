@@ -28,6 +28,9 @@ class HostParameters:
     prefix: str = parameter(
         '', 'What the names of all links and joints begin with, as in the model.', read_only=True
     )
+    hands: bool = parameter(
+        False, 'Whether the arms have wrists and grippers, as in the model.', read_only=True
+    )
     control_rate_hz: float = parameter(
         100.0,
         'How often the controllers decide in a second of the robot.',

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.controllers import (
@@ -12,6 +13,8 @@ from humanoid_control.controllers import (
     CommandError,
     ControllerManager,
     Follower,
+    GoalController,
+    Grip,
     Guest,
     JointNames,
     Mode,
@@ -20,7 +23,7 @@ from humanoid_control.controllers import (
     TrajectoryRequest,
     TrajectoryRunner,
 )
-from humanoid_control.controllers.limbs import limb_controllers
+from humanoid_control.controllers.limbs import gripper_controllers, limb_controllers
 from humanoid_control.controllers.silence import Clock
 from humanoid_control.controllers.still import Still
 from humanoid_control.hosting.velocity_input import VelocityInput
@@ -55,8 +58,16 @@ class RobotControl:
         self._runner = TrajectoryRunner(joints)
         self._follower = Follower(joints, clock=clock)
         self._velocity = VelocityInput(clock=clock)
-        self.controllers = {each.name: each for each in limb_controllers(joints)}
-        """Those that take goals, by their names."""
+        self.trajectory_controllers = {each.name: each for each in limb_controllers(joints)}
+        """Those of arms and head, by their names."""
+        self.gripper_controllers = {
+            each.name: each for each in gripper_controllers(joints, limits)
+        }
+        self.controllers: Mapping[str, GoalController[Any, Any]] = {
+            **self.trajectory_controllers,
+            **self.gripper_controllers,
+        }
+        """All that take goals, by their names."""
         limbs = self.controllers.values()
         guests: list[Guest] = [self.still, *limbs, self._runner, self._follower]
         self.manager = ControllerManager(joints, modes, guests, limits, say)
@@ -88,17 +99,28 @@ class RobotControl:
 
     def checked_goal(self, controller: str, request: TrajectoryRequest) -> TrajectoryGoal:
         """Return a goal that a controller can be given now, or raise CommandError."""
-        wanted = self.controllers[controller]
+        wanted = self.trajectory_controllers[controller]
         goal = checked_goal(controller, wanted.own, self._names, self._limits, request)
-        if not wanted.is_active:
+        self._check_free(wanted)
+        return goal
+
+    def checked_grip(self, controller: str, gap_m: float, most_n: float) -> Grip:
+        """Return a grip that the controller of a gripper can be given now, or CommandError."""
+        wanted = self.gripper_controllers[controller]
+        grip = wanted.checked(gap_m, most_n)
+        self._check_free(wanted)
+        return grip
+
+    def _check_free(self, controller: GoalController[Any, Any]) -> None:
+        """Refuse a goal of a controller that cannot have its joints now."""
+        if not controller.is_active:
             raise CommandError(
-                f"'{controller}' is inactive. Activate it: ros2 control switch_controllers "
-                f'--activate {controller}'
+                f"'{controller.name}' is inactive. Activate it: ros2 control switch_controllers "
+                f'--activate {controller.name}'
             )
         if self.must_hold:
             raise CommandError(HELD)
-        self.manager.check(wanted, goal.trajectory.places)
-        return goal
+        self.manager.check(controller, controller.places)
 
     def walk(self, velocity: VelocityCommand) -> None:
         """Walk at a velocity until the timeout, or raise CommandError."""

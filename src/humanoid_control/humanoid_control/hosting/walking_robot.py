@@ -29,7 +29,8 @@ class WalkingRobotControl:
     @property
     def home_rad(self) -> dict[str, float]:
         """Return the posture in which the robot stands, ready to walk."""
-        return dict(zip(self.control.manager.joints, self.walker.home.positions_rad.tolist()))
+        home_rad = self.walker.robot.spread(self.walker.home.positions_rad)
+        return dict(zip(self.walker.robot.joints, home_rad.tolist()))
 
     @classmethod
     def of(

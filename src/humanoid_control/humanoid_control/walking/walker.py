@@ -115,15 +115,16 @@ class Walker:
         last_s = self._walk.sensed.time_s if self._walk else None
         if self._targets and last_s is not None and observation.time_s <= last_s:
             return self._targets
-        sensed = self._senses.read(observation)
+        own = self.robot.own(observation)
+        sensed = self._senses.read(own)
         walk = self._walk or self._begin(sensed)
-        targets = self._recover(walk, sensed, observation.positions_rad)
+        targets = self._recover(walk, sensed, own.positions_rad)
         if targets is None:
             walk = self._walk or self._begin(sensed)
             targets = walk.update(sensed)
         self._uncertainty.update(self._pose(walk), sensed.time_s)
-        self._targets = targets
-        return targets
+        self._targets = self.robot.whole(targets)
+        return self._targets
 
     @property
     def has_fallen(self) -> bool:

@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from humanoid_control.backends import JointTargets, Observation
 from humanoid_control.dynamics import BodyModel, JointGroup
 from humanoid_control.dynamics.leg_geometry import LegGeometry
 from humanoid_control.walking.errors import WalkingError
@@ -17,6 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+HAND_JOINTS = ('wrist', 'gripper')
+"""A joint whose name contains one of these does not count for walking."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,13 +48,22 @@ class Leg:
 
 @dataclass(frozen=True, eq=False)
 class WalkingRobot:
-    """A robot with two legs, as arrays in the order of its joints."""
+    """
+    A robot with two legs, as arrays in the order of the n joints that count for walking.
+
+    Wrists and grippers do not: they weigh, but the walk takes them as fixed at zero. `own` and
+    `whole` go from the arrays of all joints to those of the walk, and back.
+    """
 
     body: BodyModel
     prefix: str
     legs: tuple[Leg, Leg]
     imu_in_base: Array
     """(3, 3)"""
+    joints: tuple[str, ...]
+    """The names of all driven joints, in the order of observations and targets."""
+    places: NDArray[np.intp]
+    """(n,) where those of the walk are among them."""
 
     @classmethod
     def of(cls, robot: Robot, drives: Mapping[str, Drive], joints: Sequence[str]) -> WalkingRobot:
@@ -67,10 +79,50 @@ class WalkingRobot:
             raise WalkingError(
                 f'There is no drive for {", ".join(undriven)}: config/joints.yaml lacks it.'
             )
-        body = BodyModel.of(robot, joints, [drives[joint].armature_kgm2 for joint in joints])
+        own = [joint for joint in joints if not any(part in joint for part in HAND_JOINTS)]
+        body = BodyModel.of(robot, own, [drives[joint].armature for joint in own])
         legs = (Leg.of(robot, body, LEFT), Leg.of(robot, body, RIGHT))
         imu = pose_along(chain(robot, robot.prefix + 'imu_link'), {})
-        return cls(body, robot.prefix, legs, imu[:3, :3])
+        places = np.array([joints.index(joint) for joint in own], dtype=np.intp)
+        return cls(body, robot.prefix, legs, imu[:3, :3], tuple(joints), places)
+
+    def own(self, observation: Observation) -> Observation:
+        """
+        Return what the sensors say of the joints that count for walking.
+
+        :raises WalkingError: if the observation is not one of all joints
+        """
+        whole, count = len(self.joints), len(self.places)
+        for name in ('positions_rad', 'velocities_rad_s', 'efforts_nm'):
+            shape = getattr(observation, name).shape
+            if shape != (whole,):
+                raise WalkingError(
+                    f'{name} has the shape {shape}, but the robot has {whole} joints.'
+                )
+        if count == whole:
+            return observation
+        return replace(
+            observation,
+            positions_rad=observation.positions_rad[self.places],
+            velocities_rad_s=observation.velocities_rad_s[self.places],
+            efforts_nm=observation.efforts_nm[self.places],
+        )
+
+    def whole(self, targets: JointTargets) -> JointTargets:
+        """Return targets of all joints; those that do not count for walking go to zero."""
+        if len(self.places) == len(self.joints):
+            return targets
+        return JointTargets(
+            self.spread(targets.positions_rad),
+            self.spread(targets.velocities_rad_s),
+            self.spread(targets.efforts_nm),
+        )
+
+    def spread(self, values: Array) -> Array:
+        """Return values (n,) among those of all joints; the others are zero."""
+        spread = np.zeros(len(self.joints))
+        spread[self.places] = values
+        return spread
 
     def index(self, joint: str) -> int:
         """Return the place of a joint, named without the prefix, among all."""

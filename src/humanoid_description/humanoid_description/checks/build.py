@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from humanoid_description.geometry import outline
 from humanoid_description.kinematics import chain, poses
@@ -18,6 +18,7 @@ BODY_FRAMES = ('base_link', 'torso', 'gaze', 'l_wrist', 'r_wrist', 'l_gripper', 
 # How even a sole is, as a part of the feet's extent.
 LEVEL = 1e-3
 LEG_JOINTS = ('hip', 'knee', 'ankle')
+HAND_JOINTS = ('wrist_yaw', 'wrist_pitch', 'gripper')
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,8 @@ class Build:
 
 WHOLE = Build(1.35, 42.8, BODY_FRAMES + LEG_FRAMES, SOLES)
 UPPER_BODY = Build(0.68, 26.2, BODY_FRAMES, ('base_link',))
+HANDS_KG = 0.5
+"""What two hands weigh more than the stumps without them."""
 
 
 def has_legs(robot: Robot) -> bool:
@@ -40,9 +43,16 @@ def has_legs(robot: Robot) -> bool:
     return any(part in name for name in names for part in LEG_JOINTS)
 
 
+def has_hands(robot: Robot) -> bool:
+    """Tell whether there is any part of a hand."""
+    driven = [joint.name for joint in robot.joints if joint.is_driven]
+    return any(part in name for name in driven for part in HAND_JOINTS)
+
+
 def build_of(robot: Robot) -> Build:
     """Return what a robot should be."""
-    return WHOLE if has_legs(robot) else UPPER_BODY
+    build = WHOLE if has_legs(robot) else UPPER_BODY
+    return replace(build, mass_kg=build.mass_kg + HANDS_KG) if has_hands(robot) else build
 
 
 def ground_contact(robot: Robot) -> Array:

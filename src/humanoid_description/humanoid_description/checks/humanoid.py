@@ -6,7 +6,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from humanoid_common.naming import did_you_mean
-from humanoid_description.checks.build import build_of, ground_contact, has_legs, height_m
+from humanoid_description.checks.build import (
+    build_of,
+    ground_contact,
+    has_hands,
+    has_legs,
+    height_m,
+)
 from humanoid_description.checks.mirror import look_at_mirror
 from humanoid_description.checks.outcome import Check
 from humanoid_description.checks.reach import look_at_reach
@@ -33,7 +39,9 @@ def look_at_frames(robot: Robot) -> tuple[str, Iterable[str]]:
 
 def look_at_driven_joints(robot: Robot) -> tuple[str, Iterable[str]]:
     """Find the joints that joints.yaml drives."""
-    wanted = load_drives(prefix=robot.prefix, upper_body_only=not has_legs(robot))
+    wanted = load_drives(
+        prefix=robot.prefix, upper_body_only=not has_legs(robot), hands=has_hands(robot)
+    )
     driven = {joint.name for joint in robot.joints if joint.is_driven}
     missing = [name for name in wanted if name not in driven]
     return f'{len(wanted) - len(missing)} of {len(wanted)}', [

@@ -65,7 +65,7 @@ def _shown(value: float | None) -> str:
 
 def look_at_mimics(robot: Robot) -> tuple[str, Iterable[str]]:
     """Find joints that follow what does not move, or each other."""
-    mimics = {joint.name: joint.mimics for joint in robot.joints if joint.mimics}
+    mimics = {joint.name: joint.mimics.joint for joint in robot.joints if joint.mimics}
     defects = [d for name, leader in mimics.items() for d in _wrong_leader(robot, name, leader)]
     return count(len(mimics), 'follower'), [*defects, *_circles(robot, mimics)]
 

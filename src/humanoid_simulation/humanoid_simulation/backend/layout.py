@@ -26,6 +26,11 @@ class Layout:
     positions: Indices
     velocities: Indices
     servos: Indices
+    followers: Indices
+    """The positions of joints that mimic others."""
+    followed: Indices
+    """The positions of these."""
+    follower_velocities: Indices
     acceleration: slice
     base: int
     feet: tuple[int, int]
@@ -50,11 +55,27 @@ def layout_of(model: Any, description: RobotDescription, robot: str) -> Layout:
         np.array([model.joint(name).qposadr[0] for name in names], dtype=np.intp),
         np.array([model.joint(name).dofadr[0] for name in names], dtype=np.intp),
         np.array([model.actuator(name).id for name in names], dtype=np.intp),
+        *_mimicking(model, description, robot),
         slice(sensor, sensor + 3),
         base,
         (body(left), body(right)),
         (body(left_sole), body(right_sole)),
         _mount(model, body(description.imu), base),
+    )
+
+
+def _mimicking(
+    model: Any, description: RobotDescription, robot: str
+) -> tuple[Indices, Indices, Indices]:
+    """Return the positions of thumbs, those of the fingers that they mirror, and velocities."""
+    hands = [in_world(robot, f'{description.prefix}{side}') for side in description.hands]
+    thumbs, fingers = (
+        [model.joint(hand + name) for hand in hands] for name in ('_gripper_thumb', '_gripper')
+    )
+    return (
+        np.array([thumb.qposadr[0] for thumb in thumbs], dtype=np.intp),
+        np.array([finger.qposadr[0] for finger in fingers], dtype=np.intp),
+        np.array([thumb.dofadr[0] for thumb in thumbs], dtype=np.intp),
     )
 
 

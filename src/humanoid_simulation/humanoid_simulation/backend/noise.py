@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 import math
 
@@ -86,16 +87,27 @@ REALISTIC = SensorNoise(
 ATTITUDE_FILTER_S = 1.0
 """Time constant with which the attitude filter of the sensor follows the accelerometers."""
 GRAVITY_M_S2 = 9.81
+_PINION_M = 0.04
+"""A joint that slides is measured by an encoder, on a pinion of this radius."""
 
 
 class NoiseSource:
     """Draws the errors of the measurements of a robot with n joints."""
 
-    def __init__(self, noise: SensorNoise, joints: int, random: np.random.Generator) -> None:
-        """Draw the biases, which last."""
+    def __init__(
+        self,
+        noise: SensorNoise,
+        joints: int,
+        random: np.random.Generator,
+        slides: Sequence[bool] = (),
+    ) -> None:
+        """Draw the biases, which last; `slides` says which joints are measured in m."""
         self._random = random
         self._channels = channels_of(joints)
         self._deviations = _deviations(noise, self._channels)
+        for place in np.flatnonzero(slides):
+            for channel in (self._channels.positions, self._channels.velocities):
+                self._deviations[channel][place] *= _PINION_M
         self._biases = _biases(noise, self._channels, random)
         self._tilt_rad = noise.tilt_rad
         self._attitude = AttitudeError(self._biases[self._channels.acceleration])

@@ -28,6 +28,7 @@ def pose(
 ) -> None:
     """Set the position of a robot's base and of its joints (n,)."""
     data.qpos[layout.positions] = positions_rad
+    data.qpos[layout.followers] = data.qpos[layout.followed]
     data.qpos[layout.floating.orientation] = from_rpy(
         keyframe.roll_rad, keyframe.pitch_rad, place.yaw_rad
     )

@@ -7,6 +7,7 @@ from collections import deque
 from typing import Any
 
 from humanoid_control.backends import Array, JointTargets, Observation
+from humanoid_description.drives import PRISMATIC
 from humanoid_simulation.backend.layout import layout_of
 from humanoid_simulation.backend.noise import NoiseSource
 from humanoid_simulation.backend.posing import pose
@@ -35,7 +36,8 @@ class SimulatedRobot:
         self._joints, self._prefix = tuple(description.drives), description.prefix
         drives = description.drives.values()
         self._servos = Servos(drives, settings.period_s, settings.extrapolation_s)
-        self._noise = NoiseSource(settings.noise, len(self._joints), random)
+        slides = [drive.kind == PRISMATIC for drive in drives]
+        self._noise = NoiseSource(settings.noise, len(self._joints), random, slides)
         self._measured: deque[Observation] = deque(maxlen=settings.latency_periods + 1)
         self.enter(model, data)
 
@@ -72,7 +74,7 @@ class SimulatedRobot:
         layout, data = self._layout, self._data
         pose(self._model, data, layout, self._place, keyframe, positions_rad)
         data.qvel[layout.floating.linear] = data.qvel[layout.floating.angular] = 0.0
-        data.qvel[layout.velocities] = 0.0
+        data.qvel[layout.velocities] = data.qvel[layout.follower_velocities] = 0.0
         self._servos.reset(positions_rad)
         data.ctrl[layout.servos] = self._servos.inputs
 

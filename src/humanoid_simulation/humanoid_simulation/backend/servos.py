@@ -23,12 +23,12 @@ class Servos:
     def __init__(self, drives: Iterable[Drive], period_s: float, extrapolation_s: float) -> None:
         """Take the limits of the drives; for so long a target that is not renewed moves on."""
         drives = tuple(drives)
-        self._lower = np.array([drive.lower_rad for drive in drives])
-        self._upper = np.array([drive.upper_rad for drive in drives])
-        self._speed = np.array([drive.velocity_rad_s for drive in drives])
-        self._effort = np.array([drive.effort_nm for drive in drives])
-        self._damping_per_stiffness = np.array([d.kd_nms_rad / d.kp_nm_rad for d in drives])
-        self._compliance = np.array([1.0 / drive.kp_nm_rad for drive in drives])
+        self._lower = np.array([drive.lower for drive in drives])
+        self._upper = np.array([drive.upper for drive in drives])
+        self._speed = np.array([drive.velocity for drive in drives])
+        self._effort = np.array([drive.effort for drive in drives])
+        self._damping_per_stiffness = np.array([d.kd / d.kp for d in drives])
+        self._compliance = np.array([1.0 / drive.kp for drive in drives])
         self._period_s = period_s
         self._extrapolation_s = extrapolation_s
         self.reset(np.zeros(len(drives)))

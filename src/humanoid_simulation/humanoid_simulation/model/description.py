@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from humanoid_description.drives import Drive, load_drives
+from humanoid_description.drives import Drive, load_drives, SIDES
 from humanoid_description.expansion import humanoid_urdf
 
 
@@ -17,6 +17,11 @@ class RobotDescription:
     urdf: str
     drives: Mapping[str, Drive]
     prefix: str = ''
+
+    @property
+    def hands(self) -> tuple[str, ...]:
+        """Return the sides on which it has hands."""
+        return tuple(side for side in SIDES if f'{self.prefix}{side}_gripper' in self.drives)
 
     @property
     def base(self) -> str:
@@ -44,6 +49,8 @@ class RobotDescription:
         return f'{self.prefix}camera_optical_frame'
 
 
-def humanoid(scale: float = 1.0, prefix: str = '') -> RobotDescription:
-    """Return the humanoid, at a scale."""
-    return RobotDescription(humanoid_urdf(scale, prefix), load_drives(scale, prefix), prefix)
+def humanoid(scale: float = 1.0, prefix: str = '', hands: bool = False) -> RobotDescription:
+    """Return the humanoid, at a scale, with wrists and grippers if it has hands."""
+    return RobotDescription(
+        humanoid_urdf(scale, prefix, hands=hands), load_drives(scale, prefix, hands=hands), prefix
+    )

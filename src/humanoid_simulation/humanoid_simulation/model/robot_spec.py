@@ -19,6 +19,11 @@ CAMERA = 'head_camera'
 FLOATING_BASE = 'floating_base'
 FIELD_OF_VIEW_DEG = 60.0
 
+_GEAR = (0.004, 1.0)
+"""Time constant (s) and damping of the constraint between finger and thumb."""
+_PAD_FRICTION = (1.2, 0.02, 0.001)
+"""Of rubber on what it holds: sliding, and, in m, turning about the contact and rolling."""
+
 # ROS: z forward and y down; MuJoCo: z backward and y up.
 _FROM_OPTICAL_FRAME = (0.0, 1.0, 0.0, 0.0)
 
@@ -29,6 +34,8 @@ def robot_spec(description: RobotDescription, number: int, physics: Physics) -> 
     _body(spec, description.base).add_freejoint(name=FLOATING_BASE)
     for name, drive in description.drives.items():
         _add_drive(spec, name, drive)
+    for side in description.hands:
+        _add_hand(spec, description.prefix + side)
     _set_collisions(spec, description.prefix, number, physics.self_collision)
     _add_accelerometer(spec, description.imu)
     _body(spec, description.camera).add_camera(
@@ -50,11 +57,37 @@ def _add_drive(spec: Any, name: str, drive: Drive) -> None:
     The range of its input is left open: feed-forward may lead it beyond that of the joint.
     """
     joint = named('joint', name, {joint.name: joint for joint in spec.joints})
-    joint.armature = drive.armature_kgm2
+    joint.armature = drive.armature
     servo = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
-    servo.set_to_position(kp=drive.kp_nm_rad, kv=drive.kd_nms_rad)
+    servo.set_to_position(kp=drive.kp, kv=drive.kd)
     servo.forcelimited = True
-    servo.forcerange = (-drive.effort_nm, drive.effort_nm)
+    servo.forcerange = (-drive.effort, drive.effort)
+
+
+def _add_hand(spec: Any, side: str) -> None:
+    """
+    Let the thumb follow the finger, as a gear between them does, and give both soft pads.
+
+    The forearm ends where the wrist bends, and the fingers meet where the hand closes: what is
+    built so does not collide.
+    """
+    finger, thumb = (_body(spec, f'{side}_{part}') for part in ('finger', 'thumb'))
+    follower = named('joint', f'{side}_gripper_thumb', {each.name: each for each in spec.joints})
+    gear = spec.add_equality(
+        name=follower.name,
+        type=mujoco.mjtEq.mjEQ_JOINT,
+        objtype=mujoco.mjtObj.mjOBJ_JOINT,
+        name1=follower.name,
+        name2=f'{side}_gripper',
+        solref=_GEAR,
+    )
+    # The coefficients of a polynomial: the follower is where the other one is.
+    gear.data[:2] = 0.0, 1.0
+    for pad in (finger, thumb):
+        for geom in filter(is_collision, pad.geoms):
+            geom.friction, geom.condim, geom.priority = _PAD_FRICTION, 6, 1
+    for one, other in (('finger', 'thumb'), ('forearm', 'palm')):
+        spec.add_exclude(bodyname1=f'{side}_{one}', bodyname2=f'{side}_{other}')
 
 
 def _set_collisions(spec: Any, prefix: str, number: int, self_collision: str) -> None:

@@ -19,6 +19,11 @@ import mujoco
 ALONE = 'robot'
 """What a robot without a name is called among the things of the world."""
 
+_GRIP_IMPRATIO = 50.0
+"""
+How much stiffer friction is than the normal force, if there are hands. What they hold creeps out
+of them by 0.4 mm/s with 10, by 0.1 with 50; 50 costs 4 % more than 10.
+"""
 _REST_M_S = 1e-3
 """How slow all that touches each other must be before it sleeps."""
 
@@ -40,6 +45,8 @@ def build_world(
     if len(placements) > MOST_ROBOTS:
         raise SimulationError(f'A world has room for {MOST_ROBOTS} robots, not {len(placements)}.')
     world = _empty_world(physics)
+    if description.hands:
+        world.option.impratio = _GRIP_IMPRATIO
     add_scene(world, scene)
     if scene.objects and physics.sleep:
         world.option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)

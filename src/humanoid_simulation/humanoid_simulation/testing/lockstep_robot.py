@@ -31,9 +31,22 @@ class LockstepRobot:
         settings: BackendSettings = BackendSettings(),
         scene: Scene = Scene(),
         misses: Callable[[], bool] = never,
+        hands: bool = False,
     ) -> None:
-        """Put the robot into a scene; `misses` tells at each tick whether control misses it."""
-        description = humanoid()
+        """
+        Put the robot into a scene.
+
+        Parameters
+        ----------
+        settings, scene
+            How the world is computed, and what is in it.
+        misses
+            Tells at each tick whether control misses it.
+        hands
+            Whether the robot has wrists and grippers.
+
+        """
+        description = humanoid(hands=hands)
         self.backend = MujocoBackend(description, scene, settings=settings)
         robot = load_robot(description.urdf, 'the humanoid')
         self.walking = WalkingRobotControl.of(

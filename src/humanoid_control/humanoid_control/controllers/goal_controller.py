@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What controllers have in common that are given goals, and keep their joints behind them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from typing import ClassVar, Generic, TypeVar
+
+from humanoid_control.backends import JointTargets, Observation
+from humanoid_control.controllers.interface import Mask
+import numpy as np
+
+PREEMPTED = 'A newer goal took its place.'
+CANCELED = 'Canceled: the joints are held where they were.'
+RESTARTED = 'The robot was reset, or its mode changed.'
+DEACTIVATED = 'The controller was deactivated.'
+
+GoalT = TypeVar('GoalT')
+ResultT = TypeVar('ResultT')
+
+
+class GoalController(ABC, Generic[GoalT, ResultT]):
+    """
+    Runs one goal at a time on the joints that it claims.
+
+    It claims them with its first goal and keeps them until it is deactivated or the robot begins
+    anew: what was reached stays.
+    """
+
+    way_out = 'deactivate that controller (ros2 control switch_controllers --deactivate)'
+    kind: ClassVar[str]
+    """Its type, by the name that clients look for."""
+
+    def __init__(self, name: str, joints: Sequence[str], own: Sequence[str]) -> None:
+        """
+        Claim nothing yet.
+
+        Parameters
+        ----------
+        name
+            What users call the controller.
+        joints
+            All joints of the robot, in the order of its targets.
+        own
+            The joints that the controller moves, all at once.
+
+        """
+        self.name, self.joints, self.own = name, tuple(joints), tuple(own)
+        self.places = np.array([self.joints.index(joint) for joint in own], dtype=np.intp)
+        self.is_active = True
+        self._mask = np.zeros(len(self.joints), dtype=np.bool_)
+        self._mask[self.places] = True
+        self._none = np.zeros_like(self._mask)
+        self._claims = self._starts = False
+        self._goal: GoalT | None = None
+        self._done: Callable[[ResultT], None] = _nobody
+        rest = np.zeros(len(self.joints))
+        self._targets = JointTargets(rest, rest.copy(), rest.copy())
+
+    @property
+    def has_goal(self) -> bool:
+        """Whether a goal runs, or is to start with the next period."""
+        return self._goal is not None
+
+    @property
+    def waits(self) -> bool:
+        """Whether it is to be started, even if it has its joints already."""
+        return self._starts
+
+    def accept(self, goal: GoalT, done: Callable[[ResultT], None]) -> None:
+        """Run a goal from the next period on, not the present one; `done` hears its end."""
+        self.abort(PREEMPTED)
+        self._goal, self._done = goal, done
+        self._claims = self._starts = True
+
+    def cancel_goal(self) -> None:
+        """End the goal as its client asks; hold the joints where they were told to be last."""
+        self._end(self._ended(CANCELED, True))
+
+    def abort(self, why: str) -> None:
+        """End the goal; hold the joints, as soon as they are there to be held."""
+        self._end(self._ended(why, False))
+
+    def release(self, why: str) -> None:
+        """End the goal, and give the joints back."""
+        self.abort(why)
+        self._claims = self._starts = False
+
+    def cancel(self) -> None:
+        """Begin anew: no goal, no joints."""
+        self.release(RESTARTED)
+
+    def wanted(self, now_s: float) -> Mask:
+        """Return its joints among all, (n,), once it has had a goal."""
+        return self._mask if self._claims else self._none
+
+    @abstractmethod
+    def start(self, observation: Observation, held: JointTargets) -> None:
+        """Begin from what the joints were told last: the goal, or to hold them there."""
+
+    @abstractmethod
+    def update(self, observation: Observation) -> JointTargets:
+        """Return the targets of now, and see whether the goal is reached or out of reach."""
+
+    @abstractmethod
+    def _ended(self, why: str, is_canceled: bool) -> ResultT:
+        """Return the result of a goal that is ended from outside."""
+
+    def _end(self, result: ResultT, stays: bool = False) -> None:
+        """Say how the goal ended; unless the joints stay as they are told now, hold them."""
+        if self._goal is None:
+            return
+        done, self._done = self._done, _nobody
+        self._goal = None
+        self._starts = not stays
+        self._forget()
+        done(result)
+
+    def _forget(self) -> None:
+        """Drop what belongs to the goal that has ended."""
+
+
+def _nobody(result: object) -> None:
+    """Tell nobody."""

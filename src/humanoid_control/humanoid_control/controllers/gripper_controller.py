@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Open and close a gripper with a limited force, and notice what it holds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+from humanoid_control.backends import JointTargets, Observation
+from humanoid_control.controllers.commands import CommandError
+from humanoid_control.controllers.goal_controller import GoalController
+from humanoid_control.limits import JointLimits
+
+TOLERANCE_M = 0.002
+"""So close to the gap that was asked for, it is reached."""
+STALL_M, STALL_S = 0.0005, 0.3
+"""A gap that changes by less in that time is held open, or closed, by something."""
+_BEYOND_M = 1e-3
+"""By so much a gap may be out of range: it was rounded, or measured."""
+REACHED = 'The gap is reached.'
+STALLED = 'The fingers hold something, or are held.'
+
+
+@dataclass(frozen=True)
+class Grip:
+    """A gap between the fingers (m), and the force (N) with which they may go there."""
+
+    gap_m: float
+    most_n: float
+
+
+@dataclass(frozen=True)
+class GripState:
+    """
+    How a gripper is, with the fields of control_msgs/GripperCommand.
+
+    Attributes
+    ----------
+    gap_m, effort_n
+        Between the fingers; what its drive exerts, negative to close.
+    stalled
+        Whether the fingers stopped before the gap was reached.
+    reached_goal
+        Whether they are where they should be.
+
+    """
+
+    gap_m: float = 0.0
+    effort_n: float = 0.0
+    stalled: bool = False
+    reached_goal: bool = False
+
+
+@dataclass(frozen=True)
+class GripResult:
+    """How a grip ended, with a sentence on it."""
+
+    state: GripState
+    message: str
+    is_canceled: bool = False
+
+    @property
+    def has_ended_well(self) -> bool:
+        """Whether the gap is reached, or the fingers hold something."""
+        return self.state.reached_goal or self.state.stalled
+
+
+class GripperController(GoalController[Grip, GripResult]):
+    """
+    Moves the finger of a gripper, which the thumb mirrors: the gap is twice its position.
+
+    The target is never farther from where the finger is than the stiffness of the servo makes the
+    force; so it presses with that force on what is between the fingers, and goes on doing so
+    behind the goal: what is held stays held, also if it yields.
+    """
+
+    kind = 'position_controllers/GripperActionController'
+
+    def __init__(self, name: str, joints: Sequence[str], own: str, limits: JointLimits) -> None:
+        """Claim nothing yet; see `GoalController`. The limits are those of all joints."""
+        super().__init__(name, joints, (own,))
+        self._place = place = int(self.places[0])
+        self.widest_m = 2.0 * float(limits.upper_rad[place])
+        """The gap of the open gripper."""
+        self._strongest_n = float(limits.effort_nm[place])
+        self._stiffness_n_m = float(limits.kp_nm_rad[place])
+        self.state = GripState()
+        self._set = Grip(0.0, self._strongest_n)
+        self._anchor_m, self._anchor_s = 0.0, -math.inf
+
+    def checked(self, gap_m: float, most_n: float) -> Grip:
+        """
+        Return a grip that can be done.
+
+        Parameters
+        ----------
+        gap_m
+            Between the fingers.
+        most_n
+            The greatest force; 0 is that of the drive.
+
+        Raises
+        ------
+        CommandError
+            One of them is out of range.
+
+        """
+        if not -_BEYOND_M <= gap_m <= self.widest_m + _BEYOND_M:
+            raise CommandError(
+                f'The position of a gripper is the gap between its fingers: give 0 to '
+                f'{self.widest_m:.3g} m, not {gap_m:g}.'
+            )
+        if not 0.0 <= most_n < math.inf:
+            raise CommandError(
+                f'Its max_effort is {most_n:g} N. Give a force, or 0 for all that there is, '
+                f'{self._strongest_n:g} N.'
+            )
+        force_n = min(most_n or self._strongest_n, self._strongest_n)
+        return Grip(min(max(gap_m, 0.0), self.widest_m), force_n)
+
+    def start(self, observation: Observation, held: JointTargets) -> None:
+        """Begin: with the goal, or to hold what the finger was told last."""
+        self._starts = False
+        if self._goal is not None:
+            self._set = self._goal
+            self._anchor_s = -math.inf
+        else:
+            self._set = Grip(2.0 * float(held.positions_rad[self._place]), self._set.most_n)
+
+    def update(self, observation: Observation) -> JointTargets:
+        """Return the target of the finger, and see whether it has come as far as it will."""
+        at_m = float(observation.positions_rad[self._place])
+        way_m = self._set.most_n / self._stiffness_n_m
+        wanted_m = self._set.gap_m / 2.0
+        target_m = min(max(wanted_m, at_m - way_m), at_m + way_m)
+        self._targets.positions_rad[self._place] = target_m
+        self._watch(at_m, abs(wanted_m - at_m) <= TOLERANCE_M / 2.0, observation)
+        return self._targets
+
+    def _watch(self, at_m: float, reached: bool, observation: Observation) -> None:
+        """End a goal that is reached, or that the finger does not come closer to."""
+        now_s = observation.time_s
+        if abs(at_m - self._anchor_m) > STALL_M or math.isinf(self._anchor_s):
+            self._anchor_m, self._anchor_s = at_m, now_s
+        stalled = not reached and now_s - self._anchor_s >= STALL_S
+        effort_n = float(observation.efforts_nm[self._place])
+        self.state = GripState(2.0 * at_m, effort_n, stalled, reached)
+        if reached or stalled:
+            self._end(GripResult(self.state, REACHED if reached else STALLED), stays=True)
+
+    def _ended(self, why: str, is_canceled: bool) -> GripResult:
+        """Return the result of a goal that is ended from outside."""
+        state = GripState(self.state.gap_m, self.state.effort_n)
+        return GripResult(state, why, is_canceled)

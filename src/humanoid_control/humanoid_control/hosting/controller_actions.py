@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The actions below the names of the controllers of a robot."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from humanoid_control.hosting.every import Every
+from humanoid_control.hosting.follow_joint_trajectory import FollowJointTrajectoryServer
+from humanoid_control.hosting.goal_server import FEEDBACK_RATE_HZ, GoalServer
+from humanoid_control.hosting.gripper_command import GripperCommandServer
+from humanoid_control.hosting.refusals import Refusals
+from humanoid_control.hosting.robot_control import RobotControl
+from humanoid_control.hosting.topics.filling import topic
+from rclpy.node import Node
+
+
+class ControllerActions:
+    """Offers `follow_joint_trajectory` and `gripper_cmd` below the names of controllers."""
+
+    def __init__(self, node: Node, robot: str, control: RobotControl) -> None:
+        """Offer the actions of a robot that has a name, or is alone."""
+        refusals = Refusals(node.get_logger().warning)
+        self._servers: list[GoalServer[Any, Any]] = []
+        for name, limb in control.trajectory_controllers.items():
+            action = topic(robot, f'{name}/follow_joint_trajectory')
+            self._servers.append(
+                FollowJointTrajectoryServer(node, action, control, limb, refusals)
+            )
+        for name, gripper in control.gripper_controllers.items():
+            action = topic(robot, f'{name}/gripper_cmd')
+            self._servers.append(GripperCommandServer(node, action, control, gripper, refusals))
+        self._due = Every(FEEDBACK_RATE_HZ)
+
+    def tell(self, time_s: float) -> None:
+        """Take note of the robot's time; publish how goals go, if it is time."""
+        is_due = self._due.is_due(time_s)
+        for server in self._servers:
+            server.time_s = time_s
+            if is_due:
+                server.publish_feedback()

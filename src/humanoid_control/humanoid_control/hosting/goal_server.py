@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An action by which a controller is given goals."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import Any, Generic, TypeVar
+
+from humanoid_control.controllers import CommandError, GoalController
+from humanoid_control.hosting.refusals import Refusals
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
+from rclpy.action.server import ServerGoalHandle
+from rclpy.node import Node
+from rclpy.task import Future
+
+FEEDBACK_RATE_HZ = 20.0
+
+GoalT = TypeVar('GoalT')
+ResultT = TypeVar('ResultT')
+
+
+class GoalServer(ABC, Generic[GoalT, ResultT]):
+    """
+    The action of one controller.
+
+    A goal is checked, and rejected with a sentence in the log if it cannot be done; a newer one
+    takes the place of the one that runs.
+
+    Parameters
+    ----------
+    node, kind, name
+        Who offers the action, its type, and its name.
+    controller
+        Who does the goals.
+    refusals
+        Gets a sentence on each goal that is rejected.
+
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        kind: Any,
+        name: str,
+        controller: GoalController[GoalT, ResultT],
+        refusals: Refusals,
+    ) -> None:
+        self._node, self._name = node, name
+        self._goals, self._refusals = controller, refusals
+        self._checked: GoalT | None = None
+        self.current: ServerGoalHandle | None = None
+        """The goal that runs."""
+        self._ends: dict[bytes, Future] = {}
+        self.time_s = 0.0
+        """The robot's time."""
+        self._server = ActionServer(
+            node,
+            kind,
+            name,
+            self._execute,
+            goal_callback=self._check,
+            handle_accepted_callback=self._start,
+            cancel_callback=self._cancel,
+        )
+
+    @abstractmethod
+    def publish_feedback(self) -> None:
+        """Say how the goal goes, if one runs."""
+
+    @abstractmethod
+    def checked(self, goal: Any) -> GoalT:
+        """Return what a goal asks of the controller, or raise CommandError."""
+
+    @abstractmethod
+    def finished(self, handle: ServerGoalHandle, end: ResultT) -> tuple[Any, str]:
+        """Set how a goal ended; return its result, and a sentence if that is a failure."""
+
+    def _check(self, goal: Any) -> GoalResponse:
+        """Accept a goal that can be done; say why another is rejected."""
+        try:
+            self._checked = self.checked(goal)
+        except CommandError as error:
+            self._refusals.add(f"Rejected a goal of '{self._name}'. {error}")
+            return GoalResponse.REJECT
+        return GoalResponse.ACCEPT
+
+    def _start(self, handle: ServerGoalHandle) -> None:
+        """Give the goal that was just checked to the controller."""
+        if self._checked is None:
+            raise RuntimeError('A goal was accepted that was not checked.')
+        end = self._ends[bytes(handle.goal_id.uuid)] = Future(executor=self._node.executor)
+        self._goals.accept(self._checked, end.set_result)
+        self._checked, self.current = None, handle
+        handle.execute()
+
+    async def _execute(self, handle: ServerGoalHandle) -> Any:
+        """Wait for the end of a goal, and say how it ended."""
+        goal_id = bytes(handle.goal_id.uuid)
+        end: ResultT = await self._ends[goal_id]
+        del self._ends[goal_id]
+        if self.current is handle:
+            self.current = None
+        result, trouble = self.finished(handle, end)
+        if trouble:
+            self._node.get_logger().warning(f"Aborted a goal of '{self._name}'. {trouble}")
+        return result
+
+    def _cancel(self, handle: ServerGoalHandle) -> CancelResponse:
+        """End a goal as its client asks, unless it has ended meanwhile."""
+        end = self._ends.get(bytes(handle.goal_id.uuid))
+        if end is None or end.done():
+            return CancelResponse.REJECT
+        self._goals.cancel_goal()
+        return CancelResponse.ACCEPT

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The actions by which grippers are opened and closed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from control_msgs.action import GripperCommand
+from humanoid_control.controllers import Grip, GripperController, GripResult, GripState
+from humanoid_control.hosting.goal_server import GoalServer
+from humanoid_control.hosting.refusals import Refusals
+from humanoid_control.hosting.robot_control import RobotControl
+from rclpy.action.server import ServerGoalHandle
+from rclpy.node import Node
+
+
+class GripperCommandServer(GoalServer[Grip, GripResult]):
+    """
+    The action of one gripper; see `GoalServer`.
+
+    A position is the gap between the fingers in m, an effort the force of the drive in N. A goal
+    succeeds if the gap is reached, and also if the fingers stop before, at what they hold:
+    `stalled` and `position` tell which it was, and how wide that is.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        name: str,
+        control: RobotControl,
+        controller: GripperController,
+        refusals: Refusals,
+    ) -> None:
+        super().__init__(node, GripperCommand, name, controller, refusals)
+        self._control, self._controller = control, controller
+
+    def publish_feedback(self) -> None:
+        """Say how wide the gripper is, if a goal runs."""
+        if self.current is not None and self._controller.has_goal:
+            feedback = GripperCommand.Feedback()
+            self.current.publish_feedback(_filled(feedback, self._controller.state))
+
+    def checked(self, goal: GripperCommand.Goal) -> Grip:
+        """Return what a goal asks of the controller, or raise CommandError."""
+        command = goal.command
+        return self._control.checked_grip(
+            self._controller.name, command.position, command.max_effort
+        )
+
+    def finished(self, handle: ServerGoalHandle, end: GripResult) -> tuple[Any, str]:
+        """Set how a goal ended; return its result, and a sentence if that is a failure."""
+        trouble = ''
+        if end.is_canceled:
+            handle.canceled()
+        elif end.has_ended_well:
+            handle.succeed()
+        else:
+            handle.abort()
+            trouble = end.message
+        return _filled(GripperCommand.Result(), end.state), trouble
+
+
+def _filled(message: Any, state: GripState) -> Any:
+    """Fill in the state of a gripper."""
+    message.position, message.effort = state.gap_m, state.effort_n
+    message.stalled, message.reached_goal = state.stalled, state.reached_goal
+    return message

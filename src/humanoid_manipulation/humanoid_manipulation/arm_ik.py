@@ -1,0 +1,332 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+The joints of an arm for a pose of its gripper, in closed form.
+
+The three axes of the shoulder meet in one point, so that the arm is one of those of which D. L.
+Pieper, The Kinematics of Manipulators under Computer Control (1968), showed that they have closed
+solutions: the distance from wrist to shoulder gives the elbow, the direction to the shoulder, seen
+from the hand, the wrist, and what is left of the rotation the shoulder. Each step but the first
+has two answers, as a square root has, and so there are up to eight postures for a pose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+import math
+
+from humanoid_control.dynamics.frames import Frame
+from humanoid_description.drives import SIDES
+from humanoid_description.kinematics import chain, poses
+from humanoid_description.robot import Array, Joint, named, Robot
+from humanoid_manipulation.errors import ManipulationError
+import numpy as np
+
+__all__ = ['Arm', 'Posture']
+
+Posture = tuple[float, ...]
+"""The positions of the six joints of an arm (rad), from the shoulder down."""
+
+AXES = {
+    'shoulder': 'y',
+    'shoulder_roll': 'x',
+    'shoulder_yaw': 'z',
+    'elbow': 'y',
+    'wrist_yaw': 'z',
+    'wrist_pitch': 'y',
+}
+"""The joints from the shoulder to the hand, and the axes that they turn about."""
+
+_COUNT = len(AXES)
+_GRIPPERS = dict(zip(SIDES, ('l_gripper', 'r_gripper')))
+_TOLERANCE = 1e-9
+_STRETCHED_M = 1e-7
+"""So far from the line of the forearm, the shoulder is as good as on it: see `near`."""
+_COINCIDING = 1e-9
+"""The cosine of a roll that is a right angle, where pitch and yaw turn about one axis."""
+
+
+@dataclass(frozen=True, eq=False)
+class Arm:
+    """
+    An arm with a hand, which hangs straight down at zero.
+
+    Attributes
+    ----------
+    joints
+        The names of its six joints, from the shoulder down.
+    base, gripper
+        The link that the shoulder is part of, and the one between the fingers.
+    shoulder_m
+        Where the axes of the shoulder meet (3,), in the base.
+    upper_m, fore_m, hand_m
+        The distances from there to the elbow, on to the joint that bends the wrist, and on to the
+        middle of what the fingers hold.
+    lower_rad, upper_rad
+        The limits of the joints (6,).
+
+    """
+
+    joints: tuple[str, ...]
+    base: str
+    gripper: str
+    shoulder_m: Array
+    upper_m: float
+    fore_m: float
+    hand_m: float
+    lower_rad: Posture
+    upper_rad: Posture
+
+    @classmethod
+    def of(cls, robot: Robot, side: str) -> Arm:
+        """
+        Return the left or right arm of a robot.
+
+        Raises
+        ------
+        ManipulationError
+            The robot has no such arm, or one of another build.
+
+        """
+        gripper = _gripper(robot, side)
+        joints = [joint for joint in chain(robot, gripper) if joint.is_driven][-_COUNT:]
+        at_zero = poses(robot)
+        frames = [at_zero[joint.child] for joint in joints]
+        _check(robot, side, joints, frames)
+        base = joints[0].parent
+        to_base = np.linalg.inv(at_zero[base])
+        elbow, wrist = frames[3][:3, 3], frames[5][:3, 3]
+        shoulder = np.array([*frames[1][:2, 3], frames[0][2, 3]])
+        tip = at_zero[gripper][:3, 3]
+        limits = [(joint.limits.lower, joint.limits.upper) for joint in joints if joint.limits]
+        return cls(
+            tuple(joint.name for joint in joints),
+            base,
+            gripper,
+            to_base[:3, :3] @ shoulder + to_base[:3, 3],
+            float(shoulder[2] - elbow[2]),
+            float(elbow[2] - wrist[2]),
+            float(wrist[2] - tip[2]),
+            tuple(lower for lower, _ in limits),
+            tuple(upper for _, upper in limits),
+        )
+
+    @property
+    def reach_m(self) -> float:
+        """Return how far the joint that bends the wrist gets from the shoulder."""
+        return self.upper_m + self.fore_m
+
+    def forward(self, posture: Sequence[float]) -> Frame:
+        """Return where the gripper is in the base."""
+        q1, q2, q3, q4, q5, q6 = posture
+        upper = _about_y(q1) @ _about_x(q2) @ _about_z(q3)
+        fore = upper @ _about_y(q4)
+        hand = fore @ _about_z(q5) @ _about_y(q6)
+        position = self.shoulder_m - self.upper_m * upper[:, 2]
+        position = position - self.fore_m * fore[:, 2] - self.hand_m * hand[:, 2]
+        return Frame(position, hand)
+
+    def points(self, posture: Sequence[float]) -> Array:
+        """Return shoulder, elbow, wrist and gripper (4, 3) in the base."""
+        q1, q2, q3, q4 = posture[:4]
+        upper = _about_y(q1) @ _about_x(q2) @ _about_z(q3)
+        elbow = self.shoulder_m - self.upper_m * upper[:, 2]
+        wrist = elbow - self.fore_m * (upper @ _about_y(q4))[:, 2]
+        return np.stack((self.shoulder_m, elbow, wrist, self.forward(posture).position_m))
+
+    def is_within_limits(self, posture: Sequence[float], margin_rad: float = 0.0) -> bool:
+        """Return whether no joint is beyond its limits, or nearer to them than a margin."""
+        return self.excess_rad(posture) <= -margin_rad
+
+    def excess_rad(self, posture: Sequence[float]) -> float:
+        """Return by how much the worst joint is beyond its limits; negative if all are within."""
+        return max(
+            max(lower - at, at - upper)
+            for at, lower, upper in zip(posture, self.lower_rad, self.upper_rad)
+        )
+
+    def postures(self, gripper: Frame, near: Sequence[float] | None = None) -> list[Posture]:
+        """
+        Return all postures that bring the gripper to a pose, the best one first.
+
+        Parameters
+        ----------
+        gripper
+            Where the gripper is to be in the base.
+        near
+            Where the arm is now; the best posture is the one whose joints go the shortest way
+            from there. Without it, the one whose joints stay farthest from their limits.
+
+        Returns
+        -------
+        list of Posture
+            Those within the limits; none if the pose is out of reach.
+
+        """
+        found = [each for each in self.solutions(gripper, near) if self.is_within_limits(each)]
+        if near is None:
+            return sorted(found, key=self.excess_rad)
+        return sorted(found, key=lambda posture: math.dist(posture, near))
+
+    def solutions(self, gripper: Frame, near: Sequence[float] | None = None) -> Iterator[Posture]:
+        """
+        Yield all postures that bring the gripper to a pose, whatever the limits.
+
+        Parameters
+        ----------
+        gripper
+            Where the gripper is to be in the base.
+        near
+            Gives the joints that can be any where two axes coincide; by default zero.
+
+        """
+        (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = gripper.rotation.tolist()
+        wx, wy, wz = self._to_shoulder_m(gripper)
+        upper, fore = self.upper_m, self.fore_m
+        given = near or (0.0,) * _COUNT
+        for elbow in _elbows(upper, fore, math.sqrt(wx * wx + wy * wy + wz * wz)):
+            back, up = -upper * math.sin(elbow), fore + upper * math.cos(elbow)
+            for wrist_yaw in _wrist_yaws(back, wy, given[4]):
+                ahead = back * math.cos(wrist_yaw)
+                wrist_pitch = math.atan2(wz, wx) - math.atan2(up, ahead)
+                # The rotation of the upper arm is that of the hand less those below it.
+                c6, s6 = math.cos(wrist_pitch), math.sin(wrist_pitch)
+                c5, s5 = math.cos(wrist_yaw), math.sin(wrist_yaw)
+                c4, s4 = math.cos(elbow), math.sin(elbow)
+                # Its columns: those of Ry(-wrist_pitch) Rz(-wrist_yaw) Ry(-elbow).
+                m00, m01, m02 = c6 * c5 * c4 - s6 * s4, c6 * s5, -c6 * c5 * s4 - s6 * c4
+                m10, m11, m12 = -s5 * c4, c5, s5 * s4
+                m20, m21, m22 = s6 * c5 * c4 + c6 * s4, s6 * s5, -s6 * c5 * s4 + c6 * c4
+                u02 = r00 * m02 + r01 * m12 + r02 * m22
+                u10 = r10 * m00 + r11 * m10 + r12 * m20
+                u11 = r10 * m01 + r11 * m11 + r12 * m21
+                u12 = r10 * m02 + r11 * m12 + r12 * m22
+                u22 = r20 * m02 + r21 * m12 + r22 * m22
+                level = math.hypot(u02, u22)
+                for cosine_roll in (level, -level):
+                    roll = math.atan2(-u12, cosine_roll)
+                    if level > _COINCIDING:
+                        pitch = math.atan2(u02 / cosine_roll, u22 / cosine_roll)
+                        yaw = math.atan2(u10 / cosine_roll, u11 / cosine_roll)
+                    else:
+                        u00 = r00 * m00 + r01 * m10 + r02 * m20
+                        u01 = r00 * m01 + r01 * m11 + r02 * m21
+                        pitch = given[0]
+                        yaw = math.copysign(1.0, -u12) * pitch + math.atan2(-u01, u00)
+                    yield (
+                        pitch,
+                        roll,
+                        math.remainder(yaw, math.tau),
+                        elbow,
+                        math.remainder(wrist_yaw, math.tau),
+                        math.remainder(wrist_pitch, math.tau),
+                    )
+
+    def lack_m(self, gripper: Frame) -> float:
+        """
+        Return how far a pose is from having a posture, whatever the limits.
+
+        Parameters
+        ----------
+        gripper
+            Where the gripper is to be in the base.
+
+        Returns
+        -------
+        float
+            By how much the wrist is too far from the shoulder, or too near, or the shoulder beside
+            the plane in which the hand bends, in m; 0 if there are postures.
+
+        """
+        wx, wy, wz = self._to_shoulder_m(gripper)
+        distance_m = math.sqrt(wx * wx + wy * wy + wz * wz)
+        nearest_m = min(max(distance_m, abs(self.upper_m - self.fore_m)), self.reach_m)
+        (elbow, *_) = _elbows(self.upper_m, self.fore_m, nearest_m)
+        beside_m = max(abs(wy) - abs(self.upper_m * math.sin(elbow)), 0.0)
+        return abs(distance_m - nearest_m) + beside_m
+
+    def _to_shoulder_m(self, gripper: Frame) -> tuple[float, float, float]:
+        """Return the way from the wrist to the shoulder, in the axes of the hand."""
+        (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = gripper.rotation.tolist()
+        px, py, pz = gripper.position_m.tolist()
+        sx, sy, sz = self.shoulder_m.tolist()
+        hand = self.hand_m
+        x, y, z = sx - px - hand * r02, sy - py - hand * r12, sz - pz - hand * r22
+        return (
+            r00 * x + r10 * y + r20 * z,
+            r01 * x + r11 * y + r21 * z,
+            r02 * x + r12 * y + r22 * z,
+        )
+
+
+def _elbows(upper_m: float, fore_m: float, distance_m: float) -> tuple[float, ...]:
+    """Return the turns of the elbow that bring wrist and shoulder to a distance."""
+    # With half angles: exact for an arm that is nearly stretched, where a cosine is not.
+    shorter = (upper_m + fore_m - distance_m) * (upper_m + fore_m + distance_m)
+    longer = (distance_m - upper_m + fore_m) * (distance_m + upper_m - fore_m)
+    if not min(shorter, longer) >= -_TOLERANCE:
+        return ()
+    turn = 2.0 * math.atan2(math.sqrt(max(shorter, 0.0)), math.sqrt(max(longer, 0.0)))
+    return (turn, -turn) if turn else (turn,)
+
+
+def _wrist_yaws(back: float, across: float, given: float) -> tuple[float, ...]:
+    """Return the turns of the wrist that bring the upper arm to where it is across the hand."""
+    if abs(across) > abs(back) + _STRETCHED_M:
+        return ()
+    if abs(back) <= _STRETCHED_M:
+        return (given,)
+    turn = math.asin(max(-1.0, min(1.0, -across / back)))
+    return turn, math.pi - turn
+
+
+def _gripper(robot: Robot, side: str) -> str:
+    """Return the name of the link between the fingers of a hand."""
+    if side not in _GRIPPERS:
+        raise ManipulationError(f"The sides of a robot are {' and '.join(SIDES)}, not '{side}'.")
+    gripper = robot.prefix + _GRIPPERS[side]
+    if gripper not in robot.link:
+        raise ManipulationError(f"Robot '{robot.name}' has no {side} arm: no link '{gripper}'.")
+    return gripper
+
+
+def _check(robot: Robot, side: str, joints: Sequence[Joint], at_zero: Sequence[Array]) -> None:
+    """Refuse an arm of another build; the poses are those of the joints at zero, in the root."""
+    needed = [f'{robot.prefix}{side}_{kind}' for kind in AXES]
+    found = [joint.name for joint in joints]
+    if found != needed:
+        raise ManipulationError(
+            f'The {side} arm has the joints {", ".join(found) or "(none)"}; needed are '
+            f'{", ".join(needed)}. Give the robot hands: hands:=true'
+        )
+    for joint, pose, letter in zip(joints, at_zero, AXES.values()):
+        unit = np.eye(3)['xyz'.index(letter)]
+        if not np.allclose(pose[:3, :3] @ joint.axis, unit, atol=_TOLERANCE):
+            raise ManipulationError(
+                f'{named(joint)} must turn about {letter} of the root while the arm is at zero.'
+            )
+        if joint.limits is None:
+            raise ManipulationError(f'{named(joint)} needs limits.')
+    pitch, roll, yaw, elbow, wrist_yaw, wrist_pitch = (pose[:3, 3] for pose in at_zero)
+    meets = pitch[[0, 2]] - roll[[0, 2]], roll[:2] - yaw[:2]
+    below = yaw[:2] - elbow[:2], elbow[:2] - wrist_yaw[:2], wrist_yaw[:2] - wrist_pitch[:2]
+    if not np.allclose(np.concatenate((*meets, *below)), 0.0, atol=_TOLERANCE):
+        raise ManipulationError(
+            f'The {side} arm is of another build: the three axes of its shoulder must meet in one '
+            'point, with elbow and wrist straight below it.'
+        )
+
+
+def _about_x(angle: float) -> Array:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def _about_y(angle: float) -> Array:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+
+
+def _about_z(angle: float) -> Array:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
