@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from glob import glob
+
 from setuptools import find_packages, setup
 
 package_name = 'humanoid_manipulation'
@@ -15,7 +17,13 @@ setup(
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
         ('share/' + package_name, ['package.xml']),
+        ('share/' + package_name + '/launch', glob('launch/*.launch.*')),
     ],
+    entry_points={
+        'console_scripts': [
+            'manipulator = humanoid_manipulation.manipulator:main',
+        ],
+    },
     install_requires=['setuptools'],
     extras_require={'test': ['pytest']},
     zip_safe=True,

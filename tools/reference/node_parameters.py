@@ -29,6 +29,9 @@ NODES = {
     ),
     'humanoid_perception object_memory': 'humanoid_perception.object_memory.MemoryParameters',
     'humanoid_perception gaze': 'humanoid_perception.gaze.GazeParameters',
+    'humanoid_manipulation manipulator': (
+        'humanoid_manipulation.manipulator.ManipulatorParameters'
+    ),
     'llm_planner task_planner': 'llm_planner.task_planner.PlannerParameters',
     'llm_planner skill_executor': 'llm_planner.knowledge.KnowledgeParameters',
     'robot_mcp robot_mcp': 'robot_mcp.robot_mcp.McpParameters',

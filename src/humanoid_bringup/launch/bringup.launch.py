@@ -66,6 +66,12 @@ def generate_launch_description() -> LaunchDescription:
                 description='Detect objects, remember where they are, and look for them.',
             ),
             DeclareLaunchArgument(
+                'manipulation',
+                default_value='false',
+                choices=['true', 'false'],
+                description='Let the arms reach; the robot needs hands:=true.',
+            ),
+            DeclareLaunchArgument(
                 'report_period_s',
                 default_value='3600.0',
                 description='How often the sensor processor logs the first joint, in seconds.',
@@ -85,6 +91,9 @@ def generate_launch_description() -> LaunchDescription:
             _group('humanoid_description', 'description', time),
             _group('humanoid_navigation', 'navigation', time, LaunchConfiguration('navigation')),
             _group('humanoid_perception', 'perception', time, LaunchConfiguration('perception')),
+            _group(
+                'humanoid_manipulation', 'manipulation', time, LaunchConfiguration('manipulation')
+            ),
             _group('humanoid_bringup', 'console', time, LaunchConfiguration('gui')),
         ]
     )

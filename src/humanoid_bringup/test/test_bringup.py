@@ -20,6 +20,7 @@ def test_arguments() -> None:
     assert argument_defaults(description) == {
         'backend': 'mujoco',
         'gui': 'true',
+        'manipulation': 'false',
         'navigation': 'false',
         'perception': 'false',
         'report_period_s': '3600.0',

@@ -62,7 +62,7 @@ def _humanoid(model: Robot) -> Humanoid:
 
 
 def test_what_is_lent(humanoid: Humanoid) -> None:
-    """Walking lends arms and head, and keeps legs and waist."""
+    """Walking lends all above the legs, and keeps these."""
     joints = humanoid.control.manager.joints
     for joint in joints:
         is_upper = 'elbow' in joint or 'shoulder' in joint or 'head' in joint

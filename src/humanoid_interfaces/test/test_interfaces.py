@@ -8,7 +8,7 @@ from typing import Any
 from builtin_interfaces.msg import Duration, Time
 from diagnostic_msgs.msg import KeyValue
 from geometry_msgs.msg import Point, Pose, PoseWithCovariance, Vector3, Wrench
-from humanoid_interfaces.action import ExecutePlan, ScanRoom
+from humanoid_interfaces.action import ExecutePlan, Reach, ScanRoom
 from humanoid_interfaces.msg import (
     Contact,
     Contacts,
@@ -90,9 +90,13 @@ SCAN_CODES = (
     *('NONE', 'TIMEOUT', 'HEAD_FAILED', 'BODY_FAILED', 'NO_TRANSFORM', 'INHIBITED', 'NO_CAMERA'),
     *('PREEMPTED', 'UNKNOWN'),
 )
+REACH_CODES = (
+    *('NONE', 'INVALID', 'NOT_REACHABLE', 'BLOCKED', 'ARM_FAILED', 'NO_TRANSFORM', 'INHIBITED'),
+    *('PREEMPTED', 'UNKNOWN'),
+)
 MESSAGES = [
     *(CONTACT, CONTACTS, PUSH, MUG, FOUND, SEEN, PLAN, ANSWER, DONE, STEP, HEARD),
-    *(ScanRoom.Goal(turn_body=True), ExecutePlan.Goal(plan=PLAN)),
+    *(ScanRoom.Goal(turn_body=True), ExecutePlan.Goal(plan=PLAN), Reach.Goal(side='left')),
     MakePlan.Request(command='stop'),
 ]
 
@@ -131,7 +135,12 @@ def test_a_scan_turns_the_head_alone_unless_it_is_told_more() -> None:
 
 
 @pytest.mark.parametrize(
-    'result, names', [(ScanRoom.Result, SCAN_CODES), (ExecutePlan.Result, EXECUTE_CODES)]
+    'result, names',
+    [
+        (ScanRoom.Result, SCAN_CODES),
+        (ExecutePlan.Result, EXECUTE_CODES),
+        (Reach.Result, REACH_CODES),
+    ],
 )
 def test_each_way_to_fail_has_a_code_of_its_own(result: Any, names: tuple[str, ...]) -> None:
     """Programs tell them apart."""

@@ -151,6 +151,27 @@ class UpperBody:
                 return between
         raise self._out_of_reach(side, gripper, near)
 
+    def reach_with_arm(self, side: str, gripper: Frame, near: Reach) -> Reach:
+        """
+        Return how the gripper of a side is brought to a pose while the waist stays as it is.
+
+        Parameters
+        ----------
+        side, gripper, near
+            As for `reach`.
+
+        Raises
+        ------
+        OutOfReachError
+            There is no such posture.
+
+        """
+        pose = self._in_torso(gripper, near.waist_rad)
+        postures = self.arms[side].postures(pose, near.posture)
+        if not postures:
+            raise self._out_of_reach(side, gripper, near)
+        return Reach(near.waist_rad, postures[0])
+
     def _turns(self, start_rad: float) -> Iterator[float]:
         """Yield turns of the waist: the present one, then others farther and farther away."""
         start_rad = min(max(start_rad, self.lower_rad), self.upper_rad)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The controllers of arms, head and grippers."""
+"""The controllers of arms, head, waist and grippers."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ LIMBS = {
     'left_arm_controller': ('left_shoulder', 'left_elbow', 'left_wrist'),
     'right_arm_controller': ('right_shoulder', 'right_elbow', 'right_wrist'),
     'head_controller': ('head_',),
+    'waist_controller': ('waist_',),
 }
 """What the names of the joints of a controller contain, after a prefix."""
 

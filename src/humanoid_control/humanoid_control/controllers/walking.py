@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The walk as a controller of all joints, which lends those of the arms and the head."""
+"""The walk as a controller of all joints, which lends those above the legs."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from humanoid_control.controllers.modes import Mode
 from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_control.walking.walker import Walker
 
-LENT = ('head_', 'shoulder', 'elbow', 'wrist', 'gripper')
+LENT = ('head_', 'waist_', 'shoulder', 'elbow', 'wrist', 'gripper')
 """A joint whose name contains one of these is not needed to walk."""
 
 MOVING = ('walk', 'stop', 'stand_up')
@@ -48,7 +48,7 @@ class WalkingController:
 
 
 def walking_mode(controller: WalkingController) -> Mode:
-    """Return the mode in which the robot walks; legs and waist are not lent."""
+    """Return the mode in which the robot walks; legs are not lent."""
     lent = tuple(joint for joint in controller.joints if any(part in joint for part in LENT))
     return Mode(
         controller.name,

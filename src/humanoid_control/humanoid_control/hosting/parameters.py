@@ -40,7 +40,7 @@ class HostParameters:
     )
     mode: str = parameter(
         WALKING,
-        'What the robots do: walking lends arms and head to others, follow all joints, hold none.',
+        'What the robots do: walking lends what is above the legs, follow all joints, hold none.',
         choices=MODES,
     )
     joint_states_rate_hz: float = parameter(

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Move joints by the action of their trajectory controller."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from action_msgs.msg import GoalStatus
+from builtin_interfaces.msg import Duration
+from control_msgs.action import FollowJointTrajectory
+from humanoid_common.single_goal import GoalAborted
+from rclpy.action import ActionClient
+from rclpy.node import Node
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+__all__ = ['JointMover', 'trajectory_point']
+
+
+def trajectory_point(
+    time_s: float, positions: Sequence[float], velocities: Sequence[float] = ()
+) -> JointTrajectoryPoint:
+    """Return the point of a trajectory, at a time since its start."""
+    return JointTrajectoryPoint(
+        positions=[float(each) for each in positions],
+        velocities=[float(each) for each in velocities],
+        time_from_start=Duration(sec=int(time_s), nanosec=int(time_s % 1.0 * 1e9)),
+    )
+
+
+class JointMover:
+    """
+    Sends one motion after another to a trajectory controller.
+
+    Parameters
+    ----------
+    node
+        The node whose topics count.
+    joints
+        The names of all joints of the controller.
+    controller
+        Its name.
+    code
+        The name of the error code of goals that fail because of it.
+
+    """
+
+    def __init__(self, node: Node, joints: Sequence[str], controller: str, code: str) -> None:
+        self.joints, self._code = list(joints), code
+        self.action = f'{controller}/follow_joint_trajectory'
+        self._client = ActionClient(node, FollowJointTrajectory, self.action)
+        self._sent: Any = None
+        self._handle: Any = None
+        self._end: Any = None
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether the controller is there."""
+        return bool(self._client.server_is_ready())
+
+    def send(self, points: Sequence[JointTrajectoryPoint]) -> None:
+        """Begin to move; a motion that still goes on is replaced."""
+        trajectory = JointTrajectory(joint_names=self.joints, points=list(points))
+        self._handle = self._end = None
+        sent = self._sent = self._client.send_goal_async(
+            FollowJointTrajectory.Goal(trajectory=trajectory)
+        )
+
+        def take(future: Any) -> None:
+            handle = future.result()
+            if sent is self._sent:
+                self._handle = handle
+                if handle.accepted:
+                    self._end = handle.get_result_async()
+            elif handle.accepted:
+                handle.cancel_goal_async()
+
+        sent.add_done_callback(take)
+
+    def has_arrived(self) -> bool:
+        """
+        Whether the motion that was begun last is over.
+
+        Raises
+        ------
+        GoalAborted
+            The controller rejected or aborted it.
+
+        """
+        if self._handle is not None and not self._handle.accepted:
+            raise GoalAborted(
+                self._code,
+                f"'{self.action}' rejected the motion: the log of the robot says why.",
+            )
+        if self._end is None or not self._end.done():
+            return False
+        answer = self._end.result()
+        if answer.status != GoalStatus.STATUS_SUCCEEDED:
+            reason = answer.result.error_string or 'somebody else moves these joints'
+            raise GoalAborted(self._code, f"'{self.action}' ended the motion: {reason}")
+        return True
+
+    def stop(self) -> None:
+        """End a motion that goes on; the joints stay where they are."""
+        if self._handle is not None and self._handle.accepted and not self._end.done():
+            self._handle.cancel_goal_async()
+        self._sent = self._handle = self._end = None

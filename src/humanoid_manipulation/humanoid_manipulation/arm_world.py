@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+What arms must keep clear of: the body, each other, and what is around the robot.
+
+MuJoCo finds the contacts: it knows boxes, cylinders and capsules exactly, and takes some
+microseconds for a posture. Nothing moves by itself here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from humanoid_control.dynamics.frames import Frame
+from humanoid_description.drives import SIDES
+from humanoid_description.loading import load_robot
+from humanoid_manipulation.errors import ManipulationError
+from humanoid_manipulation.upper_body import Reach, UpperBody
+import mujoco
+import numpy as np
+
+__all__ = ['ArmWorld', 'Contact', 'Obstacle']
+
+_ARM_LINKS = ('upper_arm', 'forearm', 'palm', 'finger', 'thumb')
+_NEVER = (('finger', 'thumb'), ('forearm', 'palm'))
+"""Links of an arm that are built so that they overlap or meet."""
+_COMPILER = '<mujoco><compiler fusestatic="false" discardvisual="true"/></mujoco></robot>'
+
+
+@dataclass(frozen=True, eq=False)
+class Obstacle:
+    """
+    A box.
+
+    Attributes
+    ----------
+    name
+        What it is called in sentences.
+    middle
+        Where its middle is, and how it is turned: in the pelvis, or, of what a hand holds, in the
+        gripper.
+    size_m
+        Its edges (3,) along its axes.
+
+    """
+
+    name: str
+    middle: Frame
+    size_m: tuple[float, float, float]
+
+    def __post_init__(self) -> None:
+        """Refuse a box that cannot be."""
+        numbers = (*self.size_m, *self.middle.position_m, *self.middle.rotation.ravel())
+        if min(self.size_m) <= 0.0 or not np.isfinite(numbers).all():
+            raise ManipulationError(f"'{self.name}' is no box: its edges are {self.size_m} m.")
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Two things that are nearer to each other than they may be; negative is overlap."""
+
+    one: str
+    other: str
+    distance_m: float
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Return what touches."""
+        return frozenset((self.one, self.other))
+
+    def __str__(self) -> str:
+        """Return it as a part of a sentence."""
+        return f"'{self.one}' would touch '{self.other}'"
+
+
+@dataclass(eq=False)
+class ArmWorld:
+    """
+    Finds what the arms of a robot touch in a posture.
+
+    Parameters
+    ----------
+    urdf
+        The robot.
+    body
+        Its upper body.
+    obstacles
+        What is around it.
+    held
+        What hands hold, by their sides; the boxes are in the grippers.
+    clearance_m
+        So near to something an arm does not come.
+
+    """
+
+    urdf: str
+    body: UpperBody
+    obstacles: Sequence[Obstacle] = ()
+    held: Mapping[str, Obstacle] = field(default_factory=dict)
+    clearance_m: float = 0.01
+
+    def __post_init__(self) -> None:
+        """Build the world."""
+        self._robot = load_robot(self.urdf, 'the robot')
+        spec = mujoco.MjSpec.from_string(self.urdf.replace('</robot>', _COMPILER))
+        prefix = self.body.base.removesuffix('base_link')
+        for geom in spec.geoms:
+            is_arm = geom.parent.name.endswith(_ARM_LINKS)
+            geom.contype, geom.conaffinity = int(is_arm), 1
+            geom.margin = self.clearance_m
+        for side in SIDES:
+            for one, other in _NEVER:
+                spec.add_exclude(
+                    bodyname1=f'{prefix}{side}_{one}', bodyname2=f'{prefix}{side}_{other}'
+                )
+        for number, obstacle in enumerate(self.obstacles):
+            body = spec.worldbody.add_body(name=f'obstacle {number}')
+            self._add_box(body, obstacle, obstacle.middle, contype=0)
+        for side, thing in self.held.items():
+            self._add_box(spec.body(self.body.arms[side].gripper), thing, thing.middle, contype=1)
+        self._model = spec.compile()
+        self._data = mujoco.MjData(self._model)
+        self._names = [self._name(geom) for geom in range(self._model.ngeom)]
+        self._places = {
+            side: [self._place(joint) for joint in (self.body.waist, *arm.joints)]
+            for side, arm in self.body.arms.items()
+        }
+
+    def stand(self, positions: Mapping[str, float]) -> None:
+        """
+        Take the posture of the whole robot, of which an arm is moved then.
+
+        Parameters
+        ----------
+        positions
+            Of joints, by their names, in rad or m; others stay as they are.
+
+        """
+        for joint in self._robot.joints:
+            mimics = joint.mimics
+            if joint.name in positions:
+                self._data.qpos[self._place(joint.name)] = positions[joint.name]
+            elif mimics is not None and mimics.joint in positions:
+                self._data.qpos[self._place(joint.name)] = (
+                    mimics.multiplier * positions[mimics.joint] + mimics.offset
+                )
+
+    def contacts(self, side: str, reach: Reach) -> list[Contact]:
+        """Return what the arms touch, or come too near to, when one of them is somewhere."""
+        data = self._data
+        data.qpos[self._places[side]] = (reach.waist_rad, *reach.posture)
+        mujoco.mj_kinematics(self._model, data)
+        mujoco.mj_collision(self._model, data)
+        found = zip(data.contact.geom.tolist(), data.contact.dist.tolist())
+        return [
+            Contact(self._names[one], self._names[other], distance_m)
+            for (one, other), distance_m in found
+            if distance_m < self.clearance_m
+        ]
+
+    def is_free(
+        self, side: str, reach: Reach, but: Collection[frozenset[str]] = frozenset()
+    ) -> bool:
+        """Return whether nothing is touched, but for pairs of names that may."""
+        return all(contact.names in but for contact in self.contacts(side, reach))
+
+    def _add_box(self, body: Any, box: Obstacle, at: Frame, contype: int) -> None:
+        """Add a box to a body."""
+        turn = np.zeros(4)
+        mujoco.mju_mat2Quat(turn, np.ascontiguousarray(at.rotation).ravel())
+        body.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_BOX,
+            size=[edge / 2.0 for edge in box.size_m],
+            pos=at.position_m,
+            quat=turn,
+            contype=contype,
+            conaffinity=1 - contype,
+            margin=self.clearance_m,
+        )
+
+    def _name(self, geom: int) -> str:
+        """Return what a shape is called in sentences."""
+        body = self._model.body(int(self._model.geom_bodyid[geom])).name
+        if body.startswith('obstacle '):
+            return self.obstacles[int(body.split()[1])].name
+        for side, thing in self.held.items():
+            if body == self.body.arms[side].gripper:
+                return thing.name
+        return str(body)
+
+    def _place(self, joint: str) -> int:
+        """Return where the position of a joint is among all."""
+        return int(self._model.joint(joint).qposadr[0])

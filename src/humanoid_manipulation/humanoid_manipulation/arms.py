@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The arms and the waist of the robot, moved by their controllers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+
+from humanoid_common.joint_mover import JointMover, trajectory_point
+from humanoid_common.qos import LATCHED, SENSOR
+from humanoid_common.single_goal import GoalAborted, RunningGoal
+from humanoid_description.drives import SIDES
+from humanoid_description.errors import DescriptionError
+from humanoid_description.loading import load_robot
+from humanoid_manipulation.arm_world import ArmWorld, Obstacle
+from humanoid_manipulation.errors import ManipulationError
+from humanoid_manipulation.motion_planning import Motion
+from humanoid_manipulation.upper_body import Reach, UpperBody
+from humanoid_perception.transforms import Patience
+import numpy as np
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+
+__all__ = ['Arms']
+
+_CODE = 'ARM_FAILED'
+_STILL_RAD = 1e-3
+"""A waist that is to turn by less stays where it is."""
+_LATE_S = 5.0
+"""How much longer than planned a motion may take."""
+
+
+class Arms:
+    """
+    Knows the robot's upper body and where its joints are, and moves them.
+
+    Joint states are listened to only while a goal runs, since they come all the time.
+
+    Parameters
+    ----------
+    node
+        The node whose topics count.
+
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._body: UpperBody | None = None
+        self._urdf = ''
+        self._reason = 'No robot_description has come. Start robot_state_publisher.'
+        self._movers: dict[str, JointMover] = {}
+        self._waist: JointMover | None = None
+        self._positions: dict[str, float] = {}
+        node.create_subscription(String, 'robot_description', self._read, LATCHED)
+
+    @property
+    def body(self) -> UpperBody:
+        """Return the upper body; GoalAborted if it is not known."""
+        if self._body is None:
+            raise GoalAborted(_CODE, self._reason)
+        return self._body
+
+    @contextmanager
+    def listening(self) -> Iterator[None]:
+        """Listen to the joints meanwhile."""
+        self._positions = {}
+        subscription = self._node.create_subscription(
+            JointState, 'joint_states', self._take, SENSOR
+        )
+        try:
+            yield
+        finally:
+            self._node.destroy_subscription(subscription)
+
+    async def wait(self, goal: RunningGoal) -> None:
+        """Wait until the arms can be moved and it is known where they are, or abort."""
+        patience = Patience()
+        while missing := self._missing():
+            if patience.is_over():
+                raise GoalAborted(_CODE, missing)
+            await goal.tick()
+
+    def reach_of(self, side: str) -> Reach:
+        """Return where an arm and the waist are."""
+        at = self._positions
+        arm = self.body.arms[side]
+        return Reach(at[self.body.waist], tuple(at[joint] for joint in arm.joints))
+
+    def world(
+        self,
+        obstacles: Sequence[Obstacle],
+        held: Mapping[str, Obstacle],
+        clearance_m: float,
+    ) -> ArmWorld:
+        """Return what the arms must keep clear of, as the robot stands now."""
+        world = ArmWorld(self._urdf, self.body, obstacles, held, clearance_m)
+        world.stand(self._positions)
+        return world
+
+    async def move(self, goal: RunningGoal, side: str, motion: Motion) -> None:
+        """
+        Move an arm, and the waist if it has to turn, and wait until they are there.
+
+        Raises
+        ------
+        GoalAborted
+            A controller rejected or aborted the motion, or it takes too long.
+
+        """
+        waist, arm = motion.positions_rad[:, :1], motion.positions_rad[:, 1:]
+        waist_speed, arm_speed = motion.velocities_rad_s[:, :1], motion.velocities_rad_s[:, 1:]
+        ways = [(self._movers[side], arm, arm_speed)]
+        if np.ptp(waist) > _STILL_RAD:
+            assert self._waist is not None
+            ways.append((self._waist, waist, waist_speed))
+        movers = [mover for mover, _, _ in ways]
+        for mover, positions, velocities in ways:
+            # The way begins where the joints were told to be last: the first point is left out.
+            mover.send(
+                [
+                    trajectory_point(time_s, position, velocity)
+                    for time_s, position, velocity in zip(
+                        motion.times_s[1:].tolist(),
+                        positions[1:].tolist(),
+                        velocities[1:].tolist(),
+                    )
+                ]
+            )
+        end_s = self._now_s() + motion.duration_s + _LATE_S
+        try:
+            while not all(mover.has_arrived() for mover in movers):
+                if self._now_s() > end_s:
+                    raise GoalAborted(_CODE, f'The {side} arm does not come to where it shall be.')
+                await goal.tick()
+        except BaseException:
+            for mover in movers:
+                mover.stop()
+            raise
+
+    def _now_s(self) -> float:
+        return float(self._node.get_clock().now().nanoseconds) * 1e-9
+
+    def _missing(self) -> str:
+        """Return what is not there yet; nothing if all is."""
+        if self._body is None:
+            return self._reason
+        assert self._waist is not None
+        for mover in (*self._movers.values(), self._waist):
+            if not mover.is_ready:
+                return f"The action '{mover.action}' is not there. Start the robot's controllers."
+        needed = [self._body.waist, *(j for arm in self._body.arms.values() for j in arm.joints)]
+        unknown = [joint for joint in needed if joint not in self._positions]
+        return f"No joint_states tell where '{unknown[0]}' is." if unknown else ''
+
+    def _take(self, message: JointState) -> None:
+        self._positions.update(zip(message.name, message.position))
+
+    def _read(self, message: String) -> None:
+        try:
+            body = UpperBody.of(load_robot(message.data, 'robot_description'))
+        except (DescriptionError, ManipulationError) as error:
+            self._body, self._reason = None, str(error)
+            return
+        self._urdf = message.data
+        if not self._movers:
+            self._movers = {
+                side: JointMover(
+                    self._node, body.arms[side].joints, f'{side}_arm_controller', _CODE
+                )
+                for side in SIDES
+            }
+            self._waist = JointMover(self._node, [body.waist], 'waist_controller', _CODE)
+        self._body = body

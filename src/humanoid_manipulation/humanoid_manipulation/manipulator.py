@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the arms do: the node `manipulator` with the action `reach`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+import sys
+from typing import Any
+
+from geometry_msgs.msg import PoseStamped
+from humanoid_common.inhibition import Inhibition
+from humanoid_common.node_parameters import NodeParameters
+from humanoid_common.parameters import parameter
+from humanoid_common.qos import LATCHED
+from humanoid_common.running import run_node
+from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
+from humanoid_control.dynamics.frames import Frame
+from humanoid_control.dynamics.rotations import from_quaternion
+from humanoid_description.drives import SIDES
+from humanoid_interfaces.action import Reach as ReachAction
+from humanoid_manipulation.arms import Arms
+from humanoid_manipulation.conversions import fill_pose
+from humanoid_manipulation.errors import ManipulationError
+from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
+from humanoid_manipulation.surroundings import Surroundings
+from humanoid_manipulation.upper_body import OutOfReachError, Reach
+from humanoid_perception.transforms import Transforms
+import numpy as np
+from rclpy.node import Node
+from std_msgs.msg import String
+
+__all__ = ['Manipulator', 'ManipulatorParameters', 'main']
+
+_LONGEST_APPROACH_M = 0.3
+
+
+@dataclass(frozen=True)
+class ManipulatorParameters:
+    """The parameters of the node."""
+
+    base_frame: str = parameter('base_link', 'The pelvis.', read_only=True)
+    places_file: str = parameter(
+        '',
+        'Named places, whose surfaces arms keep clear of: a file, or the name of one of '
+        'humanoid_perception; nothing for none.',
+        read_only=True,
+    )
+    max_velocity: float = parameter(
+        1.0, 'How fast the joints of arms turn (rad/s).', at_least=0.05, at_most=6.0
+    )
+    clearance: float = parameter(
+        0.01, 'How near to something arms come at most (m).', at_least=0.0, at_most=0.1
+    )
+
+
+class Manipulator(Node):
+    """
+    Moves the arms to where they are asked to be.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__('manipulator', **options)
+        self.parameters = NodeParameters(self, ManipulatorParameters)
+        told = self.parameters.current
+        self._inhibition = Inhibition()
+        self.arms, self.transforms = Arms(self), Transforms(self)
+        self.surroundings = Surroundings(self, self.transforms, told.base_frame, told.places_file)
+        self.goals = SingleGoal(self, lambda: self._inhibition.reason)
+        self.goals.offer(ReachAction, 'reach', self._reach, _unsound)
+        for topic, take in (
+            ('walking_state', self._inhibition.tell_walking_state),
+            ('stop_state', self._inhibition.tell_stop_state),
+        ):
+            self.create_subscription(
+                String, topic, lambda message, tell=take: tell(message.data), LATCHED
+            )
+
+    async def _reach(self, goal: RunningGoal) -> None:
+        with self.transforms.listening(), self.arms.listening():
+            await self.arms.wait(goal)
+            told, request = self.parameters.current, goal.request
+            wanted = _frame(request.pose)
+            seen = await self.transforms.known(
+                goal, told.base_frame, request.pose.header.frame_id or told.base_frame
+            )
+            wanted = Frame(
+                seen[:3, :3] @ wanted.position_m + seen[:3, 3], seen[:3, :3] @ wanted.rotation
+            )
+            try:
+                side, way = await self._way(goal, wanted)
+                goal.result.side = side
+                await self.arms.move(goal, side, timed(way, told.max_velocity))
+            except OutOfReachError as error:
+                fill_pose(goal.result.reached, told.base_frame, error.pose)
+                raise GoalAborted('NOT_REACHABLE', str(error)) from None
+            except BlockedError as error:
+                raise GoalAborted('BLOCKED', str(error)) from None
+            except ManipulationError as error:
+                raise GoalAborted('INVALID', str(error)) from None
+            await goal.tick()
+            reached = self.arms.body.forward(side, self.arms.reach_of(side))
+            fill_pose(goal.result.reached, told.base_frame, reached)
+
+    async def _way(self, goal: RunningGoal, wanted: Frame) -> tuple[str, list[Reach]]:
+        """Return which arm gets to a pose, and how."""
+        told, request, body = self.parameters.current, goal.request, self.arms.body
+        obstacles = await self.surroundings.obstacles(goal)
+        world = self.arms.world(obstacles, {}, told.clearance)
+        # Along the hand, z points back to the wrist.
+        back = wanted.rotation[:, 2] * float(request.approach)
+        first = Frame(wanted.position_m + back, wanted.rotation)
+        sides = [request.side] if request.side else _nearest_first(wanted)
+        error: ManipulationError | None = None
+        for side in sides:
+            start = self.arms.reach_of(side)
+            try:
+                begin = body.reach(side, first, start)
+                straight = approach(body, side, begin, -back) if request.approach else []
+                way = plan(world, side, start, begin)
+                for each in straight:
+                    for contact in world.contacts(side, each):
+                        raise BlockedError(f'The {side} arm cannot go straight there: {contact}.')
+                return side, [*way, *straight[1:]]
+            except ManipulationError as reason:
+                error = error or reason
+        assert error is not None
+        raise error
+
+
+def _nearest_first(wanted: Frame) -> tuple[str, ...]:
+    """Return the sides, that of a pose first."""
+    return SIDES if wanted.position_m[1] >= 0.0 else SIDES[::-1]
+
+
+def _frame(pose: PoseStamped) -> Frame:
+    """Return where something is in its frame."""
+    at, turn = pose.pose.position, pose.pose.orientation
+    return Frame(np.array([at.x, at.y, at.z]), from_quaternion((turn.w, turn.x, turn.y, turn.z)))
+
+
+def _unsound(request: ReachAction.Goal) -> str:
+    """Return why a goal makes no sense; nothing if it does."""
+    at, turn = request.pose.pose.position, request.pose.pose.orientation
+    numbers = (at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w)
+    if not all(map(math.isfinite, numbers)):
+        return 'Its pose has a number that is not finite.'
+    if not 0.5 < math.hypot(*numbers[3:]) < 2.0:
+        return 'The orientation of its pose is no quaternion of length 1.'
+    if request.side not in ('', *SIDES):
+        return f"There is no side '{request.side}'. Give left, right, or nothing for the nearer."
+    if not 0.0 <= request.approach <= _LONGEST_APPROACH_M:
+        return f'Its approach is {request.approach:g} m. Give 0 to {_LONGEST_APPROACH_M:g} m.'
+    return ''
+
+
+def main() -> int:
+    """Run the node."""
+    return run_node(Manipulator)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

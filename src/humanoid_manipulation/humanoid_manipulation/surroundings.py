@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is around the robot: the surfaces that a file names, and the things that it remembers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import math
+
+from humanoid_common.errors import NodeStartError
+from humanoid_common.qos import LATCHED
+from humanoid_common.single_goal import RunningGoal
+from humanoid_control.dynamics.frames import Frame
+from humanoid_control.dynamics.rotations import about_z, from_quaternion, yaw_of
+from humanoid_description.robot import Array
+from humanoid_manipulation.arm_world import Obstacle
+from humanoid_perception.places import load_places, Places, places_path, PlacesError, Surface
+from humanoid_perception.transforms import Transforms
+import numpy as np
+from rclpy.node import Node
+from vision_msgs.msg import Detection3DArray
+
+__all__ = ['Surroundings', 'surface_boxes']
+
+_FAR_M = 1.5
+"""What is farther from the robot is in nobody's way."""
+_BOARD_M = 0.03
+"""How thick a board is that has another one, or the floor, below it."""
+
+
+class Surroundings:
+    """
+    Tells what arms have to keep clear of.
+
+    Parameters
+    ----------
+    node
+        The node whose topics count.
+    transforms
+        Where frames are.
+    base_frame
+        That of the pelvis, in which obstacles are.
+    places_file
+        Named places, or nothing.
+
+    Raises
+    ------
+    NodeStartError
+        The file of named places cannot be used.
+
+    """
+
+    def __init__(
+        self, node: Node, transforms: Transforms, base_frame: str, places_file: str
+    ) -> None:
+        self._transforms, self._base = transforms, base_frame
+        self._objects = Detection3DArray()
+        try:
+            path = places_path(places_file)
+            self.places = load_places(path) if path else Places()
+        except PlacesError as error:
+            raise NodeStartError(str(error)) from error
+        node.create_subscription(Detection3DArray, 'objects', self._take, LATCHED)
+
+    async def obstacles(self, goal: RunningGoal) -> list[Obstacle]:
+        """Return what is near the robot, in the pelvis."""
+        found: list[Obstacle] = []
+        if self.places.surfaces:
+            pose = await self._transforms.known(goal, self._base, self.places.frame)
+            for surface in self.places.surfaces:
+                found += _near(surface_boxes(surface), pose)
+        if self._objects.detections:
+            pose = await self._transforms.known(goal, self._base, self._objects.header.frame_id)
+            found += _near(_things(self._objects), pose)
+        return found
+
+    def _take(self, message: Detection3DArray) -> None:
+        self._objects = message
+
+
+def surface_boxes(surface: Surface) -> list[Obstacle]:
+    """
+    Return a surface as boxes in the map: its board.
+
+    What is below a board is not known: a cabinet, or the legs of a table. An arm that comes from
+    above does not get there.
+    """
+    outline = np.array(surface.outline_m)
+    edges = np.roll(outline, -1, axis=0) - outline
+    longest = edges[int(np.argmax((edges**2).sum(axis=1)))]
+    yaw_rad = math.atan2(longest[1], longest[0])
+    turn = about_z(yaw_rad)
+    across = outline @ turn[:2, :2]
+    lower, upper = across.min(axis=0), across.max(axis=0)
+    middle = turn[:2, :2] @ ((lower + upper) / 2.0)
+    size = (float(upper[0] - lower[0]), float(upper[1] - lower[1]), _BOARD_M)
+    position = np.array([*middle, surface.height_m - _BOARD_M / 2.0])
+    return [Obstacle(surface.name.replace('_', ' '), Frame(position, turn), size)]
+
+
+def _things(message: Detection3DArray) -> Iterable[Obstacle]:
+    """Yield remembered things as boxes in the map."""
+    for detection in message.detections:
+        at, turn, size = (
+            detection.bbox.center.position,
+            detection.bbox.center.orientation,
+            detection.bbox.size,
+        )
+        rotation = from_quaternion((turn.w, turn.x, turn.y, turn.z))
+        yield Obstacle(
+            detection.id.replace('_', ' '),
+            Frame(np.array([at.x, at.y, at.z]), about_z(yaw_of(rotation))),
+            (size.x, size.y, size.z),
+        )
+
+
+def _near(obstacles: Iterable[Obstacle], pose: Array) -> list[Obstacle]:
+    """Return those obstacles that are near, in another frame: `pose` (4, 4) is that of theirs."""
+    found = []
+    for each in obstacles:
+        position = pose[:3, :3] @ each.middle.position_m + pose[:3, 3]
+        reach_m = 0.5 * math.hypot(*each.size_m[:2]) + _FAR_M
+        if float(np.linalg.norm(position[:2])) < reach_m:
+            middle = Frame(position, pose[:3, :3] @ each.middle.rotation)
+            found.append(Obstacle(each.name, middle, each.size_m))
+    return found

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reach with the arms of a mock robot, by the action."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import math
+from typing import Any
+
+from action_msgs.msg import GoalStatus
+from humanoid_common.qos import LATCHED
+from humanoid_common.testing.ros import ros_sandbox, RosSandbox
+from humanoid_control.mock_robot import MockRobot
+from humanoid_description.expansion import humanoid_urdf
+from humanoid_interfaces.action import Reach
+from humanoid_manipulation.manipulator import Manipulator
+import pytest
+from rclpy.action import ActionClient
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from vision_msgs.msg import Detection3D, Detection3DArray
+
+PATIENCE_S = 60.0
+ABOVE = (0.33, 0.25, 0.12)
+"""In reach of the left hand, which points ahead there."""
+
+
+class World:
+    """A robot, what moves its arms, and a client of that."""
+
+    def __init__(self, ros: RosSandbox) -> None:
+        """Start all."""
+        self.ros, self.node = ros, ros.observer()
+        self.joints: dict[str, float] = {}
+        self.feedback: list[Any] = []
+        self.node.create_subscription(JointState, 'joint_states', self._hear, 10)
+        self._description = self.node.create_publisher(String, 'robot_description', LATCHED)
+        self._description.publish(String(data=humanoid_urdf(hands=True)))
+        self.objects = self.node.create_publisher(Detection3DArray, 'objects', LATCHED)
+        ros.start(MockRobot, {'hands': True})
+        ros.start(Manipulator)
+        self._client = ActionClient(self.node, Reach, 'reach')
+        ros.wait_until(self._client.server_is_ready, PATIENCE_S, 'reach')
+
+    def send(self, position_m: tuple[float, float, float], **fields: Any) -> Any:
+        """Return the handle of a goal: a hand that points ahead."""
+        goal = Reach.Goal(**fields)
+        goal.pose.header.frame_id = 'base_link'
+        at, turn = goal.pose.pose.position, goal.pose.pose.orientation
+        at.x, at.y, at.z = position_m
+        turn.w, turn.y = math.cos(math.pi / 4.0), -math.sin(math.pi / 4.0)
+        return self._wait(self._client.send_goal_async(goal))
+
+    def end_of(self, handle: Any) -> Any:
+        """Return how a goal ended."""
+        assert handle.accepted
+        return self._wait(handle.get_result_async())
+
+    def put(self, position_m: tuple[float, float, float], edge_m: float) -> None:
+        """Let the robot remember a cube."""
+        cube = Detection3D(id='cube_1')
+        at, size = cube.bbox.center.position, cube.bbox.size
+        at.x, at.y, at.z = position_m
+        size.x = size.y = size.z = edge_m
+        self.remember(cube)
+
+    def remember(self, *things: Detection3D) -> None:
+        """Let the robot remember things."""
+        message = Detection3DArray(detections=list(things))
+        message.header.frame_id = 'base_link'
+        self.objects.publish(message)
+
+    def close(self) -> None:
+        """End."""
+        self._client.destroy()
+
+    def _wait(self, future: Any) -> Any:
+        self.ros.wait_until(future.done, PATIENCE_S, 'an answer')
+        return future.result()
+
+    def _hear(self, message: JointState) -> None:
+        self.joints = dict(zip(message.name, message.position))
+
+
+@pytest.fixture(name='world', scope='module')
+def _world() -> Iterator[World]:
+    """Give a robot in a domain of its own."""
+    with ros_sandbox() as sandbox:
+        world = World(sandbox)
+        yield world
+        world.close()
+
+
+def at(pose: Any) -> tuple[float, float, float]:
+    """Return the position of a pose."""
+    position = pose.pose.position
+    return position.x, position.y, position.z
+
+
+def test_the_hand_comes_to_where_it_is_asked(world: World) -> None:
+    """By the arm that is nearer, and along the hand if asked."""
+    end = world.end_of(world.send(ABOVE, approach=0.08))
+    assert end.status == GoalStatus.STATUS_SUCCEEDED, end.result.error_msg
+    assert end.result.side == 'left'
+    assert end.result.reached.header.frame_id == 'base_link'
+    assert at(end.result.reached) == pytest.approx(ABOVE, abs=0.005)
+    assert world.joints['left_elbow'] < -0.3
+    mirrored = (ABOVE[0], -ABOVE[1], ABOVE[2])
+    end = world.end_of(world.send(mirrored))
+    assert (end.status, end.result.side) == (GoalStatus.STATUS_SUCCEEDED, 'right')
+    assert at(end.result.reached) == pytest.approx(mirrored, abs=0.005)
+
+
+def test_what_is_out_of_reach_gets_the_nearest_pose(world: World) -> None:
+    """The code and the sentence say so."""
+    end = world.end_of(world.send((0.9, 0.2, 0.2), side='left'))
+    assert end.status == GoalStatus.STATUS_ABORTED
+    assert end.result.error_code == Reach.Result.NOT_REACHABLE
+    assert 'no closer than' in end.result.error_msg
+    assert 0.4 < at(end.result.reached)[0] < 0.8
+
+
+def test_what_is_in_the_way_is_named(world: World) -> None:
+    """A cube that is remembered just there."""
+    world.put(ABOVE, 0.08)
+    try:
+        for _ in range(50):
+            end = world.end_of(world.send(ABOVE, side='left'))
+            if end.status == GoalStatus.STATUS_ABORTED:
+                break
+        assert end.result.error_code == Reach.Result.BLOCKED
+        assert 'cube 1' in end.result.error_msg
+    finally:
+        world.remember()
+
+
+def test_cancel_stops_the_arm(world: World) -> None:
+    """It goes no further."""
+    world.end_of(world.send((0.25, 0.30, 0.0), side='left'))
+    handle = world.send((0.40, 0.25, 0.25), side='left')
+    before = world.joints['left_shoulder']
+    world.ros.wait_until(
+        lambda: abs(world.joints['left_shoulder'] - before) > 0.05, PATIENCE_S, 'a motion'
+    )
+    handle.cancel_goal_async()
+    assert world.end_of(handle).status == GoalStatus.STATUS_CANCELED
+
+
+@pytest.mark.parametrize(
+    'fields', [{'side': 'middle'}, {'approach': -0.1}, {'approach': 5.0}], ids=str
+)
+def test_what_makes_no_sense_is_rejected(world: World, fields: dict[str, Any]) -> None:
+    """Before anything moves."""
+    assert not world.send(ABOVE, **fields).accepted
+    assert not world.send((math.nan, 0.0, 0.0)).accepted

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where frames are, for goals that want to know it only while they run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from humanoid_common.single_goal import GoalAborted, RunningGoal
+from humanoid_perception.memory_conversions import pose_of
+import numpy as np
+import numpy.typing as npt
+from rclpy.node import Node
+from rclpy.time import Time
+from tf2_ros import Buffer, TransformException, TransformListener
+
+__all__ = ['PATIENCE_S', 'Patience', 'Transforms']
+
+Array = npt.NDArray[np.float64]
+PATIENCE_S = 5.0
+"""How long what a goal needs may take to come."""
+_TICK_HZ = 20.0
+
+
+class Patience:
+    """A time by a clock that nobody stops."""
+
+    def __init__(self, seconds: float = PATIENCE_S) -> None:
+        self._ticks = seconds * _TICK_HZ
+
+    def is_over(self) -> bool:
+        """Whether it is over; to be asked once a tick."""
+        self._ticks -= 1.0
+        return self._ticks < 0.0
+
+
+class Transforms:
+    """
+    Knows where frames are, while it listens: transforms come all the time, which costs.
+
+    Parameters
+    ----------
+    node
+        The node whose topics count.
+
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._buffer: Buffer | None = None
+
+    @contextmanager
+    def listening(self) -> Iterator[None]:
+        """Listen to the transforms meanwhile."""
+        self._buffer = Buffer()
+        listener = TransformListener(self._buffer, self._node)
+        try:
+            yield
+        finally:
+            listener.unregister()
+            self._buffer = None
+
+    async def known(self, goal: RunningGoal, frame: str, child: str) -> Array:
+        """Return the pose (4, 4) of a frame in another; wait a while for it, or abort."""
+        patience = Patience()
+        while True:
+            try:
+                return self.pose(frame, child)
+            except TransformException as error:
+                if patience.is_over():
+                    raise GoalAborted(
+                        'NO_TRANSFORM', f"It is not known where '{child}' is: {error}"
+                    ) from None
+            await goal.tick()
+
+    def pose(self, frame: str, child: str) -> Array:
+        """Look up the newest matrix (4, 4) of a frame in another; raise TransformException."""
+        assert self._buffer is not None, 'Transforms are known while they are listened to.'
+        pose = np.eye(4)
+        if frame != child:
+            found = self._buffer.lookup_transform(frame, child, Time())
+            pose[:3, 3], pose[:3, :3] = pose_of(found.transform)
+        return pose
