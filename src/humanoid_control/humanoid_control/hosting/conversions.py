@@ -5,8 +5,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Pose, Twist
 from humanoid_control.controllers import CommandError, TrajectoryPoint
+from humanoid_control.dynamics.rotations import from_quaternion, to_rpy
+from humanoid_control.walking.body_pose import BodyPose
+from humanoid_control.walking.errors import WalkingError
 from humanoid_control.walking.velocity_command import VelocityCommand
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
@@ -17,6 +20,21 @@ MOST_POINTS = 1000
 def velocity_of(message: Twist) -> VelocityCommand:
     """Return the velocity in the plane, or raise WalkingError; the rest of it means nothing."""
     return VelocityCommand(message.linear.x, message.linear.y, message.angular.z)
+
+
+def body_pose_of(message: Pose) -> BodyPose:
+    """
+    Return how the body is to be held, or raise WalkingError.
+
+    Of the position the height counts, compared to that of a robot that stands upright, and of the
+    orientation the pitch.
+    """
+    turn = message.orientation
+    try:
+        rotation = from_quaternion((turn.w, turn.x, turn.y, turn.z))
+    except ValueError as error:
+        raise WalkingError(str(error)) from None
+    return BodyPose(to_rpy(rotation)[1], message.position.z)
 
 
 def seconds(time: Any) -> float:

@@ -28,9 +28,11 @@ from humanoid_control.controllers.silence import Clock
 from humanoid_control.controllers.still import Still
 from humanoid_control.hosting.velocity_input import VelocityInput
 from humanoid_control.limits import JointLimits
+from humanoid_control.walking.body_pose import BodyPose
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 
 Drive = Callable[[VelocityCommand], None]
+HoldBody = Callable[[BodyPose | None], None]
 HELD = 'The robot must hold still; stop_state says why.'
 
 
@@ -50,8 +52,15 @@ class RobotControl:
         drive: Drive | None = None,
         clock: Clock | None = None,
         say: Callable[[str], None] = lambda sentence: None,
+        hold_body: HoldBody | None = None,
     ) -> None:
-        """Begin in the first mode; `drive` is what walks, if anything does."""
+        """
+        Begin in the first mode.
+
+        :param drive: what walks, if anything does
+        :param hold_body: what bends the body, if anything does; None is as it is now
+        """
+        self._hold_body = hold_body
         self._names, self._limits, self._drive = JointNames(joints), limits, drive
         self.still = Still(joints)
         """Owns the joints while the robot must hold still."""
@@ -129,10 +138,19 @@ class RobotControl:
         if not self.must_hold:
             self._velocity.accept(velocity)
 
+    def hold_body(self, pose: BodyPose) -> None:
+        """Hold the body in a pose until the robot walks, or raise CommandError."""
+        if self._hold_body is None:
+            raise CommandError('This robot does not bend: nothing in it takes a pose of the body.')
+        if not self.must_hold:
+            self._hold_body(pose)
+
     def hold_still(self, must: bool) -> None:
         """Begin to hold still, or be released; what was commanded before is forgotten."""
         if must and not self.must_hold:
             self._forget()
+            if self._hold_body is not None:
+                self._hold_body(None)
             for controller in self.controllers.values():
                 controller.abort(HELD)
         self.still.on = must

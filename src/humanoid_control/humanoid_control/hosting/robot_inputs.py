@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Pose, Twist
 from humanoid_common.qos import COMMAND
 from humanoid_control.controllers import CommandError
-from humanoid_control.hosting.conversions import points_of, velocity_of
+from humanoid_control.hosting.conversions import body_pose_of, points_of, velocity_of
 from humanoid_control.hosting.refusals import Refusals
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.hosting.topics.filling import topic
@@ -21,7 +21,7 @@ from trajectory_msgs.msg import JointTrajectory
 
 class RobotInputs:
     """
-    Hears `cmd_vel`, `joint_commands`, `joint_trajectory` and the topics of a stop.
+    Hears `cmd_vel`, `body_pose`, `joint_commands`, `joint_trajectory` and the topics of a stop.
 
     What it hears is stored until the next tick, or refused with the reason in the log.
     """
@@ -36,6 +36,7 @@ class RobotInputs:
         self.stop = StopListener(node, heartbeat_timeout_s, robot)
         for kind, name, take in (
             (Twist, 'cmd_vel', self._walk),
+            (Pose, 'body_pose', self._bend),
             (JointState, 'joint_commands', self._follow),
             (JointTrajectory, 'joint_trajectory', self._run),
         ):
@@ -47,6 +48,9 @@ class RobotInputs:
 
     def _walk(self, message: Twist) -> None:
         self._attempt('cmd_vel', lambda: self._control.walk(velocity_of(message)))
+
+    def _bend(self, message: Pose) -> None:
+        self._attempt('body_pose', lambda: self._control.hold_body(body_pose_of(message)))
 
     def _follow(self, message: JointState) -> None:
         self._attempt(

@@ -12,6 +12,7 @@ from humanoid_control.controllers.silence import Clock
 from humanoid_control.controllers.walking import walking_mode, WalkingController
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.limits import JointLimits
+from humanoid_control.walking.body_pose import BodyPose
 from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.velocity_command import VelocityCommand
 from humanoid_control.walking.walker import Walker
@@ -61,4 +62,11 @@ class WalkingRobotControl:
         def drive(velocity: VelocityCommand) -> None:
             walking.drive(able(velocity))
 
-        return cls(walker, RobotControl(joints, limits, modes, drive, clock, say))
+        def hold_body(pose: BodyPose | None) -> None:
+            if pose is None:
+                walker.freeze()
+            else:
+                walker.hold(pose)
+
+        control = RobotControl(joints, limits, modes, drive, clock, say, hold_body)
+        return cls(walker, control)

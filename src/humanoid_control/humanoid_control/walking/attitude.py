@@ -24,8 +24,18 @@ class Attitude:
     rates_rad_s: tuple[float, float, float]
 
 
-def hip_efforts(parameters: WalkParameters, attitude: Attitude, turning: Turning) -> Array:
-    """Return efforts (3,) of hip yaw, roll and pitch of a leg that carries all of the weight."""
+def hip_efforts(
+    parameters: WalkParameters,
+    attitude: Attitude,
+    turning: Turning,
+    pitch_rad: float = 0.0,
+    pitch_rate_rad_s: float = 0.0,
+) -> Array:
+    """
+    Return efforts (3,) of hip yaw, roll and pitch of a leg that carries all of the weight.
+
+    :param turning, pitch_rad, pitch_rate_rad_s: how the pelvis is to be turned, and to turn
+    """
     stiffness, damping = (
         parameters.attitude_stiffness_nm_rad,
         parameters.attitude_damping_nms_rad,
@@ -37,6 +47,6 @@ def hip_efforts(parameters: WalkParameters, attitude: Attitude, turning: Turning
             parameters.heading_share
             * (stiffness * off_course_rad + damping * (yaw - turning.rate_rad_s)),
             stiffness * attitude.roll_rad + damping * roll,
-            stiffness * attitude.pitch_rad + damping * pitch,
+            stiffness * (attitude.pitch_rad - pitch_rad) + damping * (pitch - pitch_rate_rad_s),
         ]
     )

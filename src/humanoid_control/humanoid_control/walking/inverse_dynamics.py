@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from humanoid_control.walking.attitude import hip_efforts
+from humanoid_control.walking.body_pose import BodyPoseFollower
 from humanoid_control.walking.feed_forward import ground_efforts
 from humanoid_control.walking.footing import Footing, loads_for
 from humanoid_control.walking.gait import GaitOutput
@@ -43,10 +44,15 @@ class InverseDynamics:
     footing: Footing
 
     def exertion(
-        self, sensed: Sensed, base_m: Array, output: GaitOutput, plan: PlannedAcceleration
+        self,
+        sensed: Sensed,
+        base_m: Array,
+        output: GaitOutput,
+        plan: PlannedAcceleration,
+        body: BodyPoseFollower,
     ) -> Exertion:
         """
-        Return the efforts that move the robot as planned and keep it upright.
+        Return the efforts that move the robot as planned and keep its body as it is to be held.
 
         What the ground cannot do is cut: it pushes below the feet only.
 
@@ -61,7 +67,9 @@ class InverseDynamics:
         )
         loads = loads_for(self.footing, output.sides, reaction.point_m)
         efforts -= ground_efforts(self.robot, state, base_m, loads, reaction)
-        upright = hip_efforts(p, sensed.attitude, output.turning)
+        upright = hip_efforts(
+            p, sensed.attitude, output.turning, body.pose.pitch_rad, body.pitch_rate_rad_s
+        )
         for side in SIDES:
             efforts[self.robot.legs[side].indices[:3]] += loads.shares[side] * upright
         return Exertion(efforts, loads.shares)

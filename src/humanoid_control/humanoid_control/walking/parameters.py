@@ -99,6 +99,22 @@ class WalkParameters:
     shoulder_roll_rad: float = 0.12
     """How far the left arm is held from the body; the right one mirrors it."""
 
+    # How a robot that stands may hold its body.
+    bend_rad: float = 0.6
+    """How far it bends forward at most ..."""
+    bend_back_rad: float = 0.1
+    """... and back, ..."""
+    bend_rad_s: float = _rate(0.4)
+    """... and how fast."""
+    lower_m: float = _length(0.15)
+    """How far it lowers its centre of mass at most ..."""
+    lower_m_s: float = _speed(0.1)
+    """... and how fast."""
+    upright_pitch_rad: float = 0.03
+    """A robot that is bent by less, ..."""
+    upright_height_m: float = _length(0.01)
+    """... and lowered by less, may step."""
+
     # Balance.
     dcm_gain: float = 1.6
     """How many times the error of the divergent component the zero-moment point moves."""

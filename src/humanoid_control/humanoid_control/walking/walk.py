@@ -6,6 +6,7 @@ from __future__ import annotations
 from humanoid_control.backends import JointTargets
 from humanoid_control.walking.base_estimate import base_on, BaseEstimate, carrying
 from humanoid_control.walking.base_motion import BaseMotion
+from humanoid_control.walking.body_pose import BodyPose, BodyPoseFollower, UPRIGHT
 from humanoid_control.walking.com_observer import ComObserver
 from humanoid_control.walking.com_reference import ComReference
 from humanoid_control.walking.conforming import Conforming
@@ -25,6 +26,7 @@ from humanoid_control.walking.senses import Sensed
 from humanoid_control.walking.soles import footing_below, soles_below
 from humanoid_control.walking.terrain import GroundLevel
 from humanoid_control.walking.touch import NOTHING, Touch, TouchObserver
+from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 from humanoid_control.walking.walking_robot import WalkingRobot
 from humanoid_control.walking.wanted_base import base_below, within_reach
 from humanoid_control.walking.whole_body import JointMotion, WholeBody
@@ -64,6 +66,9 @@ class Walk:
         )
         self._force = ForceObserver(robot.body.mass_kg, parameters.force_rate_1_s)
         self._touch = TouchObserver(robot, parameters)
+        self.body = BodyPoseFollower(parameters)
+        """How the pelvis is to be held now."""
+        self._wanted_pose, self._velocity = UPRIGHT, STANDING
         self._shares = (0.5, 0.5)
         self._zmp_m = self._footing.rest_point
         self._error_m = 0j
@@ -83,11 +88,33 @@ class Walk:
         """Return where the feet stand."""
         return self._footing
 
+    def command(self, velocity: VelocityCommand, pose: BodyPose) -> None:
+        """
+        Go at a velocity, or stand with the body in a pose.
+
+        Who goes is upright: a robot that is bent comes up before its first step.
+        """
+        self._velocity, self._wanted_pose = velocity, pose
+        self._obey()
+
+    def _obey(self) -> None:
+        """Tell the gait the velocity, as soon as the body is upright."""
+        self.gait.command(self._velocity if self.body.is_upright else STANDING)
+
+    def _hold_body(self, passed_s: float) -> None:
+        """Bring the body to where it is to be; it comes up when the robot is to step."""
+        stands = self.gait.phase == STAND and self._velocity.is_zero
+        was_upright = self.body.is_upright
+        self.body.update(self._wanted_pose if stands else UPRIGHT, passed_s)
+        if self.body.is_upright and not was_upright:
+            self._obey()
+
     def update(self, sensed: Sensed) -> JointTargets:
         """Return what the joints are to do next."""
         passed_s = sensed.time_s - self._last_s
         self._last_s, self.sensed = sensed.time_s, sensed
         self._estimate(passed_s)
+        self._hold_body(passed_s)
         soles = soles_below(self.base.position_m, self._robot, sensed, self._parameters)
         output = self.output = self.gait.update(
             GaitInput(
@@ -111,7 +138,9 @@ class Walk:
             output.swing,
         )
         plan = self._planned(output, joints)
-        exertion = self._dynamics.exertion(sensed, self._base_above_ground_m, output, plan)
+        exertion = self._dynamics.exertion(
+            sensed, self._base_above_ground_m, output, plan, self.body
+        )
         self._shares = exertion.shares
         velocities = within(joints.velocities_rad_s, self._parameters.velocity_limit_rad_s)
         return JointTargets(joints.positions_rad, velocities, exertion.efforts_nm)
@@ -163,7 +192,7 @@ class Walk:
         com_m = float(self.base.position_m[2] + self.sensed.state.com_m[2])
         self._level.update(
             self._footing.height_m(shares),
-            com_m - self._pendulum.height_m,
+            com_m - self._pendulum.height_m - self.body.pose.height_m,
             passed_s,
         )
 
@@ -175,8 +204,18 @@ class Walk:
 
     def _wanted_base(self, com: Motion, output: GaitOutput) -> BaseMotion:
         """Return the base that has the centre of mass where it is wanted."""
-        height_m = self._pendulum.height_m + self._level.height_m
-        base = base_below(com, height_m, output.turning, self.com, self.base, self.sensed.state)
+        body = self.body
+        height_m = self._pendulum.height_m + self._level.height_m + body.pose.height_m
+        base = base_below(
+            com,
+            height_m,
+            output.turning,
+            self.com,
+            self.base,
+            self.sensed.state,
+            body.pose.pitch_rad,
+            body.pitch_rate_rad_s,
+        )
         reach = self._parameters.leg_reach
         return within_reach(base, self._robot, self._footing, output.sides, reach)
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from humanoid_control.backends import Array, ImuNoise, JointTargets, Observation
+from humanoid_control.walking.body_pose import BodyPose, UPRIGHT
 from humanoid_control.walking.fall_detector import Stance
 from humanoid_control.walking.foot_shape import FootShape
 from humanoid_control.walking.heading import quaternion_of
@@ -41,6 +42,7 @@ class Walker:
     imu: ImuNoise = field(default_factory=ImuNoise)
     _senses: Senses = field(init=False)
     _velocity: VelocityCommand = field(init=False, default=STANDING)
+    _pose: BodyPose = field(init=False, default=UPRIGHT)
     _walk: Walk | None = field(init=False, default=None)
     _targets: JointTargets | None = field(init=False, default=None)
     _start_m: Point = field(init=False, default=0j)
@@ -85,7 +87,7 @@ class Walker:
         self._uncertainty = Uncertainty(self.imu, self.home.base_height_m)
         self._start_m = 0j
         self._walk = self._targets = None
-        self._velocity = STANDING
+        self._velocity, self._pose = STANDING, UPRIGHT
 
     def restart(self) -> None:
         """Begin anew from where the feet are at the next tick; odometry goes on."""
@@ -93,7 +95,7 @@ class Walker:
             x, y, _ = self._walk.base.position_m.tolist()
             self._start_m = complex(x, y)
         self._walk = self._targets = None
-        self._velocity = STANDING
+        self._velocity, self._pose = STANDING, UPRIGHT
 
     @property
     def velocity(self) -> VelocityCommand:
@@ -101,10 +103,31 @@ class Walker:
         return self._velocity
 
     def command(self, velocity: VelocityCommand) -> None:
-        """Go at a velocity, within the limits of the gait; zero stops."""
+        """
+        Go at a velocity, within the limits of the gait; zero stops.
+
+        Who is to go forgets how its body was to be held.
+        """
         self._velocity = velocity
+        if not velocity.is_zero:
+            self._pose = UPRIGHT
         if self._walk:
-            self._walk.gait.command(velocity)
+            self._walk.command(velocity, self._pose)
+
+    @property
+    def pose(self) -> BodyPose:
+        """Return how the body is to be held; upright after a reset, a restart or a fall."""
+        return self._pose
+
+    def hold(self, pose: BodyPose) -> None:
+        """
+        Hold the body in a pose, within what it can do, until the robot is to go somewhere.
+
+        :raises WalkingError: if the pose is not finite
+        """
+        self._pose = pose.within(self.parameters)
+        if self._walk:
+            self._walk.command(self._velocity, self._pose)
 
     def update(self, observation: Observation) -> JointTargets:
         """
@@ -137,12 +160,17 @@ class Walker:
         walk = self._walk
         return walk is not None and walk.gait.is_blocked and not self.has_fallen
 
+    def freeze(self) -> None:
+        """Bend no further."""
+        if self._walk:
+            self.hold(self._walk.body.pose)
+
     def _begin(self, sensed: Sensed) -> Walk:
         """Begin to walk from where the feet are."""
         self._walk = Walk(
             self.robot, self.shape, self.home, self.parameters, sensed, self._start_m
         )
-        self._walk.gait.command(self._velocity)
+        self._walk.command(self._velocity, self._pose)
         return self._walk
 
     def _recover(self, walk: Walk, sensed: Sensed, positions_rad: Array) -> JointTargets | None:

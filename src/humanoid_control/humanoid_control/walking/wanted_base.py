@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from humanoid_control.dynamics import BodyState
 from humanoid_control.dynamics.frames import Frame, Twist
-from humanoid_control.dynamics.rotations import about_z, skew
+from humanoid_control.dynamics.rotations import about_y, about_z, skew
 from humanoid_control.walking.base_estimate import BaseEstimate
 from humanoid_control.walking.base_motion import BaseMotion
 from humanoid_control.walking.footing import Footing
@@ -25,14 +25,19 @@ def base_below(
     com: Motion,
     base: BaseEstimate,
     state: BodyState,
+    pitch_rad: float = 0.0,
+    pitch_rate_rad_s: float = 0.0,
 ) -> BaseMotion:
     """
-    Return the base that is upright, faces a heading and has the centre of mass where wanted.
+    Return the base that faces a heading and has the centre of mass where wanted.
 
     :param height_m: of the centre of mass
     :param com: its motion as estimated; with the base it says where in the robot it is
+    :param pitch_rad: how far the base is bent forward; upright by default
+    :param pitch_rate_rad_s: how fast that changes
     """
-    rotation = about_z(turning.heading_rad)
+    heading = about_z(turning.heading_rad)
+    rotation = heading @ about_y(pitch_rad)
     upright = rotation @ state.base_rotation.T
     from_base = np.array([com.position_m.real, com.position_m.imag, 0.0]) - base.position_m
     from_base[2] = state.com_m[2]
@@ -42,7 +47,7 @@ def base_below(
         state.com_velocity_m_s - skew(state.base_angular_velocity_rad_s) @ state.com_m
     )
     place, speed = wanted.position_m, wanted.velocity_m_s
-    turn = np.array([0.0, 0.0, turning.rate_rad_s])
+    turn = pitch_rate_rad_s * heading[:, 1] + np.array([0.0, 0.0, turning.rate_rad_s])
     velocity = np.array([speed.real, speed.imag, 0.0]) - shifting - skew(turn) @ to_com
     goal = np.array([place.real, place.imag, height_m])
     return BaseMotion(Frame(goal - to_com, rotation), Twist(velocity, turn))
