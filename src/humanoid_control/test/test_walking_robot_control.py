@@ -65,7 +65,7 @@ def test_what_is_lent(humanoid: Humanoid) -> None:
     """Walking lends all above the legs, and keeps these."""
     joints = humanoid.control.manager.joints
     for joint in joints:
-        is_upper = 'elbow' in joint or 'shoulder' in joint or 'head' in joint
+        is_upper = any(part in joint for part in ('elbow', 'shoulder', 'head', 'waist'))
         if is_upper:
             humanoid.control.follow([joint], [0.1])
         else:

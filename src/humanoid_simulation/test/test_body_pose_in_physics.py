@@ -6,6 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 import math
 
+from humanoid_control.controllers import (
+    ErrorCode,
+    GoalResult,
+    TrajectoryPoint,
+    TrajectoryRequest,
+)
 from humanoid_control.walking.body_pose import BodyPose
 from humanoid_simulation.backend.noise import REALISTIC
 from humanoid_simulation.backend.settings import BackendSettings
@@ -79,6 +85,24 @@ def test_who_is_to_walk_comes_up_first(bent: Bent) -> None:
     assert bent.walker.phase == 'stand' and abs(bent.pitch_rad) < 0.03
 
 
+@pytest.mark.parametrize('angle_rad', [1.2, -1.2])
+def test_it_stands_and_walks_with_its_waist_turned(bent: Bent, angle_rad: float) -> None:
+    """Somebody reaches with an arm meanwhile, say."""
+    control = bent.robot.walking.control
+    waist = control.trajectory_controllers['waist_controller']
+    ends: list[GoalResult] = []
+    request = TrajectoryRequest(waist.own, [TrajectoryPoint(1.0, [angle_rad])])
+    waist.accept(control.checked_goal('waist_controller', request), ends.append)
+    assert bent.robot.wait(2.0)
+    assert [end.code for end in ends] == [ErrorCode.SUCCESSFUL]
+    bent.robot.drive(0.25, 0.0, 0.2)
+    assert bent.robot.wait(4.0)
+    assert abs(bent.robot.pose.position_m) > 0.5
+    bent.robot.drive()
+    assert bent.robot.wait(2.0)
+    bent.hold(0.4, -0.05)
+
+
 @pytest.mark.parametrize('direction', [1.0, -1.0, 1j])
 def test_it_bears_a_push(bent: Bent, direction: complex) -> None:
     """Of 6 N s, with a step if it needs one."""
@@ -89,7 +113,7 @@ def test_it_bears_a_push(bent: Bent, direction: complex) -> None:
 
 def test_a_stop_freezes_it(bent: Bent) -> None:
     """Half way down it bends no further."""
-    bent.walker.hold(BodyPose(0.6, 0.0))
+    bent.walker.hold(BodyPose(0.5, 0.0))
     assert bent.robot.wait(0.6)
     bent.robot.walking.control.hold_still(True)
     there_rad = bent.walker.pose.pitch_rad

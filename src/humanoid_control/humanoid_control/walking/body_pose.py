@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a robot that stands holds its pelvis: upright, or bent forward and lower, to reach farther."""
+"""How a robot that stands holds its pelvis: upright, or bent forward and lower."""
 
 from __future__ import annotations
 

@@ -100,13 +100,13 @@ class WalkParameters:
     """How far the left arm is held from the body; the right one mirrors it."""
 
     # How a robot that stands may hold its body.
-    bend_rad: float = 0.6
+    bend_rad: float = 0.5
     """How far it bends forward at most ..."""
     bend_back_rad: float = 0.1
     """... and back, ..."""
     bend_rad_s: float = _rate(0.4)
     """... and how fast."""
-    lower_m: float = _length(0.15)
+    lower_m: float = _length(0.12)
     """How far it lowers its centre of mass at most ..."""
     lower_m_s: float = _speed(0.1)
     """... and how fast."""

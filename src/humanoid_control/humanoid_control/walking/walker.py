@@ -42,7 +42,7 @@ class Walker:
     imu: ImuNoise = field(default_factory=ImuNoise)
     _senses: Senses = field(init=False)
     _velocity: VelocityCommand = field(init=False, default=STANDING)
-    _pose: BodyPose = field(init=False, default=UPRIGHT)
+    _body: BodyPose = field(init=False, default=UPRIGHT)
     _walk: Walk | None = field(init=False, default=None)
     _targets: JointTargets | None = field(init=False, default=None)
     _start_m: Point = field(init=False, default=0j)
@@ -87,7 +87,7 @@ class Walker:
         self._uncertainty = Uncertainty(self.imu, self.home.base_height_m)
         self._start_m = 0j
         self._walk = self._targets = None
-        self._velocity, self._pose = STANDING, UPRIGHT
+        self._velocity, self._body = STANDING, UPRIGHT
 
     def restart(self) -> None:
         """Begin anew from where the feet are at the next tick; odometry goes on."""
@@ -95,7 +95,7 @@ class Walker:
             x, y, _ = self._walk.base.position_m.tolist()
             self._start_m = complex(x, y)
         self._walk = self._targets = None
-        self._velocity, self._pose = STANDING, UPRIGHT
+        self._velocity, self._body = STANDING, UPRIGHT
 
     @property
     def velocity(self) -> VelocityCommand:
@@ -110,14 +110,14 @@ class Walker:
         """
         self._velocity = velocity
         if not velocity.is_zero:
-            self._pose = UPRIGHT
+            self._body = UPRIGHT
         if self._walk:
-            self._walk.command(velocity, self._pose)
+            self._walk.command(velocity, self._body)
 
     @property
     def pose(self) -> BodyPose:
         """Return how the body is to be held; upright after a reset, a restart or a fall."""
-        return self._pose
+        return self._body
 
     def hold(self, pose: BodyPose) -> None:
         """
@@ -125,9 +125,9 @@ class Walker:
 
         :raises WalkingError: if the pose is not finite
         """
-        self._pose = pose.within(self.parameters)
+        self._body = pose.within(self.parameters)
         if self._walk:
-            self._walk.command(self._velocity, self._pose)
+            self._walk.command(self._velocity, self._body)
 
     def update(self, observation: Observation) -> JointTargets:
         """
@@ -170,7 +170,7 @@ class Walker:
         self._walk = Walk(
             self.robot, self.shape, self.home, self.parameters, sensed, self._start_m
         )
-        self._walk.command(self._velocity, self._pose)
+        self._walk.command(self._velocity, self._body)
         return self._walk
 
     def _recover(self, walk: Walk, sensed: Sensed, positions_rad: Array) -> JointTargets | None:
