@@ -46,19 +46,20 @@ class Transforms:
     """
 
     def __init__(self, node: Node) -> None:
-        self._node = node
-        self._buffer: Buffer | None = None
+        self._node, self._buffer = node, Buffer()
+        self._listens = False
 
     @contextmanager
     def listening(self) -> Iterator[None]:
         """Listen to the transforms meanwhile."""
-        self._buffer = Buffer()
+        self._buffer.clear()
         listener = TransformListener(self._buffer, self._node)
+        self._listens = True
         try:
             yield
         finally:
+            self._listens = False
             listener.unregister()
-            self._buffer = None
 
     async def known(self, goal: RunningGoal, frame: str, child: str) -> Array:
         """Return the pose (4, 4) of a frame in another; wait a while for it, or abort."""
@@ -75,7 +76,7 @@ class Transforms:
 
     def pose(self, frame: str, child: str) -> Array:
         """Look up the newest matrix (4, 4) of a frame in another; raise TransformException."""
-        assert self._buffer is not None, 'Transforms are known while they are listened to.'
+        assert self._listens, 'Transforms are known while they are listened to.'
         pose = np.eye(4)
         if frame != child:
             found = self._buffer.lookup_transform(frame, child, Time())

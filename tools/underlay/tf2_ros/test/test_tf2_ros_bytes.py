@@ -104,7 +104,10 @@ class Notes:
         return self
 
     def create_jump_callback(self, *arguments: Any, **options: Any) -> Any:
-        return object()
+        return self
+
+    def unregister(self) -> None:
+        """End."""
 
 
 class Seeing(Buffer):

@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import gc
 import threading
 from typing import Any
+from weakref import ref
 
 import pytest
 from rclpy.duration import Duration
@@ -228,6 +230,19 @@ def test_time_jumps_back(
         spin_until(time_is(time_s), node)
     assert not buffer.can_transform('map', 'camera', at(2.0))
     assert capfd.readouterr().err.count('jump back in time') == 1
+
+
+def test_many_buffers_one_after_the_other(make_node: NodeMaker) -> None:
+    """A node may listen now and then: nothing of a buffer is left in its clock."""
+    node = make_node('user')
+    buffers = []
+    for _ in range(300):
+        buffer = Buffer()
+        TransformListener(buffer, node).unregister()
+        buffers.append(ref(buffer))
+        del buffer
+    gc.collect()
+    assert not any(each() for each in buffers)
 
 
 def test_service(make_node: NodeMaker, spin_until: Spin) -> None:

@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from functools import partial
 from typing import Any, NamedTuple, Optional, TYPE_CHECKING, Union
+from weakref import finalize, ref
 
 from rclpy.clock import ClockChange, JumpThreshold
 from rclpy.duration import Duration
+from rclpy.exceptions import InvalidHandle
 from rclpy.logging import get_logger
 from rclpy.task import Future
 from tf2_py import BufferCore, TransformException
@@ -32,6 +35,19 @@ _BLOCKED = (
 
 QUIET_S = 60.0
 """Two simulators in a domain make the time jump with every message of /clock: it is said once."""
+
+
+def _tell_of_jump(buffer: ref[Buffer], time_jump: Any) -> None:
+    """Let a buffer forget what was before a jump of the time, if there still is one."""
+    told = buffer()
+    if told is not None:
+        told.time_jump_callback(time_jump)
+
+
+def _end(jumps: Any) -> None:
+    """Hear of jumps no longer; the clock may be gone already."""
+    with suppress(InvalidHandle):
+        jumps.unregister()
 
 
 class Question(NamedTuple):
@@ -63,7 +79,6 @@ class Buffer(BufferCore, BufferInterface):
         BufferCore.__init__(self, cache_time)
         BufferInterface.__init__(self)
         self._node: Optional[Node] = None
-        self._jumps: Any = None
         self._jump_complaints = Complaints(self._warn, silence_s=QUIET_S)
         self._waiting = Waiting(self._is_alive)
         if node is not None:
@@ -80,9 +95,13 @@ class Buffer(BufferCore, BufferInterface):
         threshold = JumpThreshold(
             min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=True
         )
-        self._jumps = node.get_clock().create_jump_callback(
-            threshold, post_callback=self.time_jump_callback
+        # rcl keeps the address of the handle, which must not outlive it; and the handle must not
+        # keep the buffer alive.
+        myself = ref(self)
+        jumps = node.get_clock().create_jump_callback(
+            threshold, post_callback=partial(_tell_of_jump, myself)
         )
+        finalize(self, _end, jumps)
 
     def time_jump_callback(self, time_jump: Any) -> None:
         """Forget all transforms but the static ones."""
