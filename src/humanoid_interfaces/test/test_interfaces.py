@@ -8,7 +8,7 @@ from typing import Any
 from builtin_interfaces.msg import Duration, Time
 from diagnostic_msgs.msg import KeyValue
 from geometry_msgs.msg import Point, Pose, PoseWithCovariance, Vector3, Wrench
-from humanoid_interfaces.action import ExecutePlan, Reach, ScanRoom
+from humanoid_interfaces.action import ExecutePlan, Pick, Place, Reach, ScanRoom
 from humanoid_interfaces.msg import (
     Contact,
     Contacts,
@@ -94,9 +94,19 @@ REACH_CODES = (
     *('NONE', 'INVALID', 'NOT_REACHABLE', 'BLOCKED', 'ARM_FAILED', 'NO_TRANSFORM', 'INHIBITED'),
     *('PREEMPTED', 'UNKNOWN'),
 )
+PICK_CODES = (
+    *('NONE', 'NOT_SEEN', 'NOT_REACHABLE', 'OCCUPIED_HAND', 'SLIPPED', 'BLOCKED', 'WALK_FAILED'),
+    *('ARM_FAILED', 'NO_TRANSFORM', 'INHIBITED', 'PREEMPTED', 'UNKNOWN'),
+)
+PLACE_CODES = (
+    *('NONE', 'INVALID', 'NOT_REACHABLE', 'EMPTY_HAND', 'SLIPPED', 'BLOCKED', 'WALK_FAILED'),
+    *('ARM_FAILED', 'NO_TRANSFORM', 'INHIBITED', 'PREEMPTED', 'UNKNOWN'),
+)
 MESSAGES = [
     *(CONTACT, CONTACTS, PUSH, MUG, FOUND, SEEN, PLAN, ANSWER, DONE, STEP, HEARD),
     *(ScanRoom.Goal(turn_body=True), ExecutePlan.Goal(plan=PLAN), Reach.Goal(side='left')),
+    Pick.Goal(object='red_mug_1'),
+    Place.Goal(place='desk'),
     MakePlan.Request(command='stop'),
 ]
 
@@ -140,6 +150,8 @@ def test_a_scan_turns_the_head_alone_unless_it_is_told_more() -> None:
         (ScanRoom.Result, SCAN_CODES),
         (ExecutePlan.Result, EXECUTE_CODES),
         (Reach.Result, REACH_CODES),
+        (Pick.Result, PICK_CODES),
+        (Place.Result, PLACE_CODES),
     ],
 )
 def test_each_way_to_fail_has_a_code_of_its_own(result: Any, names: tuple[str, ...]) -> None:

@@ -5,7 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from typing import Any
 
+from action_msgs.msg import GoalStatus
+from control_msgs.action import GripperCommand
 from humanoid_common.joint_mover import JointMover, trajectory_point
 from humanoid_common.qos import LATCHED, SENSOR
 from humanoid_common.single_goal import GoalAborted, RunningGoal
@@ -18,6 +21,7 @@ from humanoid_manipulation.motion_planning import Motion
 from humanoid_manipulation.upper_body import Reach, UpperBody
 from humanoid_perception.transforms import Patience
 import numpy as np
+from rclpy.action import ActionClient
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
@@ -52,6 +56,7 @@ class Arms:
         self._movers: dict[str, JointMover] = {}
         self._waist: JointMover | None = None
         self._positions: dict[str, float] = {}
+        self._grippers: dict[str, ActionClient] = {}
         node.create_subscription(String, 'robot_description', self._read, LATCHED)
 
     @property
@@ -137,6 +142,45 @@ class Arms:
             for mover in movers:
                 mover.stop()
             raise
+
+    async def grip(self, goal: RunningGoal, side: str, gap_m: float, most_n: float = 0.0) -> Any:
+        """
+        Open or close a gripper, and return the result of its action.
+
+        Parameters
+        ----------
+        goal
+            What it is done for.
+        side, gap_m, most_n
+            Which one, the gap between its fingers, and the greatest force; 0 is all of it.
+
+        Raises
+        ------
+        GoalAborted
+            Its controller is not there, or does not do it.
+
+        """
+        name = f'{side}_gripper_controller/gripper_cmd'
+        if side not in self._grippers:
+            self._grippers[side] = ActionClient(self._node, GripperCommand, name)
+        client = self._grippers[side]
+        patience = Patience()
+        while not client.server_is_ready():
+            if patience.is_over():
+                raise GoalAborted(_CODE, f"The action '{name}' is not there.")
+            await goal.tick()
+        command = GripperCommand.Goal()
+        command.command.position, command.command.max_effort = gap_m, most_n
+        sent = client.send_goal_async(command)
+        handle = await goal.answer(sent, _LATE_S, _CODE, f"'{name}' does not answer.")
+        if not handle.accepted:
+            raise GoalAborted(_CODE, f"'{name}' rejected a goal: the log of the robot says why.")
+        answer = await goal.answer(
+            handle.get_result_async(), 2.0 * _LATE_S, _CODE, f"'{name}' does not end."
+        )
+        if answer.status != GoalStatus.STATUS_SUCCEEDED:
+            raise GoalAborted(_CODE, f"'{name}' did not do what it was told.")
+        return answer.result
 
     def _now_s(self) -> float:
         return float(self._node.get_clock().now().nanoseconds) * 1e-9

@@ -18,11 +18,16 @@ from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
 from humanoid_control.dynamics.frames import Frame
 from humanoid_control.dynamics.rotations import from_quaternion
 from humanoid_description.drives import SIDES
+from humanoid_interfaces.action import Pick, Place
 from humanoid_interfaces.action import Reach as ReachAction
 from humanoid_manipulation.arms import Arms
 from humanoid_manipulation.conversions import fill_pose
 from humanoid_manipulation.errors import ManipulationError
+from humanoid_manipulation.feet import Feet
+from humanoid_manipulation.handling import Held
 from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
+from humanoid_manipulation.picking import Picking
+from humanoid_manipulation.placing import Placing
 from humanoid_manipulation.surroundings import Surroundings
 from humanoid_manipulation.upper_body import OutOfReachError, Reach
 from humanoid_perception.transforms import Transforms
@@ -73,7 +78,13 @@ class Manipulator(Node):
         self.arms, self.transforms = Arms(self), Transforms(self)
         self.surroundings = Surroundings(self, self.transforms, told.base_frame, told.places_file)
         self.goals = SingleGoal(self, lambda: self._inhibition.reason)
+        self.feet = Feet(self, self.transforms, told.base_frame)
+        self.held: dict[str, Held] = {}
+        """What hands hold, by their sides."""
+        picking, placing = Picking(self), Placing(self)
         self.goals.offer(ReachAction, 'reach', self._reach, _unsound)
+        self.goals.offer(Pick, 'pick', picking.work, picking.unsound)
+        self.goals.offer(Place, 'place', placing.work, placing.unsound)
         for topic, take in (
             ('walking_state', self._inhibition.tell_walking_state),
             ('stop_state', self._inhibition.tell_stop_state),
@@ -81,6 +92,10 @@ class Manipulator(Node):
             self.create_subscription(
                 String, topic, lambda message, tell=take: tell(message.data), LATCHED
             )
+
+    def unsound_side(self, side: str) -> str:
+        """Return why there is no such side; nothing if there is."""
+        return _unsound_side(side)
 
     async def _reach(self, goal: RunningGoal) -> None:
         with self.transforms.listening(), self.arms.listening():
@@ -112,7 +127,8 @@ class Manipulator(Node):
         """Return which arm gets to a pose, and how."""
         told, request, body = self.parameters.current, goal.request, self.arms.body
         obstacles = await self.surroundings.obstacles(goal)
-        world = self.arms.world(obstacles, {}, told.clearance)
+        held = {side: each.box for side, each in self.held.items()}
+        world = self.arms.world(obstacles, held, told.clearance)
         # Along the hand, z points back to the wrist.
         back = wanted.rotation[:, 2] * float(request.approach)
         first = Frame(wanted.position_m + back, wanted.rotation)
@@ -153,11 +169,18 @@ def _unsound(request: ReachAction.Goal) -> str:
         return 'Its pose has a number that is not finite.'
     if not 0.5 < math.hypot(*numbers[3:]) < 2.0:
         return 'The orientation of its pose is no quaternion of length 1.'
-    if request.side not in ('', *SIDES):
-        return f"There is no side '{request.side}'. Give left, right, or nothing for the nearer."
+    if reason := _unsound_side(request.side):
+        return reason
     if not 0.0 <= request.approach <= _LONGEST_APPROACH_M:
         return f'Its approach is {request.approach:g} m. Give 0 to {_LONGEST_APPROACH_M:g} m.'
     return ''
+
+
+def _unsound_side(side: str) -> str:
+    """Return why there is no such side; nothing if there is."""
+    if side in ('', *SIDES):
+        return ''
+    return f"There is no side '{side}'. Give left, right, or nothing for the one that fits."
 
 
 def main() -> int:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 import math
 
 from humanoid_common.errors import NodeStartError
@@ -13,18 +14,48 @@ from humanoid_control.dynamics.frames import Frame
 from humanoid_control.dynamics.rotations import about_z, from_quaternion, yaw_of
 from humanoid_description.robot import Array
 from humanoid_manipulation.arm_world import Obstacle
+from humanoid_manipulation.grasps import Graspable
 from humanoid_perception.places import load_places, Places, places_path, PlacesError, Surface
 from humanoid_perception.transforms import Transforms
 import numpy as np
 from rclpy.node import Node
-from vision_msgs.msg import Detection3DArray
+from vision_msgs.msg import Detection3D, Detection3DArray
 
-__all__ = ['Surroundings', 'surface_boxes']
+__all__ = ['Remembered', 'Surroundings', 'surface_boxes']
 
 _FAR_M = 1.5
 """What is farther from the robot is in nobody's way."""
 _BOARD_M = 0.03
 """How thick a board is that has another one, or the floor, below it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Remembered:
+    """
+    A thing that the robot remembers.
+
+    Attributes
+    ----------
+    object_id, names
+        Its id, and what it can be called: its class, and its colour and class.
+    graspable
+        Its class and its box, in the frame of the memory.
+
+    """
+
+    object_id: str
+    names: tuple[str, ...]
+    graspable: Graspable
+
+    @property
+    def name(self) -> str:
+        """Return what it is called in sentences."""
+        return self.object_id.replace('_', ' ')
+
+    @property
+    def rotation(self) -> Array:
+        """Return how its box is turned."""
+        return about_z(self.graspable.yaw_rad)
 
 
 class Surroundings:
@@ -69,9 +100,32 @@ class Surroundings:
             for surface in self.places.surfaces:
                 found += _near(surface_boxes(surface), pose)
         if self._objects.detections:
-            pose = await self._transforms.known(goal, self._base, self._objects.header.frame_id)
-            found += _near(_things(self._objects), pose)
+            pose = await self._transforms.known(goal, self._base, self.frame)
+            boxes = [
+                Obstacle(
+                    each.name,
+                    Frame(each.graspable.position_m, each.rotation),
+                    tuple(each.graspable.size_m.tolist()),
+                )
+                for each in self.things()
+            ]
+            found += _near(boxes, pose)
         return found
+
+    @property
+    def frame(self) -> str:
+        """Return the frame in which things are remembered."""
+        return self._objects.header.frame_id or self.places.frame
+
+    def things(self, asked: str = '') -> list[Remembered]:
+        """Return what is remembered and has an id, a class, or a colour and class; or all."""
+        wanted = asked.replace('_', ' ').strip().lower()
+        found = [_remembered(each) for each in self._objects.detections]
+        return [
+            each
+            for each in found
+            if not asked or each.object_id == asked or wanted in (each.name, *each.names)
+        ]
 
     def _take(self, message: Detection3DArray) -> None:
         self._objects = message
@@ -97,20 +151,24 @@ def surface_boxes(surface: Surface) -> list[Obstacle]:
     return [Obstacle(surface.name.replace('_', ' '), Frame(position, turn), size)]
 
 
-def _things(message: Detection3DArray) -> Iterable[Obstacle]:
-    """Yield remembered things as boxes in the map."""
-    for detection in message.detections:
-        at, turn, size = (
-            detection.bbox.center.position,
-            detection.bbox.center.orientation,
-            detection.bbox.size,
-        )
-        rotation = from_quaternion((turn.w, turn.x, turn.y, turn.z))
-        yield Obstacle(
-            detection.id.replace('_', ' '),
-            Frame(np.array([at.x, at.y, at.z]), about_z(yaw_of(rotation))),
-            (size.x, size.y, size.z),
-        )
+def _remembered(detection: Detection3D) -> Remembered:
+    """Return a remembered thing."""
+    at, turn, size = (
+        detection.bbox.center.position,
+        detection.bbox.center.orientation,
+        detection.bbox.size,
+    )
+    names = tuple(each.hypothesis.class_id for each in detection.results)
+    return Remembered(
+        detection.id,
+        names,
+        Graspable(
+            names[0] if names else '',
+            np.array([at.x, at.y, at.z]),
+            np.array([size.x, size.y, size.z]),
+            yaw_of(from_quaternion((turn.w, turn.x, turn.y, turn.z))),
+        ),
+    )
 
 
 def _near(obstacles: Iterable[Obstacle], pose: Array) -> list[Obstacle]:

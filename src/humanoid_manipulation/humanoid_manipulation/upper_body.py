@@ -136,6 +136,13 @@ class UpperBody:
             There is no such posture.
 
         """
+        found = self.find(side, gripper, near)
+        if found is None:
+            raise self._out_of_reach(side, gripper, near)
+        return found
+
+    def find(self, side: str, gripper: Frame, near: Reach | None = None) -> Reach | None:
+        """Return what `reach` does, but None for what is out of reach: without the reason."""
         arm, start = self.arms[side], near.waist_rad if near else 0.0
         posture = near.posture if near else None
         misfits: dict[float, float] = {}
@@ -149,7 +156,7 @@ class UpperBody:
             between = self._between(arm, gripper, waist_rad)
             if between is not None:
                 return between
-        raise self._out_of_reach(side, gripper, near)
+        return None
 
     def reach_with_arm(self, side: str, gripper: Frame, near: Reach) -> Reach:
         """
@@ -166,11 +173,17 @@ class UpperBody:
             There is no such posture.
 
         """
-        pose = self._in_torso(gripper, near.waist_rad)
-        postures = self.arms[side].postures(pose, near.posture)
-        if not postures:
+        found = self.find_with_arm(side, gripper, near.waist_rad, near.posture)
+        if found is None:
             raise self._out_of_reach(side, gripper, near)
-        return Reach(near.waist_rad, postures[0])
+        return found
+
+    def find_with_arm(
+        self, side: str, gripper: Frame, waist_rad: float, near: Posture | None = None
+    ) -> Reach | None:
+        """Return the reach of an arm for a turn of the waist, or None; see `Arm.postures`."""
+        postures = self.arms[side].postures(self._in_torso(gripper, waist_rad), near)
+        return Reach(waist_rad, postures[0]) if postures else None
 
     def _turns(self, start_rad: float) -> Iterator[float]:
         """Yield turns of the waist: the present one, then others farther and farther away."""

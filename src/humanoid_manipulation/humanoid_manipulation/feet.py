@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bring the robot to where it can reach something: by navigation, by steps, by bending."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from action_msgs.msg import GoalStatus
+from geometry_msgs.msg import Pose, Twist
+from humanoid_common.qos import COMMAND
+from humanoid_common.single_goal import GoalAborted, RunningGoal
+from humanoid_control.dynamics.rotations import yaw_of
+from humanoid_description.robot import Array
+from humanoid_manipulation.stances import Bend
+from humanoid_perception.transforms import Patience, Transforms
+from nav2_msgs.action import NavigateToPose
+import numpy as np
+from rclpy.action import ActionClient
+from rclpy.node import Node
+
+__all__ = ['Feet']
+
+_CODE = 'WALK_FAILED'
+_NEAR_M, _NEAR_RAD = 0.035, 0.06
+"""How exactly the robot gets to where it is to stand."""
+_GAIN_1_S = 0.9
+_FASTEST = (0.15, 0.08, 0.35)
+"""Ahead and to the side in m/s, and turning in rad/s."""
+_STEPS_S = 25.0
+"""How long some steps may take."""
+_SETTLE_S = 1.0
+_BEND_S = 6.0
+_BENT_RAD = 0.04
+
+
+class Feet:
+    """
+    Walks and bends.
+
+    Parameters
+    ----------
+    node
+        The node whose topics count.
+    transforms
+        Where frames are.
+    base_frame
+        That of the pelvis.
+
+    """
+
+    def __init__(self, node: Node, transforms: Transforms, base_frame: str) -> None:
+        self._node, self._transforms, self._base = node, transforms, base_frame
+        self._velocities = node.create_publisher(Twist, 'cmd_vel', COMMAND)
+        self._poses = node.create_publisher(Pose, 'body_pose', COMMAND)
+        self._navigate = ActionClient(node, NavigateToPose, 'navigate_to_pose')
+
+    async def go(self, goal: RunningGoal, frame: str, at: tuple[float, float, float]) -> None:
+        """Walk to a pose (x, y in m, yaw in rad) by navigation, about; or abort."""
+        patience = Patience()
+        while not self._navigate.server_is_ready():
+            if patience.is_over():
+                raise GoalAborted(
+                    _CODE, "Navigation is not running: there is no 'navigate_to_pose'."
+                )
+            await goal.tick()
+        wanted = NavigateToPose.Goal()
+        wanted.pose.header.frame_id = frame
+        pose = wanted.pose.pose
+        pose.position.x, pose.position.y = at[0], at[1]
+        pose.orientation.w, pose.orientation.z = math.cos(at[2] / 2.0), math.sin(at[2] / 2.0)
+        sent = self._navigate.send_goal_async(wanted)
+        handle: Any = None
+        try:
+            handle = await goal.answer(sent, 5.0, _CODE, 'Navigation does not answer.')
+            if not handle.accepted:
+                raise GoalAborted(_CODE, 'Navigation has refused where the robot is to stand.')
+            end = handle.get_result_async()
+            while not end.done():
+                await goal.tick()
+        except BaseException:
+            sent.add_done_callback(_cancel)
+            raise
+        answer = end.result()
+        if answer.status != GoalStatus.STATUS_SUCCEEDED:
+            reason = answer.result.error_msg or 'navigation did not succeed'
+            raise GoalAborted(_CODE, f'I could not get there: {reason}')
+
+    async def step_to(self, goal: RunningGoal, frame: str, at: tuple[float, float, float]) -> None:
+        """Walk some steps to a pose (x, y in m, yaw in rad), exactly; or abort."""
+        # The odometry does not jump meanwhile, as the place in the map may.
+        shift = await self._transforms.known(goal, 'odom', frame)
+        place = shift[:3, :3] @ np.array([at[0], at[1], 0.0]) + shift[:3, 3]
+        yaw_rad = at[2] + yaw_of(shift[:3, :3])
+        patience = Patience(_STEPS_S)
+        try:
+            calm = 0
+            while calm < _SETTLE_S * 20.0:
+                error = self._error(place, yaw_rad)
+                is_near = math.hypot(error[0], error[1]) < _NEAR_M and abs(error[2]) < _NEAR_RAD
+                calm = calm + 1 if is_near else 0
+                command = Twist()
+                if not is_near:
+                    if patience.is_over():
+                        raise GoalAborted(_CODE, 'I did not get near enough in time.')
+                    speeds = [
+                        max(-most, min(most, _GAIN_1_S * each))
+                        for each, most in zip(error, _FASTEST)
+                    ]
+                    command.linear.x, command.linear.y, command.angular.z = speeds
+                self._velocities.publish(command)
+                await goal.tick()
+        finally:
+            self._velocities.publish(Twist())
+
+    async def bend(self, goal: RunningGoal, bend: Bend) -> None:
+        """Hold the body so, and wait until it is."""
+        message = Pose()
+        message.position.z = bend.height_m
+        message.orientation.w = math.cos(bend.pitch_rad / 2.0)
+        message.orientation.y = math.sin(bend.pitch_rad / 2.0)
+        patience = Patience(_BEND_S)
+        calm = 0
+        while calm < _SETTLE_S * 20.0:
+            if patience.is_over():
+                raise GoalAborted(_CODE, 'I could not bend so far.')
+            self._poses.publish(message)
+            pitch_rad = -math.asin(
+                float(np.clip(self._transforms.pose('odom', self._base)[2, 0], -1.0, 1.0))
+            )
+            calm = calm + 1 if abs(pitch_rad - bend.pitch_rad) < _BENT_RAD else 0
+            await goal.tick()
+
+    def straighten(self) -> None:
+        """Let the body come up, whatever else goes on."""
+        self._poses.publish(Pose())
+
+    def _error(self, place: Array, yaw_rad: float) -> tuple[float, float, float]:
+        """Return how far it is still: ahead, to the left, and to turn."""
+        at = self._transforms.pose('odom', 'base_footprint')
+        heading_rad = yaw_of(at[:3, :3])
+        dx, dy = (place - at[:3, 3])[:2].tolist()
+        c, s = math.cos(heading_rad), math.sin(heading_rad)
+        turn_rad = math.remainder(yaw_rad - heading_rad, math.tau)
+        return c * dx + s * dy, -s * dx + c * dy, turn_rad
+
+
+def _cancel(sent: Any) -> None:
+    """Cancel a goal as soon as its handle is there."""
+    handle = sent.result()
+    if handle is not None and handle.accepted:
+        handle.cancel_goal_async()

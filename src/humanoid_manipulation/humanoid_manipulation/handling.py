@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What taking things and putting them down have in common: standing, bending, moving a hand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+import math
+from typing import Any, TYPE_CHECKING
+
+from humanoid_common.single_goal import GoalAborted, RunningGoal
+from humanoid_control.dynamics.frames import Frame
+from humanoid_control.dynamics.rotations import yaw_of
+from humanoid_description.robot import Array
+from humanoid_manipulation.arm_world import ArmWorld, Obstacle
+from humanoid_manipulation.errors import ManipulationError
+from humanoid_manipulation.grasps import Grasp
+from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
+from humanoid_manipulation.stances import base_of, Bend, BENDS, grasp_reaches, Stance
+from humanoid_manipulation.upper_body import OutOfReachError, Reach
+
+if TYPE_CHECKING:
+    from humanoid_manipulation.manipulator import Manipulator
+
+__all__ = ['CARRYING', 'Handling', 'Held']
+
+CARRYING = {
+    'left': Reach(0.0, (0.2, 0.15, 0.0, -1.77, 0.0, 0.0)),
+    'right': Reach(0.0, (0.2, -0.15, 0.0, -1.77, 0.0, 0.0)),
+}
+"""Where hands carry something: the upper arm hangs, and the forearm is level."""
+HANGING = {
+    'left': Reach(0.0, (0.0, 0.15, 0.0, -0.5, 0.0, 0.0)),
+    'right': Reach(0.0, (0.0, -0.15, 0.0, -0.5, 0.0, 0.0)),
+}
+"""Where hands are that do nothing."""
+TURNS_RAD = (0.0, 0.15, -0.15, 0.3, -0.3, 0.45, -0.45)
+"""The turns of the waist that are tried."""
+_BACK_OFF_M = 0.25
+"""So far before where the robot is to stand, navigation ends and steps begin."""
+_FAR_M, _FAR_RAD = 0.4, 0.6
+"""A robot that is farther from where it is to stand walks there by navigation."""
+_SLOW_RAD_S = 0.5
+_LEAST_SHARE = 0.5
+"""Of its width, by which the gripper must stay open if it holds the thing."""
+GRIP_N = 25.0
+
+
+@dataclass(frozen=True, eq=False)
+class Held:
+    """
+    A thing in a hand.
+
+    Attributes
+    ----------
+    object_id
+        Which one.
+    box
+        Its box, in the gripper.
+    width_m
+        The gap of the gripper that holds it.
+    gripper
+        How the gripper was turned when it took the thing, seen along the heading of the hand.
+    below_m
+        How far its underside was below the middle of the gripper then.
+
+    """
+
+    object_id: str
+    box: Obstacle
+    width_m: float
+    gripper: Array
+    below_m: float
+
+
+class Handling:
+    """
+    Stands, bends, and moves a hand, for goals that take things or put them down.
+
+    Parameters
+    ----------
+    node
+        The node, with its arms and its surroundings.
+    feedback
+        The kind of feedback, which has a state.
+
+    """
+
+    def __init__(self, node: Manipulator, feedback: Any) -> None:
+        self.node, self._feedback = node, feedback
+
+    def tell(self, goal: RunningGoal, state: str) -> None:
+        """Say how far it is."""
+        goal.publish_feedback(self._feedback(state=state))
+
+    @property
+    def base(self) -> Frame:
+        """Return where the pelvis is in the map."""
+        node = self.node
+        base_frame = node.parameters.current.base_frame
+        pose = node.transforms.pose(node.surroundings.frame, base_frame)
+        return Frame(pose[:3, 3], pose[:3, :3])
+
+    async def place_of_feet(self, goal: RunningGoal) -> tuple[float, float, float]:
+        """Return where the robot stands in the map: x and y in m, and its heading in rad."""
+        node = self.node
+        at = await node.transforms.known(goal, node.surroundings.frame, 'base_footprint')
+        return float(at[0, 3]), float(at[1, 3]), yaw_of(at[:3, :3])
+
+    async def stand(self, goal: RunningGoal, stance: Stance) -> None:
+        """Walk to a stance, unless the robot is there."""
+        self.tell(goal, 'walking')
+        feet, frame = self.node.feet, self.node.surroundings.frame
+        x_m, y_m, yaw_rad = await self.place_of_feet(goal)
+        away_m = math.hypot(stance.x_m - x_m, stance.y_m - y_m)
+        turned_rad = abs(math.remainder(stance.yaw_rad - yaw_rad, math.tau))
+        if away_m > _FAR_M or turned_rad > _FAR_RAD:
+            c, s = math.cos(stance.yaw_rad), math.sin(stance.yaw_rad)
+            before = (stance.x_m - _BACK_OFF_M * c, stance.y_m - _BACK_OFF_M * s, stance.yaw_rad)
+            await feet.go(goal, frame, before)
+        await feet.step_to(goal, frame, (stance.x_m, stance.y_m, stance.yaw_rad))
+
+    def choose(
+        self, grasps: Iterable[Grasp], side: str, place: tuple[float, float, float]
+    ) -> tuple[Grasp, Bend] | None:
+        """Return the grasp and the bend that are best from where the robot stands, if any."""
+        body = self.node.arms.body
+        arm = body.arms[side]
+        best: tuple[float, Grasp, Bend] | None = None
+        for grasp in grasps:
+            for bend in BENDS:
+                reached = grasp_reaches(body, side, grasp, base_of(*place, bend), turns=TURNS_RAD)
+                if reached is None:
+                    continue
+                slack = min(-arm.excess_rad(each.posture) for each in reached)
+                cost = bend.pitch_rad - 2.0 * bend.height_m - 2.0 * min(slack, 0.3)
+                cost += 0.5 * abs(reached[1].waist_rad) + 0.4 * grasp.from_above
+                if best is None or cost < best[0]:
+                    best = cost, grasp, bend
+        return best and best[1:]
+
+    async def go_before(
+        self, goal: RunningGoal, side: str, grasp: Grasp, world: ArmWorld, name: str
+    ) -> None:
+        """Bring a hand before a grasp, which is in the map, on a free way."""
+        arms = self.node.arms
+        start = arms.reach_of(side)
+        reached = grasp_reaches(arms.body, side, grasp, self.base, start, TURNS_RAD)
+        if reached is None:
+            raise GoalAborted('NOT_REACHABLE', f'I do not get to {name} from here.')
+        with self.failing():
+            await self.move(goal, side, plan(world, side, start, reached[0]))
+
+    async def go_to(
+        self, goal: RunningGoal, side: str, grasp: Grasp, world: ArmWorld, but: str
+    ) -> None:
+        """Bring a hand to a grasp, straight; only one thing may be touched."""
+        # What the feet sway meanwhile is made up for on the last centimetres.
+        arms = self.node.arms
+        now = arms.reach_of(side)
+        here = arms.body.forward(side, now).position_m
+        there = grasp.gripper.seen_from(self.base).position_m
+        with self.failing():
+            way = approach(arms.body, side, now, there - here)
+            for reach in way:
+                for contact in world.contacts(side, reach):
+                    if but not in contact.names:
+                        raise BlockedError(f'The {side} arm cannot go there: {contact}.')
+            await self.move(goal, side, way, _SLOW_RAD_S)
+
+    async def shift(
+        self, goal: RunningGoal, side: str, step_m: Array, waist: bool = False
+    ) -> None:
+        """Move a hand straight by a step (3,) in the map, if it can."""
+        arms = self.node.arms
+        try:
+            way = approach(
+                arms.body, side, arms.reach_of(side), self.base.rotation.T @ step_m, waist
+            )
+        except OutOfReachError:
+            return
+        await self.move(goal, side, way, _SLOW_RAD_S)
+
+    async def rest(
+        self,
+        goal: RunningGoal,
+        side: str,
+        end: Reach,
+        held: Obstacle | None,
+        but: Sequence[str] = (),
+    ) -> None:
+        """Come up, and bring a hand to where it rests, on a way free of all but some things."""
+        node, arms = self.node, self.node.arms
+        await node.feet.bend(goal, BENDS[0])
+        obstacles = await node.surroundings.obstacles(goal)
+        others = [each for each in obstacles if each.name not in but]
+        world = arms.world(others, {side: held} if held else {}, 0.0)
+        with self.failing():
+            await self.move(goal, side, plan(world, side, arms.reach_of(side), end))
+
+    async def check_held(self, goal: RunningGoal, side: str, width_m: float) -> float:
+        """Close a hand, and return the gap; -1 if what is that wide is not between its fingers."""
+        closed = await self.node.arms.grip(goal, side, 0.0, GRIP_N)
+        return float(closed.position) if closed.position >= _LEAST_SHARE * width_m else -1.0
+
+    async def move(
+        self, goal: RunningGoal, side: str, way: list[Reach], velocity_rad_s: float = 0.0
+    ) -> None:
+        """Move an arm along a way."""
+        speed = velocity_rad_s or self.node.parameters.current.max_velocity
+        await self.node.arms.move(goal, side, timed(way, speed))
+
+    @contextmanager
+    def failing(self) -> Iterator[None]:
+        """Let what cannot be planned end a goal, with the code for that."""
+        try:
+            yield
+        except OutOfReachError as error:
+            raise GoalAborted('NOT_REACHABLE', str(error)) from None
+        except BlockedError as error:
+            raise GoalAborted('BLOCKED', str(error)) from None
+        except ManipulationError as error:
+            raise GoalAborted('ARM_FAILED', str(error)) from None

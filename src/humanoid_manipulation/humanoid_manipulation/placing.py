@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Put down what a hand holds: the work of `place`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+import math
+from typing import Any, TYPE_CHECKING
+
+from humanoid_common.naming import did_you_mean
+from humanoid_common.single_goal import GoalAborted, RunningGoal
+from humanoid_control.dynamics.frames import Frame
+from humanoid_control.dynamics.rotations import about_z
+from humanoid_description.robot import Array
+from humanoid_interfaces.action import Place
+from humanoid_manipulation.grasps import Grasp
+from humanoid_manipulation.handling import Handling, HANGING, Held
+from humanoid_manipulation.stances import Stance, stances_for
+from humanoid_perception.places import Surface
+import numpy as np
+
+if TYPE_CHECKING:
+    from humanoid_manipulation.manipulator import Manipulator
+
+__all__ = ['Placing', 'free_spots']
+
+_STANCES, _SPOTS = 3, 8
+_HEADINGS = 16
+_GRID_M = 0.06
+_MARGIN_M = 0.04
+"""Between what is put down and other things, and the edge."""
+_ABOVE_M, _LOWERS_M = 0.005, 0.08
+"""The thing is let go so high above the surface, and comes from so high above that."""
+_OTHERWISE = ('WALK_FAILED', 'NOT_REACHABLE', 'BLOCKED')
+
+
+class Placing(Handling):
+    """
+    The work of `place`.
+
+    Parameters
+    ----------
+    node
+        The node, with its arms and its surroundings.
+
+    """
+
+    def __init__(self, node: Manipulator) -> None:
+        super().__init__(node, Place.Feedback)
+
+    def unsound(self, request: Any) -> str:
+        """Return why a goal makes no sense; nothing if it does."""
+        return self.node.unsound_side(request.side)
+
+    async def work(self, goal: RunningGoal) -> None:
+        """Put a thing down; the result says where."""
+        node = self.node
+        with node.transforms.listening(), node.arms.listening():
+            await node.arms.wait(goal)
+            side, held = self._holding(goal.request.side)
+            goal.result.object = held.object_id
+            place = await self.place_of_feet(goal)
+            surface = self._surface(goal.request.place, place[:2])
+            goal.result.place = surface.name
+            spots = list(free_spots(surface, self._others(surface), _radius_m(held), place[:2]))
+            if not spots:
+                raise GoalAborted('BLOCKED', f'Nothing is free on {_words(surface)}.')
+            trouble: GoalAborted | None = None
+            for stance in self._stances(surface, spots, side, held, place[:2]):
+                try:
+                    await self.stand(goal, stance)
+                    await self._put(goal, side, held, surface, spots)
+                    return
+                except GoalAborted as error:
+                    if error.name not in _OTHERWISE:
+                        raise
+                    trouble = error
+                finally:
+                    node.feet.straighten()
+            assert trouble is not None
+            raise trouble
+
+    def _holding(self, asked: str) -> tuple[str, Held]:
+        """Return the hand that is meant, and what it holds."""
+        for side, held in self.node.held.items():
+            if asked in ('', side):
+                return side, held
+        raise GoalAborted('EMPTY_HAND', 'I hold nothing that I could put down.')
+
+    def _surface(self, asked: str, near_m: tuple[float, float]) -> Surface:
+        """Return the surface that is meant."""
+        surfaces = self.node.surroundings.places.surfaces
+        if not asked:
+            if not surfaces:
+                raise GoalAborted('INVALID', 'I know no surface. Give the node a places_file.')
+            return min(surfaces, key=lambda each: each.distance_m(near_m))
+        wanted = asked.replace(' ', '_')
+        for each in surfaces:
+            if each.name == wanted:
+                return each
+        hint = did_you_mean(wanted, [each.name for each in surfaces])
+        raise GoalAborted('INVALID', f"There is no surface '{asked}'. {hint}".rstrip())
+
+    def _others(self, surface: Surface) -> list[tuple[float, float, float]]:
+        """Return where things are on a surface: x, y and the radius, in the map."""
+        found = []
+        for each in self.node.surroundings.things():
+            thing = each.graspable
+            x, y = float(thing.position_m[0]), float(thing.position_m[1])
+            if surface.misfit_m(x, y, thing.bottom_m, 0.05) < math.inf:
+                found.append((x, y, 0.5 * math.hypot(*thing.size_m[:2].tolist())))
+        return found
+
+    def _stances(
+        self,
+        surface: Surface,
+        spots: Sequence[tuple[float, float]],
+        side: str,
+        held: Held,
+        near_m: tuple[float, float],
+    ) -> list[Stance]:
+        """Return where to stand."""
+        found: list[Stance] = []
+        for spot in spots[:_SPOTS]:
+            position = np.array([*spot, surface.height_m])
+            grasps = list(_ways_down(held, position))
+            found += stances_for(
+                self.node.arms.body,
+                grasps,
+                position,
+                self.node.surroundings.places,
+                near_m,
+                (side,),
+                1,
+            )
+        if not found:
+            raise GoalAborted(
+                'NOT_REACHABLE', f'I get to {_words(surface)} from nowhere that I could stand.'
+            )
+        return sorted(found, key=lambda stance: stance.cost)[:_STANCES]
+
+    async def _put(
+        self,
+        goal: RunningGoal,
+        side: str,
+        held: Held,
+        surface: Surface,
+        spots: Sequence[tuple[float, float]],
+    ) -> None:
+        """Bend, reach, lower, open, and draw back."""
+        node, arms = self.node, self.node.arms
+        feet = await self.place_of_feet(goal)
+        near = sorted(spots, key=lambda spot: math.dist(spot, feet[:2]))[:_SPOTS]
+        grasps = [
+            each for spot in near for each in _ways_down(held, np.array([*spot, surface.height_m]))
+        ]
+        chosen = self.choose(grasps, side, feet)
+        if chosen is None:
+            raise GoalAborted('NOT_REACHABLE', f'I do not get onto {_words(surface)} from here.')
+        grasp, bend = chosen
+        self.tell(goal, 'bending')
+        await node.feet.bend(goal, bend)
+        obstacles = await node.surroundings.obstacles(goal)
+        world = arms.world(obstacles, {side: held.box}, 0.0)
+        self.tell(goal, 'reaching')
+        await self.go_before(goal, side, grasp, world, surface.name)
+        if await self.check_held(goal, side, held.width_m) < 0.0:
+            del node.held[side]
+            raise GoalAborted('SLIPPED', f'{held.object_id} has slipped out of my hand.')
+        self.tell(goal, 'lowering')
+        await self.go_to(goal, side, grasp, world, held.box.name)
+        self.tell(goal, 'opening')
+        await arms.grip(goal, side, min(held.width_m + 0.03, 0.1))
+        del node.held[side]
+        at = grasp.gripper.position_m
+        position = goal.result.position
+        position.x, position.y, position.z = float(at[0]), float(at[1]), surface.height_m
+        away = grasp.gripper.rotation[:, 2] * 0.10
+        await self.shift(goal, side, away)
+        await self.rest(goal, side, HANGING[side], None, (held.box.name,))
+
+
+def free_spots(
+    surface: Surface,
+    others: Sequence[tuple[float, float, float]],
+    radius_m: float,
+    near_m: tuple[float, float],
+) -> Iterator[tuple[float, float]]:
+    """
+    Yield where on a surface something can be put down, the nearest first.
+
+    Parameters
+    ----------
+    surface, others
+        The surface, and what is on it: x, y and the radius of each thing, in m.
+    radius_m
+        Of what is put down.
+    near_m
+        Where the robot is.
+
+    """
+    xs, ys = zip(*surface.outline_m)
+    spots = []
+    for x in np.arange(min(xs), max(xs), _GRID_M).tolist():
+        for y in np.arange(min(ys), max(ys), _GRID_M).tolist():
+            if not _is_inside(surface, (x, y), radius_m + _MARGIN_M):
+                continue
+            if all(
+                math.dist((x, y), other[:2]) > radius_m + other[2] + _MARGIN_M for other in others
+            ):
+                spots.append((x, y))
+    yield from sorted(spots, key=lambda spot: math.dist(spot, near_m))
+
+
+def _is_inside(surface: Surface, point: tuple[float, float], margin_m: float) -> bool:
+    """Return whether a point is on a surface, so far from its edge."""
+    around = (math.tau * number / 12 for number in range(12))
+    return all(
+        surface.distance_m(
+            (point[0] + margin_m * math.cos(angle), point[1] + margin_m * math.sin(angle))
+        )
+        == 0.0
+        for angle in around
+    )
+
+
+def _ways_down(held: Held, position_m: Array) -> Iterator[Grasp]:
+    """Yield the ways to set down what is held on a point (3,), upright as it was taken."""
+    above = position_m + np.array([0.0, 0.0, held.below_m + _ABOVE_M])
+    for number in range(_HEADINGS):
+        rotation = about_z(math.tau * number / _HEADINGS) @ held.gripper
+        # The gripper holds the thing somewhere: its middle is to be above the point.
+        middle = rotation @ held.box.middle.position_m
+        at = above - np.array([middle[0], middle[1], 0.0])
+        is_down = rotation[2, 2] > 0.9
+        yield Grasp(Frame(at, rotation), 0.0, held.width_m, is_down, _LOWERS_M)
+
+
+def _radius_m(held: Held) -> float:
+    """Return the radius of what is held, seen from above."""
+    return 0.5 * math.hypot(*held.box.size_m[:2])
+
+
+def _words(surface: Surface) -> str:
+    return f'the {surface.name.replace("_", " ")}'

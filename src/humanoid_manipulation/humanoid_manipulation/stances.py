@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where to stand, and how to bend, to get a hand somewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+import math
+
+from humanoid_control.dynamics.frames import Frame
+from humanoid_control.dynamics.rotations import about_y, about_z
+from humanoid_description.drives import SIDES
+from humanoid_description.robot import Array
+from humanoid_manipulation.grasps import Grasp
+from humanoid_manipulation.upper_body import Reach, UpperBody
+from humanoid_perception.places import Places
+import numpy as np
+
+__all__ = ['BENDS', 'Bend', 'Stance', 'base_of', 'grasp_reaches', 'stances_for']
+
+_HEIGHT_M = 0.68
+"""Of the pelvis of a robot that stands upright."""
+_BACK_M_RAD = 0.13
+"""How far the pelvis goes back for each radian of its pitch, to stay above the feet."""
+_RISE_M_RAD2 = 0.1
+_AHEAD_M = (0.34, 0.40, 0.46, 0.52, 0.58)
+_ASIDE_M = (0.12, 0.20, 0.28)
+_HEADINGS = 16
+_EDGE_M = 0.20
+"""From the middle of the feet to the edge of a piece of furniture, at least."""
+_LEAST_COSINE = 0.5
+"""Of the angle between where the robot faces and where the hand points."""
+_MOST_JUMP_RAD = 1.2
+"""A joint that turns farther over the approach has changed over to another posture."""
+_UPRIGHT_COST = 0.6
+"""What a bend of a radian costs, in radians of the joints of an arm."""
+
+
+@dataclass(frozen=True)
+class Bend:
+    """How the body is held: the pitch (rad) and height (m) of `body_pose`."""
+
+    pitch_rad: float = 0.0
+    height_m: float = 0.0
+
+
+BENDS = (
+    Bend(),
+    Bend(0.25, -0.03),
+    Bend(0.5, -0.03),
+    Bend(0.25, -0.12),
+    Bend(0.5, -0.12),
+)
+"""Those that are tried, from upright to deep."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stance:
+    """
+    A way to get a hand to a grasp.
+
+    Attributes
+    ----------
+    x_m, y_m, yaw_rad
+        Where the middle of the feet is in the map, and where the robot faces.
+    bend
+        How it is bent.
+    side
+        Which hand.
+    grasp
+        How the thing is grasped; in the map.
+    cost
+        Less is better.
+
+    """
+
+    x_m: float
+    y_m: float
+    yaw_rad: float
+    bend: Bend
+    side: str
+    grasp: Grasp
+    cost: float
+
+
+def base_of(x_m: float, y_m: float, yaw_rad: float, bend: Bend) -> Frame:
+    """Return where the pelvis is in the map, about, of a robot that stands and bends."""
+    heading = about_z(yaw_rad)
+    back = -_BACK_M_RAD * bend.pitch_rad
+    height = _HEIGHT_M + bend.height_m + _RISE_M_RAD2 * bend.pitch_rad**2
+    position = np.array([x_m, y_m, 0.0]) + heading @ np.array([back, 0.0, height])
+    return Frame(position, heading @ about_y(bend.pitch_rad))
+
+
+def grasp_reaches(
+    body: UpperBody,
+    side: str,
+    grasp: Grasp,
+    base: Frame,
+    near: Reach | None = None,
+    turns: Iterable[float] = (0.0,),
+) -> tuple[Reach, Reach] | None:
+    """
+    Return how a hand gets before a grasp, and to it; None if it does not.
+
+    Parameters
+    ----------
+    body, side
+        Whose hand.
+    grasp, base
+        The grasp, and the pelvis, in the same frame.
+    near
+        Where the arm is now.
+    turns
+        The turns of the waist that are tried, in rad.
+
+    """
+    gripper = grasp.gripper.seen_from(base)
+    before = Frame(gripper.position_m + base.rotation.T @ grasp.approach_m, gripper.rotation)
+    for waist_rad in turns:
+        last = body.find_with_arm(side, gripper, waist_rad, near.posture if near else None)
+        if last is None:
+            continue
+        first = body.find_with_arm(side, before, waist_rad, last.posture)
+        if first is None:
+            continue
+        if max(abs(a - b) for a, b in zip(first.posture, last.posture)) < _MOST_JUMP_RAD:
+            return first, last
+    return None
+
+
+def stances_for(
+    body: UpperBody,
+    grasps: Sequence[Grasp],
+    position_m: Array,
+    places: Places,
+    near_m: tuple[float, float] | None = None,
+    sides: Sequence[str] = SIDES,
+    at_most: int = 6,
+) -> list[Stance]:
+    """
+    Return where to stand to take hold of a thing, the best first.
+
+    Parameters
+    ----------
+    body
+        The upper body.
+    grasps
+        The ways to take hold of it, in the map.
+    position_m
+        Where the thing is in the map (3,).
+    places
+        What one cannot stand in, and the rooms: one stands in that of the thing.
+    near_m
+        Where the robot is; of stances that are as good, the nearer one is better.
+    sides
+        The hands that may take it.
+    at_most
+        How many are wanted.
+
+    """
+    found: list[Stance] = []
+    for x_m, y_m, yaw_rad, side in _stands(position_m, places):
+        if side not in sides:
+            continue
+        for bend in BENDS:
+            best = _best(body, side, grasps, base_of(x_m, y_m, yaw_rad, bend))
+            if best is None:
+                continue
+            effort, grasp = best
+            cost = effort + _UPRIGHT_COST * bend.pitch_rad - 2.0 * bend.height_m
+            if near_m is not None:
+                cost += 0.2 * math.dist(near_m, (x_m, y_m))
+            found.append(Stance(x_m, y_m, yaw_rad, bend, side, grasp, cost))
+            break
+    return _apart(sorted(found, key=lambda stance: stance.cost), at_most)
+
+
+def _stands(position_m: Array, places: Places) -> Iterator[tuple[float, float, float, str]]:
+    """Yield where one can stand so that a thing is before one of the shoulders."""
+    room = places.room_at(float(position_m[0]), float(position_m[1]))
+    for number in range(_HEADINGS):
+        yaw_rad = math.tau * number / _HEADINGS - math.pi
+        c, s = math.cos(yaw_rad), math.sin(yaw_rad)
+        for ahead in _AHEAD_M:
+            for aside in _ASIDE_M:
+                for side in SIDES:
+                    left = aside if side == 'left' else -aside
+                    x_m = float(position_m[0]) - c * ahead + s * left
+                    y_m = float(position_m[1]) - s * ahead - c * left
+                    if room and places.room_at(x_m, y_m) != room:
+                        continue
+                    if all(each.distance_m((x_m, y_m)) >= _EDGE_M for each in places.surfaces):
+                        yield x_m, y_m, yaw_rad, side
+
+
+def _best(
+    body: UpperBody, side: str, grasps: Iterable[Grasp], base: Frame
+) -> tuple[float, Grasp] | None:
+    """Return the grasp that is easiest from where the pelvis is, and how easy it is."""
+    best: tuple[float, Grasp] | None = None
+    for grasp in grasps:
+        if not _is_ahead(grasp, base):
+            continue
+        reached = grasp_reaches(body, side, grasp, base)
+        if reached is None:
+            continue
+        first, last = reached
+        arm = body.arms[side]
+        # Joints that are near their limits leave nothing to correct with.
+        slack = min(-arm.excess_rad(first.posture), -arm.excess_rad(last.posture), 0.3)
+        effort = 1.0 - 2.0 * slack + 0.5 * abs(last.waist_rad) + 0.4 * grasp.from_above
+        if best is None or effort < best[0]:
+            best = effort, grasp
+    return best
+
+
+def _is_ahead(grasp: Grasp, base: Frame) -> bool:
+    """Return whether a hand comes about from where the robot is, or from above."""
+    ahead = float(-grasp.gripper.rotation[:, 2] @ base.rotation[:, 0])
+    return grasp.from_above or ahead > _LEAST_COSINE
+
+
+def _apart(stances: Sequence[Stance], at_most: int) -> list[Stance]:
+    """Return the best of those that are near each other, and not too many."""
+    kept: list[Stance] = []
+    for each in stances:
+        if all(math.dist((each.x_m, each.y_m), (o.x_m, o.y_m)) > 0.15 for o in kept):
+            kept.append(each)
+        if len(kept) == at_most:
+            break
+    return kept
