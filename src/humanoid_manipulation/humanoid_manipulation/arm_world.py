@@ -8,8 +8,9 @@ microseconds for a posture. Nothing moves by itself here.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+import math
 from typing import Any
 
 from humanoid_control.dynamics.frames import Frame
@@ -159,11 +160,22 @@ class ArmWorld:
             if distance_m < self.clearance_m
         ]
 
-    def is_free(
-        self, side: str, reach: Reach, but: Collection[frozenset[str]] = frozenset()
-    ) -> bool:
-        """Return whether nothing is touched, but for pairs of names that may."""
-        return all(contact.names in but for contact in self.contacts(side, reach))
+    def is_free(self, side: str, reach: Reach, but: Mapping[frozenset[str], float] = {}) -> bool:
+        """
+        Return whether nothing is touched.
+
+        Parameters
+        ----------
+        side, reach
+            Which arm, and where it is.
+        but
+            How near, or deep in each other, pairs of names may be (m).
+
+        """
+        return all(
+            contact.distance_m >= but.get(contact.names, math.inf)
+            for contact in self.contacts(side, reach)
+        )
 
     def _add_box(self, body: Any, box: Obstacle, at: Frame, contype: int) -> None:
         """Add a box to a body."""

@@ -39,6 +39,8 @@ TURNS_RAD = (0.0, 0.15, -0.15, 0.3, -0.3, 0.45, -0.45)
 """The turns of the waist that are tried."""
 _BACK_OFF_M = 0.25
 """So far before where the robot is to stand, navigation ends and steps begin."""
+_BACK_M = 0.30
+"""How far the robot steps back from where it took a thing, or put it down."""
 _FAR_M, _FAR_RAD = 0.4, 0.6
 """A robot that is farther from where it is to stand walks there by navigation."""
 _SLOW_RAD_S = 0.5
@@ -122,14 +124,18 @@ class Handling:
         await feet.step_to(goal, frame, (stance.x_m, stance.y_m, stance.yaw_rad))
 
     def choose(
-        self, grasps: Iterable[Grasp], side: str, place: tuple[float, float, float]
+        self,
+        grasps: Iterable[Grasp],
+        side: str,
+        place: tuple[float, float, float],
+        bends: Iterable[Bend] = BENDS,
     ) -> tuple[Grasp, Bend] | None:
         """Return the grasp and the bend that are best from where the robot stands, if any."""
         body = self.node.arms.body
         arm = body.arms[side]
         best: tuple[float, Grasp, Bend] | None = None
         for grasp in grasps:
-            for bend in BENDS:
+            for bend in bends:
                 reached = grasp_reaches(body, side, grasp, base_of(*place, bend), turns=TURNS_RAD)
                 if reached is None:
                     continue
@@ -190,9 +196,13 @@ class Handling:
         held: Obstacle | None,
         but: Sequence[str] = (),
     ) -> None:
-        """Come up, and bring a hand to where it rests, on a way free of all but some things."""
+        """Come up, step back, and bring a hand to where it rests, free of all but some things."""
         node, arms = self.node, self.node.arms
         await node.feet.bend(goal, BENDS[0])
+        # The hand may be above a surface; and navigation does not begin so near to furniture.
+        x_m, y_m, yaw_rad = await self.place_of_feet(goal)
+        back = (x_m - _BACK_M * math.cos(yaw_rad), y_m - _BACK_M * math.sin(yaw_rad), yaw_rad)
+        await node.feet.step_to(goal, node.surroundings.frame, back)
         obstacles = await node.surroundings.obstacles(goal)
         others = [each for each in obstacles if each.name not in but]
         world = arms.world(others, {side: held} if held else {}, 0.0)

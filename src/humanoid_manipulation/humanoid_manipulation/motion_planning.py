@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 import math
 
@@ -18,6 +18,7 @@ __all__ = ['BlockedError', 'Motion', 'approach', 'plan', 'timed']
 
 _STEP_RAD = 0.0125
 """So far apart are the postures that are looked at on a way: 8 mm at the fingers."""
+_DEEPER_M = 0.002
 _STRIDE_RAD = 0.4
 """How far a tree grows at once."""
 _MOST_STRIDES = 2000
@@ -81,7 +82,8 @@ def plan(
     side
         Which arm moves.
     start, goal
-        Where it is, and where it is to be. What it touches at the start, it may touch on the way.
+        Where it is, and where it is to be. What it touches at the start, it may touch on the way,
+        but no more deeply.
     but
         Pairs of names that may touch each other.
     seed
@@ -98,9 +100,12 @@ def plan(
         The arm touches something at the goal, or no way was found.
 
     """
-    allowed = {*but, *(contact.names for contact in world.contacts(side, start))}
+    allowed = dict.fromkeys(but, -math.inf)
+    for contact in world.contacts(side, start):
+        least_m = min(allowed.get(contact.names, math.inf), contact.distance_m - _DEEPER_M)
+        allowed[contact.names] = least_m
     for contact in world.contacts(side, goal):
-        if contact.names not in allowed:
+        if contact.distance_m < allowed.get(contact.names, math.inf):
             raise BlockedError(f'The {side} arm cannot be there: {contact}.')
     search = _Search(world, side, allowed, np.random.default_rng(seed))
     way = search.way(_array(start), _array(goal))
@@ -204,7 +209,7 @@ class _Search:
         self,
         world: ArmWorld,
         side: str,
-        allowed: Collection[frozenset[str]],
+        allowed: Mapping[frozenset[str], float],
         random: np.random.Generator,
     ) -> None:
         self._world, self._side, self._allowed, self._random = world, side, allowed, random

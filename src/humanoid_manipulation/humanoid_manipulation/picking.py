@@ -27,8 +27,10 @@ __all__ = ['Picking']
 
 _ATTEMPTS, _STANCES = 3, 3
 _LIFT_M = 0.08
-_LOOK_S = 1.5
-"""How long a thing is looked at before it is taken."""
+_TURN_S, _LOOK_S = 0.7, 3.0
+"""How long the head turns towards a thing, and how long it is looked at then."""
+_LOOKS = 5
+"""How often it is to be seen."""
 _OTHERWISE = ('WALK_FAILED', 'NOT_REACHABLE', 'BLOCKED', 'SLIPPED')
 """What may go better from elsewhere, or with another grasp."""
 
@@ -71,7 +73,7 @@ class Picking(Handling):
                     goal.result.side = stance.side
                     return
                 except GoalAborted as error:
-                    if error.name not in _OTHERWISE:
+                    if error.name not in _OTHERWISE or stance.side in node.held:
                         raise
                     trouble = error
                 finally:
@@ -123,48 +125,57 @@ class Picking(Handling):
         tried: list[Grasp] = []
         trouble: GoalAborted | None = None
         for _ in range(_ATTEMPTS):
-            thing = await self._look_at(goal, object_id)
             try:
-                await self._grasp(goal, thing, side, tried)
+                await self._grasp(goal, object_id, side, tried)
                 return
             except GoalAborted as error:
-                if error.name not in ('BLOCKED', 'SLIPPED'):
+                if error.name not in ('BLOCKED', 'SLIPPED') or side in self.node.held:
                     raise trouble or error from None
                 trouble = error
         assert trouble is not None
         raise trouble
 
-    async def _look_at(self, goal: RunningGoal, object_id: str) -> Remembered:
-        """Look at a thing, and return what is known of it then."""
+    async def _look_at(self, goal: RunningGoal, thing: Remembered) -> Remembered:
+        """
+        Look at a thing, and return it where it is seen now.
+
+        What is remembered was seen when the robot thought it was somewhere a little else.
+        """
         self.tell(goal, 'looking')
-        thing = self._thing(object_id)
+        surroundings = self.node.surroundings
+        wanted = PointHead.Goal()
+        wanted.target.header.frame_id = surroundings.frame
+        at = wanted.target.point
+        at.x, at.y, at.z = thing.graspable.position_m.tolist()
         if self._look.server_is_ready():
-            wanted = PointHead.Goal()
-            wanted.target.header.frame_id = self.node.surroundings.frame
-            at = wanted.target.point
-            at.x, at.y, at.z = thing.graspable.position_m.tolist()
             self._look.send_goal_async(wanted)
+            for _ in range(round(_TURN_S * 20.0)):
+                await goal.tick()
+        with surroundings.watching():
             for _ in range(round(_LOOK_S * 20.0)):
                 await goal.tick()
-        return self._thing(object_id)
+                if len(surroundings.seen(thing)) >= _LOOKS:
+                    break
+        return surroundings.corrected(self._thing(thing.object_id))
 
     async def _grasp(
-        self, goal: RunningGoal, thing: Remembered, side: str, tried: list[Grasp]
+        self, goal: RunningGoal, object_id: str, side: str, tried: list[Grasp]
     ) -> None:
-        """Bend, reach, close, lift and carry."""
+        """Bend, look, reach, close, lift and carry."""
         node, arms = self.node, self.node.arms
-        grasps = [
-            each
-            for each in grasps_of(thing.graspable)
-            if not any(_is_like(each, other) for other in tried)
-        ]
-        chosen = self.choose(grasps, side, await self.place_of_feet(goal))
+        thing = self._thing(object_id)
+        feet = await self.place_of_feet(goal)
+        chosen = self.choose(_untried(thing, tried), side, feet)
         if chosen is None:
             raise GoalAborted('NOT_REACHABLE', f'I do not get to {thing.object_id} from here.')
-        grasp, bend = chosen
-        tried.append(grasp)
         self.tell(goal, 'bending')
-        await node.feet.bend(goal, bend)
+        await node.feet.bend(goal, chosen[1])
+        thing = await self._look_at(goal, thing)
+        chosen = self.choose(_untried(thing, tried), side, feet, (chosen[1],))
+        if chosen is None:
+            raise GoalAborted('NOT_REACHABLE', f'I do not get to {thing.object_id} from here.')
+        grasp = chosen[0]
+        tried.append(grasp)
         world = arms.world(
             await node.surroundings.obstacles(goal), {}, node.parameters.current.clearance
         )
@@ -210,6 +221,15 @@ def _held(thing: Remembered, grasp: Grasp, gap_m: float) -> Held:
         about_z(-heading_rad) @ grasp.gripper.rotation,
         float(grasp.gripper.position_m[2]) - thing.graspable.bottom_m,
     )
+
+
+def _untried(thing: Remembered, tried: Sequence[Grasp]) -> list[Grasp]:
+    """Return the ways to take a thing that are unlike those that were tried."""
+    return [
+        each
+        for each in grasps_of(thing.graspable)
+        if not any(_is_like(each, other) for other in tried)
+    ]
 
 
 def _is_like(one: Grasp, other: Grasp) -> bool:

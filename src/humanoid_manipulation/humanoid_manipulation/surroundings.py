@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 import math
 
 from humanoid_common.errors import NodeStartError
-from humanoid_common.qos import LATCHED
+from humanoid_common.qos import LATCHED, STATE
 from humanoid_common.single_goal import RunningGoal
 from humanoid_control.dynamics.frames import Frame
 from humanoid_control.dynamics.rotations import about_z, from_quaternion, yaw_of
@@ -25,8 +26,10 @@ __all__ = ['Remembered', 'Surroundings', 'surface_boxes']
 
 _FAR_M = 1.5
 """What is farther from the robot is in nobody's way."""
+_MOVED_M = 0.12
+"""A detection that is farther from a thing is another one."""
 _BOARD_M = 0.03
-"""How thick a board is that has another one, or the floor, below it."""
+"""No surface is thinner."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +86,8 @@ class Surroundings:
     def __init__(
         self, node: Node, transforms: Transforms, base_frame: str, places_file: str
     ) -> None:
-        self._transforms, self._base = transforms, base_frame
+        self._node, self._transforms, self._base = node, transforms, base_frame
+        self._detections: list[Detection3DArray] = []
         self._objects = Detection3DArray()
         try:
             path = places_path(places_file)
@@ -127,17 +131,53 @@ class Surroundings:
             if not asked or each.object_id == asked or wanted in (each.name, *each.names)
         ]
 
+    @contextmanager
+    def watching(self) -> Iterator[None]:
+        """Take note of what is detected meanwhile."""
+        self._detections = []
+        subscription = self._node.create_subscription(
+            Detection3DArray, 'detections_3d', self._detections.append, STATE
+        )
+        try:
+            yield
+        finally:
+            self._node.destroy_subscription(subscription)
+
+    def seen(self, thing: Remembered) -> list[Array]:
+        """Return where a thing was detected (3,) since somebody began to watch."""
+        found = []
+        for message in self._detections:
+            pose = self._transforms.pose(self.frame, message.header.frame_id)
+            places = [
+                pose[:3, :3] @ each.graspable.position_m + pose[:3, 3]
+                for each in map(_remembered, message.detections)
+                if each.names[:1] == thing.names[:1]
+            ]
+            away_m = [float(np.linalg.norm(at - thing.graspable.position_m)) for at in places]
+            if away_m and min(away_m) < _MOVED_M:
+                found.append(places[int(np.argmin(away_m))])
+        return found
+
+    def corrected(self, thing: Remembered) -> Remembered:
+        """Return a thing where it was detected, if it was; its height is remembered better."""
+        seen = self.seen(thing)
+        if not seen:
+            return thing
+        position = np.median(seen, axis=0)
+        position[2] = thing.graspable.position_m[2]
+        return replace(thing, graspable=replace(thing.graspable, position_m=position))
+
     def _take(self, message: Detection3DArray) -> None:
         self._objects = message
 
 
 def surface_boxes(surface: Surface) -> list[Obstacle]:
     """
-    Return a surface as boxes in the map: its board.
+    Return a surface as boxes in the map: a board, or a block down to the floor.
 
-    What is below a board is not known: a cabinet, or the legs of a table. An arm that comes from
-    above does not get there.
+    The legs of a table are not known. An arm that comes from above does not get there.
     """
+    depth_m = surface.depth_m or max(surface.height_m, _BOARD_M)
     outline = np.array(surface.outline_m)
     edges = np.roll(outline, -1, axis=0) - outline
     longest = edges[int(np.argmax((edges**2).sum(axis=1)))]
@@ -146,8 +186,8 @@ def surface_boxes(surface: Surface) -> list[Obstacle]:
     across = outline @ turn[:2, :2]
     lower, upper = across.min(axis=0), across.max(axis=0)
     middle = turn[:2, :2] @ ((lower + upper) / 2.0)
-    size = (float(upper[0] - lower[0]), float(upper[1] - lower[1]), _BOARD_M)
-    position = np.array([*middle, surface.height_m - _BOARD_M / 2.0])
+    size = (float(upper[0] - lower[0]), float(upper[1] - lower[1]), depth_m)
+    position = np.array([*middle, surface.height_m - depth_m / 2.0])
     return [Obstacle(surface.name.replace('_', ' '), Frame(position, turn), size)]
 
 

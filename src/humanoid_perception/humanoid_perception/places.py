@@ -32,12 +32,27 @@ class PlacesError(Exception):
 
 @dataclass(frozen=True)
 class Surface:
-    """A level surface with a name: its outline and height in the map, and how exact these are."""
+    """
+    A level surface with a name.
+
+    Attributes
+    ----------
+    name
+        What people call it.
+    outline_m, height_m
+        Its outline and height in the map.
+    tolerance_m
+        How exact these are.
+    depth_m
+        How thick it is: a table top, or a cabinet down to the floor, which is meant by zero.
+
+    """
 
     name: str
     outline_m: Outline
     height_m: float
     tolerance_m: float = _TOLERANCE_M
+    depth_m: float = 0.0
 
     @property
     def middle_m(self) -> Point:
@@ -208,7 +223,7 @@ def _places(table: Any) -> Places:
 
 
 def _surface(entry: Any) -> Surface:
-    keys = ('name', 'outline', 'height', 'tolerance')
+    keys = ('name', 'outline', 'height', 'tolerance', 'depth')
     known = _checked(entry, 'a surface', keys, ('name', 'outline', 'height'))
     name = _name(known)
     return Surface(
@@ -216,6 +231,7 @@ def _surface(entry: Any) -> Surface:
         _outline(known['outline'], name),
         _number(known['height'], f'the height of {name}'),
         abs(_number(known.get('tolerance', _TOLERANCE_M), f'the tolerance of {name}')),
+        abs(_number(known.get('depth', 0.0), f'the depth of {name}')),
     )
 
 

@@ -10,12 +10,15 @@ import sys
 
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.scene import load_scene
-from humanoid_simulation.scene.scene import Scene
+from humanoid_simulation.scene.scene import Scene, Surface
 
+_OPEN_BELOW = ('table',)
+_BOARD_M = 0.04
 _HEAD = """\
 # SPDX-License-Identifier: Apache-2.0
 # Named places of a home, in the frame of its map: what a user measured there.
-#   surfaces: outline [[x, y], ...] and height in m; tolerance: how exact these are, in m
+#   surfaces: outline [[x, y], ...] and height in m; tolerance: how exact these are, in m;
+#             depth: how thick the top is, in m; without it, it is solid down to the floor
 #   rooms:    outline [[x, y], ...]
 """
 
@@ -49,7 +52,7 @@ def places_text(scene: Scene) -> str:
     """Return the text of the file, with centimetres as a tape measure gives them."""
     surfaces = [
         f'  - {{name: {surface.name}, height: {surface.height_m:.2f}, '
-        f'outline: {_corners(surface.outline_m)}}}'
+        f'outline: {_corners(surface.outline_m)}{_depth(scene, surface)}}}'
         for surface in scene.surfaces
     ]
     rooms = [
@@ -57,6 +60,14 @@ def places_text(scene: Scene) -> str:
     ]
     lines = ['frame: map', 'surfaces:', *surfaces, 'rooms:', *rooms]
     return _HEAD + '\n'.join(lines) + '\n'
+
+
+def _depth(scene: Scene, surface: Surface) -> str:
+    """Return how thick a surface is, if it is a board with something free below."""
+    base = surface.name.partition('/')[0]
+    boards = sum(each.name.partition('/')[0] == base for each in scene.surfaces)
+    is_board = boards > 1 or scene.thing(base).kind in _OPEN_BELOW
+    return f', depth: {_BOARD_M:.2f}' if is_board else ''
 
 
 def _corners(outline_m: Iterable[tuple[float, float]]) -> str:
