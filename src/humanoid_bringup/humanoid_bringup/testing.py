@@ -26,6 +26,8 @@ READY_S, PATIENCE_S = 120.0, 300.0
 _PIECE_S, _SILENCE_S = 0.03, 1.0
 _OVER = ('succeeded', 'failed', 'canceled')
 _ANSWER_S = 5.0
+_LISTENERS = 2
+"""Who hears a command: the planner, and the executor, for a stop."""
 _ANYTHING = 'turn left by 10 degrees'
 
 
@@ -137,7 +139,8 @@ class ToldRobot:
         """Wait until the planner knows what runs."""
 
         def plans() -> bool:
-            if not (self._planner.service_is_ready() and self._commands.get_subscription_count()):
+            heard_by = self._commands.get_subscription_count()
+            if not (self._planner.service_is_ready() and heard_by >= _LISTENERS):
                 return False
             answer = self._planner.call_async(MakePlan.Request(command=_ANYTHING))
             try:

@@ -9,12 +9,19 @@ from typing import Any
 from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Duration
 from control_msgs.action import FollowJointTrajectory
+from control_msgs.msg import JointTolerance
 from humanoid_common.single_goal import GoalAborted
 from rclpy.action import ActionClient
 from rclpy.node import Node
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 __all__ = ['JointMover', 'trajectory_point']
+
+_OFF = (
+    FollowJointTrajectory.Result.PATH_TOLERANCE_VIOLATED,
+    FollowJointTrajectory.Result.GOAL_TOLERANCE_VIOLATED,
+)
+"""How a motion ends that something was in the way of."""
 
 
 def trajectory_point(
@@ -24,8 +31,12 @@ def trajectory_point(
     return JointTrajectoryPoint(
         positions=[float(each) for each in positions],
         velocities=[float(each) for each in velocities],
-        time_from_start=Duration(sec=int(time_s), nanosec=int(time_s % 1.0 * 1e9)),
+        time_from_start=_duration(time_s),
     )
+
+
+def _duration(seconds: float) -> Duration:
+    return Duration(sec=int(seconds), nanosec=int(seconds % 1.0 * 1e9))
 
 
 class JointMover:
@@ -40,13 +51,16 @@ class JointMover:
         The names of all joints of the controller.
     controller
         Its name.
-    code
-        The name of the error code of goals that fail because of it.
+    code, blocked
+        The names of the error codes of goals that fail because of it: and of those whose joints
+        do not come to where they were told to be, if that is another one.
 
     """
 
-    def __init__(self, node: Node, joints: Sequence[str], controller: str, code: str) -> None:
-        self.joints, self._code = list(joints), code
+    def __init__(
+        self, node: Node, joints: Sequence[str], controller: str, code: str, blocked: str = ''
+    ) -> None:
+        self.joints, self._code, self._blocked = list(joints), code, blocked or code
         self.action = f'{controller}/follow_joint_trajectory'
         self._client = ActionClient(node, FollowJointTrajectory, self.action)
         self._sent: Any = None
@@ -58,13 +72,35 @@ class JointMover:
         """Whether the controller is there."""
         return bool(self._client.server_is_ready())
 
-    def send(self, points: Sequence[JointTrajectoryPoint]) -> None:
-        """Begin to move; a motion that still goes on is replaced."""
-        trajectory = JointTrajectory(joint_names=self.joints, points=list(points))
-        self._handle = self._end = None
-        sent = self._sent = self._client.send_goal_async(
-            FollowJointTrajectory.Goal(trajectory=trajectory)
+    def send(
+        self,
+        points: Sequence[JointTrajectoryPoint],
+        path_tolerance_rad: float = 0.0,
+        goal_time_s: float = 0.0,
+    ) -> None:
+        """
+        Begin to move; a motion that still goes on is replaced.
+
+        Parameters
+        ----------
+        points
+            The way.
+        path_tolerance_rad
+            From how far a joint may be off on the way; 0 is any error.
+        goal_time_s
+            By how much the end may be reached late; 0 is any time.
+
+        """
+        goal = FollowJointTrajectory.Goal(
+            trajectory=JointTrajectory(joint_names=self.joints, points=list(points)),
+            goal_time_tolerance=_duration(goal_time_s),
         )
+        if path_tolerance_rad:
+            goal.path_tolerance = [
+                JointTolerance(name=joint, position=path_tolerance_rad) for joint in self.joints
+            ]
+        self._handle = self._end = None
+        sent = self._sent = self._client.send_goal_async(goal)
 
         def take(future: Any) -> None:
             handle = future.result()
@@ -97,7 +133,11 @@ class JointMover:
         answer = self._end.result()
         if answer.status != GoalStatus.STATUS_SUCCEEDED:
             reason = answer.result.error_string or 'somebody else moves these joints'
-            raise GoalAborted(self._code, f"'{self.action}' ended the motion: {reason}")
+            is_off = answer.result.error_code in _OFF
+            raise GoalAborted(
+                self._blocked if is_off else self._code,
+                f"'{self.action}' ended the motion: {reason}",
+            )
         return True
 
     def stop(self) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 from builtin_interfaces.msg import Duration, Time
 from diagnostic_msgs.msg import KeyValue
 from geometry_msgs.msg import Point, Pose, PoseWithCovariance, Vector3, Wrench
-from humanoid_interfaces.action import ExecutePlan, Pick, Place, Reach, ScanRoom
+from humanoid_interfaces.action import Drop, ExecutePlan, HandOver, Pick, Place, Reach, ScanRoom
 from humanoid_interfaces.msg import (
     Contact,
     Contacts,
@@ -98,6 +98,11 @@ PICK_CODES = (
     *('NONE', 'NOT_SEEN', 'NOT_REACHABLE', 'OCCUPIED_HAND', 'SLIPPED', 'BLOCKED', 'WALK_FAILED'),
     *('ARM_FAILED', 'NO_TRANSFORM', 'INHIBITED', 'PREEMPTED', 'UNKNOWN'),
 )
+HAND_OVER_CODES = (
+    *('NONE', 'EMPTY_HAND', 'NOT_TAKEN', 'BLOCKED', 'ARM_FAILED', 'NO_TRANSFORM', 'INHIBITED'),
+    *('PREEMPTED', 'UNKNOWN'),
+)
+DROP_CODES = ('NONE', 'EMPTY_HAND', 'ARM_FAILED', 'INHIBITED', 'PREEMPTED', 'UNKNOWN')
 PLACE_CODES = (
     *('NONE', 'INVALID', 'NOT_REACHABLE', 'EMPTY_HAND', 'SLIPPED', 'BLOCKED', 'WALK_FAILED'),
     *('ARM_FAILED', 'NO_TRANSFORM', 'INHIBITED', 'PREEMPTED', 'UNKNOWN'),
@@ -107,6 +112,8 @@ MESSAGES = [
     *(ScanRoom.Goal(turn_body=True), ExecutePlan.Goal(plan=PLAN), Reach.Goal(side='left')),
     Pick.Goal(object='red_mug_1'),
     Place.Goal(place='desk'),
+    HandOver.Goal(side='left'),
+    Drop.Goal(side='right'),
     MakePlan.Request(command='stop'),
 ]
 
@@ -151,6 +158,9 @@ def test_a_scan_turns_the_head_alone_unless_it_is_told_more() -> None:
         (ExecutePlan.Result, EXECUTE_CODES),
         (Reach.Result, REACH_CODES),
         (Pick.Result, PICK_CODES),
+        (Place.Result, PLACE_CODES),
+        (HandOver.Result, HAND_OVER_CODES),
+        (Drop.Result, DROP_CODES),
         (Place.Result, PLACE_CODES),
     ],
 )

@@ -15,6 +15,7 @@ from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_description.drives import SIDES
 from humanoid_description.errors import DescriptionError
 from humanoid_description.loading import load_robot
+from humanoid_description.robot import Array
 from humanoid_manipulation.arm_world import ArmWorld, Obstacle
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.motion_planning import Motion
@@ -28,7 +29,9 @@ from std_msgs.msg import String
 
 __all__ = ['Arms']
 
-_CODE = 'ARM_FAILED'
+_CODE, _BLOCKED = 'ARM_FAILED', 'BLOCKED'
+_OFF_RAD, _LATE_GOAL_S = 0.3, 1.0
+"""A joint that is farther off on the way, or later at its end, has met something."""
 _STILL_RAD = 1e-3
 """A waist that is to turn by less stays where it is."""
 _LATE_S = 5.0
@@ -56,6 +59,7 @@ class Arms:
         self._movers: dict[str, JointMover] = {}
         self._waist: JointMover | None = None
         self._positions: dict[str, float] = {}
+        self._efforts: dict[str, float] = {}
         self._grippers: dict[str, ActionClient] = {}
         node.create_subscription(String, 'robot_description', self._read, LATCHED)
 
@@ -91,6 +95,11 @@ class Arms:
         at = self._positions
         arm = self.body.arms[side]
         return Reach(at[self.body.waist], tuple(at[joint] for joint in arm.joints))
+
+    def efforts_of(self, side: str) -> Array:
+        """Return what the drives of an arm exert (6,), in N m."""
+        joints = self.body.arms[side].joints
+        return np.array([self._efforts.get(joint, 0.0) for joint in joints])
 
     def world(
         self,
@@ -130,7 +139,9 @@ class Arms:
                         positions[1:].tolist(),
                         velocities[1:].tolist(),
                     )
-                ]
+                ],
+                _OFF_RAD,
+                _LATE_GOAL_S,
             )
         end_s = self._now_s() + motion.duration_s + _LATE_S
         try:
@@ -199,6 +210,7 @@ class Arms:
 
     def _take(self, message: JointState) -> None:
         self._positions.update(zip(message.name, message.position))
+        self._efforts.update(zip(message.name, message.effort))
 
     def _read(self, message: String) -> None:
         try:
@@ -210,7 +222,11 @@ class Arms:
         if not self._movers:
             self._movers = {
                 side: JointMover(
-                    self._node, body.arms[side].joints, f'{side}_arm_controller', _CODE
+                    self._node,
+                    body.arms[side].joints,
+                    f'{side}_arm_controller',
+                    _CODE,
+                    _BLOCKED,
                 )
                 for side in SIDES
             }

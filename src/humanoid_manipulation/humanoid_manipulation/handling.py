@@ -23,7 +23,7 @@ from humanoid_manipulation.upper_body import OutOfReachError, Reach
 if TYPE_CHECKING:
     from humanoid_manipulation.manipulator import Manipulator
 
-__all__ = ['CARRYING', 'Handling', 'Held']
+__all__ = ['CARRYING', 'HANGING', 'Handling', 'Held']
 
 CARRYING = {
     'left': Reach(0.0, (0.2, 0.15, 0.0, -1.77, 0.0, 0.0)),
@@ -41,7 +41,7 @@ _BACK_OFF_M = 0.25
 """So far before where the robot is to stand, navigation ends and steps begin."""
 _BACK_M = 0.30
 """How far the robot steps back from where it took a thing, or put it down."""
-_FAR_M, _FAR_RAD = 0.4, 0.6
+_FAR_M, _FAR_RAD = 0.6, 0.8
 """A robot that is farther from where it is to stand walks there by navigation."""
 _SLOW_RAD_S = 0.5
 _LEAST_SHARE = 0.5
@@ -96,6 +96,13 @@ class Handling:
         """Say how far it is."""
         goal.publish_feedback(self._feedback(state=state))
 
+    def holding(self, asked: str) -> tuple[str, Held]:
+        """Return the hand that is meant, and what it holds."""
+        for side, held in self.node.held.items():
+            if asked in ('', side):
+                return side, held
+        raise GoalAborted('EMPTY_HAND', 'I hold nothing.')
+
     @property
     def base(self) -> Frame:
         """Return where the pelvis is in the map."""
@@ -103,6 +110,12 @@ class Handling:
         base_frame = node.parameters.current.base_frame
         pose = node.transforms.pose(node.surroundings.frame, base_frame)
         return Frame(pose[:3, 3], pose[:3, :3])
+
+    async def obstacles(self, goal: RunningGoal, but: Sequence[str] = ()) -> list[Obstacle]:
+        """Return what is near the robot, but for what it holds, which it sees as well."""
+        own = {*but, *(each.box.name for each in self.node.held.values())}
+        found = await self.node.surroundings.obstacles(goal)
+        return [each for each in found if each.name not in own]
 
     async def place_of_feet(self, goal: RunningGoal) -> tuple[float, float, float]:
         """Return where the robot stands in the map: x and y in m, and its heading in rad."""
@@ -203,11 +216,18 @@ class Handling:
         x_m, y_m, yaw_rad = await self.place_of_feet(goal)
         back = (x_m - _BACK_M * math.cos(yaw_rad), y_m - _BACK_M * math.sin(yaw_rad), yaw_rad)
         await node.feet.step_to(goal, node.surroundings.frame, back)
-        obstacles = await node.surroundings.obstacles(goal)
-        others = [each for each in obstacles if each.name not in but]
+        others = await self.obstacles(goal, but)
         world = arms.world(others, {side: held} if held else {}, 0.0)
         with self.failing():
             await self.move(goal, side, plan(world, side, arms.reach_of(side), end))
+
+    async def withdraw(self, goal: RunningGoal, side: str) -> None:
+        """Bring a hand that has not got to its goal back, as far as it can."""
+        try:
+            await self.rest(goal, side, HANGING[side], None)
+        except GoalAborted as error:
+            if error.name not in ('BLOCKED', 'NOT_REACHABLE', 'WALK_FAILED'):
+                raise
 
     async def check_held(self, goal: RunningGoal, side: str, width_m: float) -> float:
         """Close a hand, and return the gap; -1 if what is that wide is not between its fingers."""

@@ -18,12 +18,13 @@ from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
 from humanoid_control.dynamics.frames import Frame
 from humanoid_control.dynamics.rotations import from_quaternion
 from humanoid_description.drives import SIDES
-from humanoid_interfaces.action import Pick, Place
+from humanoid_interfaces.action import Drop, HandOver, Pick, Place
 from humanoid_interfaces.action import Reach as ReachAction
 from humanoid_manipulation.arms import Arms
 from humanoid_manipulation.conversions import fill_pose
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.feet import Feet
+from humanoid_manipulation.giving import Giving
 from humanoid_manipulation.handling import Held
 from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
 from humanoid_manipulation.picking import Picking
@@ -81,10 +82,12 @@ class Manipulator(Node):
         self.feet = Feet(self, self.transforms, told.base_frame)
         self.held: dict[str, Held] = {}
         """What hands hold, by their sides."""
-        picking, placing = Picking(self), Placing(self)
+        picking, placing, giving = Picking(self), Placing(self), Giving(self)
         self.goals.offer(ReachAction, 'reach', self._reach, _unsound)
         self.goals.offer(Pick, 'pick', picking.work, picking.unsound)
         self.goals.offer(Place, 'place', placing.work, placing.unsound)
+        self.goals.offer(HandOver, 'hand_over', giving.hand_over, giving.unsound)
+        self.goals.offer(Drop, 'drop', giving.drop, giving.unsound)
         for topic, take in (
             ('walking_state', self._inhibition.tell_walking_state),
             ('stop_state', self._inhibition.tell_stop_state),

@@ -61,10 +61,10 @@ class Picking(Handling):
         node = self.node
         with node.transforms.listening(), node.arms.listening():
             await node.arms.wait(goal)
-            thing = self._thing(goal.request.object)
+            place = await self.place_of_feet(goal)
+            thing = self._thing(goal.request.object, place[:2])
             goal.result.object = thing.object_id
             sides = self._free_sides(goal.request.side)
-            place = await self.place_of_feet(goal)
             trouble: GoalAborted | None = None
             for stance in self._stances(thing, sides, place[:2]):
                 try:
@@ -76,17 +76,21 @@ class Picking(Handling):
                     if error.name not in _OTHERWISE or stance.side in node.held:
                         raise
                     trouble = error
+                    node.get_logger().info(f'I try another way: {error}')
+                    await self.withdraw(goal, stance.side)
                 finally:
                     node.feet.straighten()
             assert trouble is not None
             raise trouble
 
-    def _thing(self, asked: str) -> Remembered:
-        """Return the remembered thing that is meant."""
+    def _thing(self, asked: str, near_m: tuple[float, float] = (0.0, 0.0)) -> Remembered:
+        """Return the remembered thing that is meant, of several the one that is nearest."""
         found = self.node.surroundings.things(asked)
         if not found:
             raise GoalAborted('NOT_SEEN', f"I remember nothing that is '{asked}'.")
-        return found[0]
+        return min(
+            found, key=lambda each: math.dist(near_m, each.graspable.position_m[:2].tolist())
+        )
 
     def _free_sides(self, asked: str) -> tuple[str, ...]:
         """Return the hands that hold nothing."""
@@ -176,9 +180,7 @@ class Picking(Handling):
             raise GoalAborted('NOT_REACHABLE', f'I do not get to {thing.object_id} from here.')
         grasp = chosen[0]
         tried.append(grasp)
-        world = arms.world(
-            await node.surroundings.obstacles(goal), {}, node.parameters.current.clearance
-        )
+        world = arms.world(await self.obstacles(goal), {}, node.parameters.current.clearance)
         self.tell(goal, 'reaching')
         await arms.grip(goal, side, grasp.gap_m)
         await self.go_before(goal, side, grasp, world, thing.object_id)

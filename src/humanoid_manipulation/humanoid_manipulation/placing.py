@@ -57,7 +57,7 @@ class Placing(Handling):
         node = self.node
         with node.transforms.listening(), node.arms.listening():
             await node.arms.wait(goal)
-            side, held = self._holding(goal.request.side)
+            side, held = self.holding(goal.request.side)
             goal.result.object = held.object_id
             place = await self.place_of_feet(goal)
             surface = self._surface(goal.request.place, place[:2])
@@ -72,20 +72,14 @@ class Placing(Handling):
                     await self._put(goal, side, held, surface, spots)
                     return
                 except GoalAborted as error:
-                    if error.name not in _OTHERWISE:
+                    if error.name not in _OTHERWISE or side not in node.held:
                         raise
                     trouble = error
+                    node.get_logger().info(f'I try another way: {error}')
                 finally:
                     node.feet.straighten()
             assert trouble is not None
             raise trouble
-
-    def _holding(self, asked: str) -> tuple[str, Held]:
-        """Return the hand that is meant, and what it holds."""
-        for side, held in self.node.held.items():
-            if asked in ('', side):
-                return side, held
-        raise GoalAborted('EMPTY_HAND', 'I hold nothing that I could put down.')
 
     def _surface(self, asked: str, near_m: tuple[float, float]) -> Surface:
         """Return the surface that is meant."""
@@ -107,7 +101,8 @@ class Placing(Handling):
         for each in self.node.surroundings.things():
             thing = each.graspable
             x, y = float(thing.position_m[0]), float(thing.position_m[1])
-            if surface.misfit_m(x, y, thing.bottom_m, 0.05) < math.inf:
+            is_own = any(each.object_id == held.object_id for held in self.node.held.values())
+            if not is_own and surface.misfit_m(x, y, thing.bottom_m, 0.05) < math.inf:
                 found.append((x, y, 0.5 * math.hypot(*thing.size_m[:2].tolist())))
         return found
 
@@ -160,8 +155,7 @@ class Placing(Handling):
         grasp, bend = chosen
         self.tell(goal, 'bending')
         await node.feet.bend(goal, bend)
-        obstacles = await node.surroundings.obstacles(goal)
-        world = arms.world(obstacles, {side: held.box}, 0.0)
+        world = arms.world(await self.obstacles(goal), {side: held.box}, 0.0)
         self.tell(goal, 'reaching')
         await self.go_before(goal, side, grasp, world, surface.name)
         if await self.check_held(goal, side, held.width_m) < 0.0:

@@ -170,7 +170,7 @@ def stances_for(
             effort, grasp = best
             cost = effort + _UPRIGHT_COST * bend.pitch_rad - 2.0 * bend.height_m
             if near_m is not None:
-                cost += 0.2 * math.dist(near_m, (x_m, y_m))
+                cost += 0.6 * math.dist(near_m, (x_m, y_m))
             found.append(Stance(x_m, y_m, yaw_rad, bend, side, grasp, cost))
             break
     return _apart(sorted(found, key=lambda stance: stance.cost), at_most)

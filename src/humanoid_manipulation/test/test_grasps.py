@@ -9,6 +9,7 @@ from humanoid_control.dynamics.rotations import about_z
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot
 from humanoid_manipulation.grasps import Grasp, Graspable, grasps_of, Hand
+from humanoid_manipulation.placing import free_spots
 from humanoid_manipulation.stances import base_of, Bend, BENDS, grasp_reaches, stances_for
 from humanoid_manipulation.upper_body import UpperBody
 from humanoid_perception.places import load_places, Places, places_path, Surface
@@ -150,3 +151,17 @@ def test_in_the_apartment_one_stays_in_the_room() -> None:
     stances = stances_for(BODY, list(grasps_of(subject)), subject.position_m, places)
     assert stances
     assert {places.room_at(each.x_m, each.y_m) for each in stances} == {'kitchen'}
+
+
+def test_free_spots_are_on_the_surface_and_clear_of_things() -> None:
+    """With room to the edge and to others; the nearest come first."""
+    (surface,) = TABLE.surfaces
+    others = [(0.2, 0.0, 0.05), (0.3, 0.3, 0.05)]
+    spots = list(free_spots(surface, others, 0.04, (-0.3, 0.0)))
+    assert len(spots) > 20
+    for x, y in spots:
+        assert 0.07 < x < 0.63 and -0.53 < y < 0.53
+        assert all(math.dist((x, y), other[:2]) > 0.12 for other in others)
+    away = [math.dist(spot, (-0.3, 0.0)) for spot in spots]
+    assert away == sorted(away)
+    assert list(free_spots(surface, [(0.35, 0.0, 2.0)], 0.04, (0.0, 0.0))) == []

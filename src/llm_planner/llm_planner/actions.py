@@ -8,6 +8,7 @@ import math
 from typing import Any
 
 from control_msgs.action import FollowJointTrajectory
+from llm_planner.handling import Handling
 from llm_planner.looking import Looking
 from llm_planner.plan import Step, value_in_words
 from llm_planner.plan_tree import SkillError, SkillRun
@@ -25,8 +26,8 @@ __all__ = ['Actions']
 
 _WALKING = ('come_back', 'move', 'turn', 'follow_path')
 _LOOKING = ('look_at', 'look_around', 'find')
+_HANDLING = ('pick', 'place', 'hand_over')
 _TELLING = ('where', 'describe', 'identify', 'tell_count')
-_ARM = ('shoulder', 'shoulder_roll', 'shoulder_yaw', 'elbow')
 _DOWN = (0.0, 0.1, 0.0, -0.3)
 _UP, _OUT = (-1.6, 0.6, 0.0, -1.6), (-1.6, 1.0, 0.0, -1.0)
 
@@ -45,7 +46,10 @@ class Actions:
     """
 
     IMPLEMENTED = frozenset(
-        (*_WALKING, *_LOOKING, *_TELLING, 'go_to', 'wave', 'point_at', 'say', 'wait', 'stop')
+        (
+            *(*_WALKING, *_LOOKING, *_TELLING, *_HANDLING),
+            *('go_to', 'wave', 'point_at', 'say', 'wait', 'stop'),
+        )
     )
     """The names of the skills that can be done."""
 
@@ -54,11 +58,13 @@ class Actions:
         self._recall = Recall(watch)
         self._walking = Walking(robot, watch, self._recall)
         self._looking = Looking(robot, watch, self._recall, self._walking)
+        handling = Handling(robot, watch, self._recall)
         telling = Telling(robot, watch, self._recall, self._walking, self._looking)
         self._starts: Mapping[str, Callable[..., SkillRun]] = {
             **{name: getattr(self._walking, name) for name in _WALKING},
             **{name: getattr(self._looking, name) for name in _LOOKING},
             **{name: getattr(telling, name) for name in _TELLING},
+            **{name: getattr(handling, name) for name in _HANDLING},
             'go_to': self._go_to,
             'wave': self._wave,
             'point_at': self._point_at,
@@ -128,14 +134,15 @@ class Actions:
     def _move_arm(self, side: str, postures: Sequence[Sequence[float]]) -> SkillRun:
         """Move an arm through postures of the left one, mirrored for the right one."""
         mirror = (1.0, -1.0, -1.0, 1.0) if side == 'right' else (1.0, 1.0, 1.0, 1.0)
+        names = self._watch.arm_joints(side)
+        level = [0.0] * (len(names) - len(mirror))
         points = [
             JointTrajectoryPoint(
-                positions=[factor * angle for factor, angle in zip(mirror, posture)],
+                positions=[*(factor * at for factor, at in zip(mirror, posture)), *level],
                 time_from_start=Duration(seconds=1.2 * number).to_msg(),
             )
             for number, posture in enumerate(postures, 1)
         ]
-        names = [f'{side}_{joint}' for joint in _ARM]
         trajectory = JointTrajectory(joint_names=names, points=points)
         yield from self._robot.act(
             FollowJointTrajectory,

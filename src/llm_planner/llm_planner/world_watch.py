@@ -22,6 +22,9 @@ from vision_msgs.msg import Detection3DArray
 __all__ = ['WorldWatch']
 
 _MAP, _BASE = 'map', 'base_footprint'
+_ARM = ('shoulder', 'shoulder_roll', 'shoulder_yaw', 'elbow')
+_WRIST = ('wrist_yaw', 'wrist_pitch')
+"""What an arm with a hand has besides."""
 
 
 class WorldWatch:
@@ -48,7 +51,9 @@ class WorldWatch:
         self._inhibition = Inhibition()
         self._buffer = Buffer()
         self._listener = TransformListener(self._buffer, node)
+        self._model = ''
         node.create_subscription(Detection3DArray, 'objects', self._take, LATCHED)
+        node.create_subscription(String, 'robot_description', self._take_model, LATCHED)
         for topic, tell in (
             ('walking_state', self._inhibition.tell_walking_state),
             ('stop_state', self._inhibition.tell_stop_state),
@@ -71,6 +76,11 @@ class WorldWatch:
     def inhibition(self) -> str:
         """Return why the robot cannot walk now; empty if it can."""
         return self._inhibition.reason
+
+    def arm_joints(self, side: str) -> list[str]:
+        """Return the joints of an arm that a goal of its controller names, from the shoulder."""
+        wrist = [joint for joint in _WRIST if f'"{side}_{joint}"' in self._model]
+        return [f'{side}_{joint}' for joint in (*_ARM, *wrist)]
 
     def world(self) -> World:
         """Return all that is known now; it asks the graph for each server."""
@@ -142,6 +152,9 @@ class WorldWatch:
         position, rotation = pose_of(found)
         x, y, z = position + rotation @ np.array(point_m)
         return float(x), float(y), float(z)
+
+    def _take_model(self, message: String) -> None:
+        self._model = message.data
 
     def _take(self, message: Detection3DArray) -> None:
         self._things = tuple(

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Take a can from a table in the simulator, put it down, and hand it over."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import math
+from pathlib import Path
+from typing import Any
+
+from action_msgs.msg import GoalStatus
+from geometry_msgs.msg import Vector3, Wrench
+from humanoid_common.qos import LATCHED
+from humanoid_common.testing.ros import RosSandbox
+from humanoid_description.expansion import humanoid_urdf
+from humanoid_interfaces.action import Drop, HandOver, Pick, Place
+from humanoid_interfaces.srv import ApplyWrench
+from humanoid_manipulation.manipulator import Manipulator
+from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+from humanoid_simulation.testing.simulators import simulation
+import pytest
+from rclpy.action import ActionClient
+from rclpy.duration import Duration
+from simulation_interfaces.srv import GetEntityState
+from std_msgs.msg import String
+from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
+
+SCENE = """\
+things:
+  - {name: table, shape: box, size: [0.7, 1.2, 0.7], position: [0.85, 0, 0.35]}
+  - {name: can, shape: cylinder, size: [0.033, 0.12], position: [0.62, 0.15, 0.76], mass: 0.35}
+"""
+PLACES = """\
+frame: odom
+surfaces:
+  - {name: table, height: 0.70, outline: [[0.5, -0.6], [1.2, -0.6], [1.2, 0.6], [0.5, 0.6]]}
+"""
+PATIENCE_S = 240.0
+KINDS = {'pick': Pick, 'place': Place, 'hand_over': HandOver, 'drop': Drop}
+
+pytestmark = pytest.mark.timeout(400)
+
+
+class World:
+    """A robot before a table, what moves its arms, and a memory of the can that is right."""
+
+    def __init__(self, ros: RosSandbox, places: Path) -> None:
+        """Start the manipulator."""
+        self.ros, self.robot = ros, SimulatedRobot(ros)
+        self.states: list[str] = []
+        node = ros.observer()
+        self._description = node.create_publisher(String, 'robot_description', LATCHED)
+        self._description.publish(String(data=humanoid_urdf(hands=True)))
+        self._objects = node.create_publisher(Detection3DArray, 'objects', LATCHED)
+        self._state = node.create_client(GetEntityState, 'simulator/get_entity_state')
+        self._push = node.create_client(ApplyWrench, 'simulator/apply_wrench')
+        ros.start(Manipulator, {'places_file': str(places), 'use_sim_time': True})
+        self._clients = {name: ActionClient(node, kind, name) for name, kind in KINDS.items()}
+        for name, client in self._clients.items():
+            ros.wait_until(client.server_is_ready, 60.0, name)
+        ros.wait_until(self._state.service_is_ready, 60.0, 'the simulator')
+
+    @property
+    def can_m(self) -> tuple[float, float, float]:
+        """Return where the can truly is."""
+        position = self._ask(self._state, GetEntityState.Request(entity='can')).state.pose.position
+        return position.x, position.y, position.z
+
+    def remember(self) -> None:
+        """Let the robot remember the can where it is."""
+        can = Detection3D(id='red_can_1')
+        for name in ('can', 'red can'):
+            result = ObjectHypothesisWithPose()
+            result.hypothesis.class_id, result.hypothesis.score = name, 0.9
+            can.results.append(result)
+        at, size = can.bbox.center.position, can.bbox.size
+        at.x, at.y, at.z = self.can_m
+        size.x = size.y = 0.066
+        size.z = 0.12
+        message = Detection3DArray(detections=[can])
+        message.header.frame_id = 'odom'
+        self._objects.publish(message)
+
+    def act(self, name: str, **fields: Any) -> Any:
+        """Do a goal, and return its end; the robot stays on its feet."""
+        self.states.clear()
+        client = self._clients[name]
+        sent = client.send_goal_async(
+            KINDS[name].Goal(**fields),
+            lambda message: self.states.append(getattr(message.feedback, 'state', '')),
+        )
+        self.ros.wait_until(sent.done, 60.0, 'an answer')
+        assert sent.result().accepted
+        end = sent.result().get_result_async()
+        self.ros.wait_until(lambda: end.done() or not self.robot.stands, PATIENCE_S, name)
+        assert self.robot.stands
+        return end.result()
+
+    def start(self, name: str, **fields: Any) -> Any:
+        """Begin a goal, and return the future of its end."""
+        self.states.clear()
+        sent = self._clients[name].send_goal_async(
+            KINDS[name].Goal(**fields),
+            lambda message: self.states.append(message.feedback.state),
+        )
+        self.ros.wait_until(sent.done, 60.0, 'an answer')
+        return sent.result().get_result_async()
+
+    def pull(self) -> None:
+        """Pull at the can."""
+        request = ApplyWrench.Request(
+            entity='can',
+            wrench=Wrench(force=Vector3(x=12.0)),
+            duration=Duration(seconds=1.0).to_msg(),
+        )
+        assert self._ask(self._push, request).success
+
+    def close(self) -> None:
+        """End."""
+        for client in self._clients.values():
+            client.destroy()
+
+    def _ask(self, client: Any, request: Any) -> Any:
+        future = client.call_async(request)
+        self.ros.wait_until(future.done, 60.0, client.srv_name)
+        return future.result()
+
+
+@pytest.fixture(name='world', scope='module')
+def _world(tmp_path_factory: pytest.TempPathFactory) -> Iterator[World]:
+    """Give a robot before a table."""
+    folder = tmp_path_factory.mktemp('manipulation')
+    scene, places = folder / 'kitchen.yaml', folder / 'places.yaml'
+    scene.write_text(SCENE)
+    places.write_text(PLACES)
+    parameters = {'scene': str(scene), 'hands': 'true', 'real_time_factor': '1.5'}
+    with simulation(**parameters) as ros:
+        world = World(ros, places)
+        yield world
+        world.close()
+
+
+def test_what_is_not_there_is_not_taken(world: World) -> None:
+    """Each reason has its code."""
+    end = world.act('pick', object='unicorn')
+    assert end.status == GoalStatus.STATUS_ABORTED
+    assert end.result.error_code == Pick.Result.NOT_SEEN
+    assert "'unicorn'" in end.result.error_msg
+    for name, code in (
+        ('place', Place.Result.EMPTY_HAND),
+        ('hand_over', HandOver.Result.EMPTY_HAND),
+        ('drop', Drop.Result.EMPTY_HAND),
+    ):
+        assert world.act(name).result.error_code == code
+
+
+def test_a_can_is_taken_put_down_and_handed_over(world: World) -> None:
+    """It is in the hand, then on the table, then in the hand of somebody who pulls."""
+    world.remember()
+    world.robot.wait(0.5)
+    end = world.act('pick', object='red can')
+    assert end.status == GoalStatus.STATUS_SUCCEEDED, end.result.error_msg
+    assert end.result.object == 'red_can_1'
+    assert world.states[-1] == 'carrying' and 'closing' in world.states
+    world.robot.wait(3.0)
+    assert world.can_m[2] > 0.80
+    pose = world.robot.pose.position_m
+    assert math.hypot(world.can_m[0] - pose.real, world.can_m[1] - pose.imag) < 0.5
+    busy = world.act('pick', object='red can', side=end.result.side)
+    assert busy.result.error_code == Pick.Result.OCCUPIED_HAND
+
+    down = world.act('place', place='table')
+    assert down.status == GoalStatus.STATUS_SUCCEEDED, down.result.error_msg
+    world.robot.wait(1.0)
+    x, y, z = world.can_m
+    assert z == pytest.approx(0.76, abs=0.02)
+    assert (x, y) == pytest.approx((down.result.position.x, down.result.position.y), abs=0.06)
+
+    world.remember()
+    world.robot.wait(0.5)
+    assert world.act('pick', object='red_can_1').status == GoalStatus.STATUS_SUCCEEDED
+    handed = world.start('hand_over')
+    world.ros.wait_until(lambda: 'waiting' in world.states, PATIENCE_S, 'a hand that is held out')
+    world.robot.wait(2.0)
+    assert 'opening' not in world.states
+    world.pull()
+    world.ros.wait_until(handed.done, PATIENCE_S, 'the end')
+    assert handed.result().status == GoalStatus.STATUS_SUCCEEDED, handed.result().result.error_msg
+    assert world.act('drop').result.error_code == Drop.Result.EMPTY_HAND

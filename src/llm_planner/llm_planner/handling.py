@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How skills take things into a hand, put them down, and give them away."""
+
+from __future__ import annotations
+
+from humanoid_interfaces.action import HandOver, Pick, Place
+from llm_planner.plan_tree import SkillRun
+from llm_planner.recall import Recall
+from llm_planner.robot import Robot
+from llm_planner.world import ObjectDescription
+from llm_planner.world_watch import WorldWatch
+
+__all__ = ['Handling']
+
+
+class Handling:
+    """
+    Moves things by the actions of the manipulator.
+
+    Parameters
+    ----------
+    robot, watch, recall
+        What moves, what is known, and which remembered thing is meant.
+
+    """
+
+    def __init__(self, robot: Robot, watch: WorldWatch, recall: Recall) -> None:
+        self._robot, self._watch, self._recall = robot, watch, recall
+
+    def pick(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
+        """Take a thing into a hand."""
+        thing = self._recall.thing(object)
+        yield from self._robot.act(Pick, 'pick', Pick.Goal(object=thing.object_id))
+
+    def place(self, place: str) -> SkillRun:
+        """Put down what a hand holds; on what is nearest, if the place has no surface."""
+        surface = self._watch.surface(place) if place else None
+        name = surface.name if surface is not None else ''
+        yield from self._robot.act(Place, 'place', Place.Goal(place=name))
+
+    def hand_over(self) -> SkillRun:
+        """Hold out what a hand holds, until it is taken."""
+        yield from self._robot.act(HandOver, 'hand_over', HandOver.Goal())
