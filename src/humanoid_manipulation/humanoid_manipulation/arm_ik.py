@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import math
 
 from humanoid_control.dynamics.frames import Frame
+from humanoid_control.dynamics.rotations import about_x, about_y, about_z
 from humanoid_description.drives import SIDES
 from humanoid_description.kinematics import chain, poses
 from humanoid_description.robot import Array, Joint, named, Robot
@@ -119,9 +120,9 @@ class Arm:
     def forward(self, posture: Sequence[float]) -> Frame:
         """Return where the gripper is in the base."""
         q1, q2, q3, q4, q5, q6 = posture
-        upper = _about_y(q1) @ _about_x(q2) @ _about_z(q3)
-        fore = upper @ _about_y(q4)
-        hand = fore @ _about_z(q5) @ _about_y(q6)
+        upper = about_y(q1) @ about_x(q2) @ about_z(q3)
+        fore = upper @ about_y(q4)
+        hand = fore @ about_z(q5) @ about_y(q6)
         position = self.shoulder_m - self.upper_m * upper[:, 2]
         position = position - self.fore_m * fore[:, 2] - self.hand_m * hand[:, 2]
         return Frame(position, hand)
@@ -129,9 +130,9 @@ class Arm:
     def points(self, posture: Sequence[float]) -> Array:
         """Return shoulder, elbow, wrist and gripper (4, 3) in the base."""
         q1, q2, q3, q4 = posture[:4]
-        upper = _about_y(q1) @ _about_x(q2) @ _about_z(q3)
+        upper = about_y(q1) @ about_x(q2) @ about_z(q3)
         elbow = self.shoulder_m - self.upper_m * upper[:, 2]
-        wrist = elbow - self.fore_m * (upper @ _about_y(q4))[:, 2]
+        wrist = elbow - self.fore_m * (upper @ about_y(q4))[:, 2]
         return np.stack((self.shoulder_m, elbow, wrist, self.forward(posture).position_m))
 
     def is_within_limits(self, posture: Sequence[float], margin_rad: float = 0.0) -> bool:
@@ -315,18 +316,3 @@ def _check(robot: Robot, side: str, joints: Sequence[Joint], at_zero: Sequence[A
             f'The {side} arm is of another build: the three axes of its shoulder must meet in one '
             'point, with elbow and wrist straight below it.'
         )
-
-
-def _about_x(angle: float) -> Array:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
-
-
-def _about_y(angle: float) -> Array:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
-
-
-def _about_z(angle: float) -> Array:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])

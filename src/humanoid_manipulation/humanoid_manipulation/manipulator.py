@@ -17,11 +17,11 @@ from humanoid_common.running import run_node
 from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
 from humanoid_control.dynamics.frames import Frame
 from humanoid_control.dynamics.rotations import from_quaternion
+from humanoid_control.walking.heading import quaternion_of
 from humanoid_description.drives import SIDES
 from humanoid_interfaces.action import Drop, HandOver, Pick, Place
 from humanoid_interfaces.action import Reach as ReachAction
 from humanoid_manipulation.arms import Arms
-from humanoid_manipulation.conversions import fill_pose
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.feet import Feet
 from humanoid_manipulation.giving import Giving
@@ -116,7 +116,7 @@ class Manipulator(Node):
                 goal.result.side = side
                 await self.arms.move(goal, side, timed(way, told.max_velocity))
             except OutOfReachError as error:
-                fill_pose(goal.result.reached, told.base_frame, error.pose)
+                _fill_pose(goal.result.reached, told.base_frame, error.pose)
                 raise GoalAborted('NOT_REACHABLE', str(error)) from None
             except BlockedError as error:
                 raise GoalAborted('BLOCKED', str(error)) from None
@@ -124,7 +124,7 @@ class Manipulator(Node):
                 raise GoalAborted('INVALID', str(error)) from None
             await goal.tick()
             reached = self.arms.body.forward(side, self.arms.reach_of(side))
-            fill_pose(goal.result.reached, told.base_frame, reached)
+            _fill_pose(goal.result.reached, told.base_frame, reached)
 
     async def _way(self, goal: RunningGoal, wanted: Frame) -> tuple[str, list[Reach]]:
         """Return which arm gets to a pose, and how."""
@@ -184,6 +184,14 @@ def _unsound_side(side: str) -> str:
     if side in ('', *SIDES):
         return ''
     return f"There is no side '{side}'. Give left, right, or nothing for the one that fits."
+
+
+def _fill_pose(message: PoseStamped, name: str, frame: Frame) -> None:
+    """Fill in where something is in the frame of a name."""
+    message.header.frame_id = name
+    position, orientation = message.pose.position, message.pose.orientation
+    position.x, position.y, position.z = frame.position_m.tolist()
+    orientation.w, orientation.x, orientation.y, orientation.z = quaternion_of(frame.rotation)
 
 
 def main() -> int:

@@ -49,6 +49,12 @@ def from_rpy(roll: float, pitch: float, yaw: float) -> Array:
     )
 
 
+def about_x(angle: float) -> Array:
+    """Return the rotation about x by an angle in rad."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
 def about_y(angle: float) -> Array:
     """Return the rotation about y by an angle in rad."""
     c, s = math.cos(angle), math.sin(angle)
