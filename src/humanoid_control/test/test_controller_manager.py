@@ -14,6 +14,7 @@ from humanoid_control.controllers import (
     JointNames,
     Mode,
 )
+from humanoid_control.controllers.still import Still
 from humanoid_control.testing import JOINTS, LIMITS, observed, PERIOD_S, targets
 import numpy as np
 import pytest
@@ -175,6 +176,47 @@ def test_in_trouble_nothing_is_lent() -> None:
     robot.command('left_elbow', -0.5)
     robot.run(1)
     assert robot.manager.owner('left_elbow') == 'joint_commands'
+
+
+def _robot_that_supports() -> tuple[ControllerManager, Follower, Still]:
+    """Return the manager of a robot whose mode exerts 1, 2 and 3 N m, and its guests."""
+    hold, still, follower = Hold(JOINTS), Still(JOINTS), Follower(JOINTS, timeout_s=10.0)
+    lent = JOINTS[:2]
+    modes = (Mode('walking', hold, lent, supports=True), Mode('follow', Hold(JOINTS), lent))
+    manager = ControllerManager(JOINTS, modes, (still, follower), LIMITS)
+    manager.update(observed(0.0))
+    held = JointTargets(np.zeros(3), np.zeros(3), np.array([1.0, 2.0, 3.0]))
+    hold.start(observed(0.0), held)
+    return manager, follower, still
+
+
+def _settled(manager: ControllerManager, start_s: float) -> JointTargets:
+    """Return the targets after a second."""
+    told = manager.update(observed(start_s))
+    for number in range(1, 101):
+        told = manager.update(observed(start_s + number * PERIOD_S))
+    return told
+
+
+def test_a_mode_that_supports_bears_what_it_lends() -> None:
+    """What a guest exerts comes on top of it."""
+    manager, follower, _ = _robot_that_supports()
+    follower.accept(NAMES.targets(['left_elbow'], [0.1], [], [4.0]))
+    told = _settled(manager, 0.01)
+    assert manager.owner('left_elbow') == 'joint_commands'
+    assert told.efforts_nm == pytest.approx([5.0, 2.0, 3.0], abs=0.01)
+
+
+def test_who_holds_still_is_supported_once() -> None:
+    """And what carried a load goes on to carry it in a mode that does not."""
+    manager, _, still = _robot_that_supports()
+    _settled(manager, 0.1)
+    still.on = True
+    assert _settled(manager, 1.2).efforts_nm == pytest.approx([1.0, 2.0, 3.0])
+    manager.switch('follow')
+    assert _settled(manager, 2.3).efforts_nm == pytest.approx([1.0, 2.0, 3.0])
+    manager.switch('walking')
+    assert _settled(manager, 3.4).efforts_nm == pytest.approx([1.0, 2.0, 3.0])
 
 
 def test_switch_waits_for_rest() -> None:

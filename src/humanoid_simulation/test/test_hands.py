@@ -99,6 +99,19 @@ def test_a_full_bottle_is_held_while_walking(hand: Hand) -> None:
     assert float(hand.robot.backend.entity_state('bottle').position_m[2]) < 0.2
 
 
+def test_an_arm_does_not_sag(hand: Hand) -> None:
+    """Its weight is borne wherever it is, level and stretched out too."""
+    name = 'left_arm_controller'
+    arm = hand.control.trajectory_controllers[name]
+    for posture in (LEVEL_RAD, (-1.2, 0.3, 0.3, -0.4, 0.0, -0.4)):
+        request = TrajectoryRequest(arm.own, [TrajectoryPoint(1.0, posture)])
+        arm.accept(hand.control.checked_goal(name, request), lambda end: None)
+        assert hand.robot.wait(2.0)
+        positions_rad = hand.robot.backend.observe()[''].positions_rad[arm.places]
+        # Noise, and the weight of the hand alone at the wrist.
+        assert positions_rad == pytest.approx(posture, abs=0.008)
+
+
 def test_empty_fingers_meet(hand: Hand) -> None:
     """The gap tells that nothing is held."""
     results = hand.grip(0.0)

@@ -193,9 +193,9 @@ class ControllerManager:
 
     def _news(self, owners: Owners) -> Mask:
         """Return the joints whose owner begins with them, (n,)."""
-        news: Mask = owners != self._owners
         if self._entered:
-            news |= owners == _MODE
+            return np.ones_like(self._may_lend)
+        news: Mask = owners != self._owners
         for rank, guest in enumerate(self._guests):
             if guest.waits:
                 news |= owners == rank
@@ -210,15 +210,20 @@ class ControllerManager:
             self._mode.controller.start(observation, held)
         elif returned.any():
             self._mode.take_back(returned, held)
+        if self._mode.supports:
+            held = replace(held, efforts_nm=np.zeros(len(self.joints)))
         for rank, guest in enumerate(self._guests):
             if (news & (owners == rank)).any():
                 guest.start(observation, held)
 
     def _wished(self, observation: Observation, held: JointTargets) -> JointTargets:
         """Return what the owners ask for, together."""
-        wished = self._mode.controller.update(observation)
+        own = wished = self._mode.controller.update(observation)
         for rank, joints in self._active.items():
             wished = _merged(wished, self._guests[rank].update(observation), joints)
+        if self._active and self._mode.supports:
+            lent = self._owners != _MODE
+            wished = replace(wished, efforts_nm=wished.efforts_nm + lent * own.efforts_nm)
         return wished if _is_finite(wished) else self._repaired(wished, held)
 
     def _repaired(self, wished: JointTargets, held: JointTargets) -> JointTargets:

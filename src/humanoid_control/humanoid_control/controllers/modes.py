@@ -36,7 +36,9 @@ class Mode:
 
     `take_back` is told which joints come back, (n,) true, and what they were told last. The mode
     can be left when `may_end` says so, and lends nothing while `needs_all_because` gives a reason.
-    `forget` is called when the robot has been put somewhere.
+    `forget` is called when the robot has been put somewhere. The efforts of a mode that `supports`
+    bear the weight of all joints wherever they are, those that it lends too: what guests exert
+    comes on top.
     """
 
     name: str
@@ -46,6 +48,7 @@ class Mode:
     may_end: Callable[[], bool] = _always
     needs_all_because: Callable[[], str] = _no_reason
     forget: Callable[[], None] = _no_memory
+    supports: bool = False
 
 
 def hold_mode(joints: Sequence[str]) -> Mode:

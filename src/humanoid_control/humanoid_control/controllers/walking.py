@@ -57,4 +57,5 @@ def walking_mode(controller: WalkingController) -> Mode:
         may_end=controller.is_at_rest,
         needs_all_because=controller.needs_all_because,
         forget=controller.walker.reset,
+        supports=True,
     )
