@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable
 import traceback
 from typing import Any
 
-from rclpy.action import ActionServer, CancelResponse, GoalResponse
+from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
@@ -16,6 +16,8 @@ from rclpy.task import Future
 __all__ = ['GoalAborted', 'GoalCanceled', 'RunningGoal', 'SingleGoal']
 
 _TICK_HZ = 20.0
+_PATIENCE_S = 5.0
+"""How long another action may take to be there, and to answer."""
 
 
 class GoalCanceled(Exception):
@@ -76,6 +78,67 @@ class RunningGoal:
                 raise GoalAborted(name, text)
             await self.tick()
         return future.result()
+
+    async def delegate(
+        self,
+        client: ActionClient,
+        wanted: Any,
+        action: str,
+        code: str,
+        check: Callable[[], None] = lambda: None,
+    ) -> Any:
+        """
+        Have another action do a part of this goal; return its answer, with status and result.
+
+        If this goal ends meanwhile, that part is canceled.
+
+        Parameters
+        ----------
+        client, wanted
+            The client of the other action, and the goal that it is given.
+        action, code
+            The name of the action, for sentences, and of the code if it is of no use.
+        check
+            Called all the time; raises what ends the goal.
+
+        Raises
+        ------
+        GoalAborted
+            The action is not there, does not answer, rejects the goal, or ends in its middle.
+
+        """
+        if not await self._comes(client.server_is_ready):
+            raise GoalAborted(code, f"The action '{action}' is not there. Start what offers it.")
+        sent = client.send_goal_async(wanted)
+        try:
+            handle = await self.answer(sent, _PATIENCE_S, code, f"'{action}' does not answer.")
+            if not handle.accepted:
+                raise GoalAborted(code, f"'{action}' rejected a goal: its log says why.")
+            end = handle.get_result_async()
+            while not end.done():
+                await self.tick()
+                check()
+                if not client.server_is_ready() and not await self._comes(end.done):
+                    raise GoalAborted(code, f"'{action}' ended in the middle of its work.")
+        except BaseException:
+            sent.add_done_callback(_cancel)
+            raise
+        return end.result()
+
+    async def _comes(self, condition: Callable[[], bool]) -> bool:
+        """Wait until something holds; return whether it does after a while."""
+        for _ in range(round(_PATIENCE_S * _TICK_HZ)):
+            if condition():
+                break
+            await self.tick()
+        return condition()
+
+
+def _cancel(sent: Future[Any]) -> None:
+    """Cancel a goal as soon as its handle is there."""
+    handle = sent.result() if not sent.cancelled() else None
+    if handle is not None and handle.accepted:
+        handle.cancel_goal_async()
 
 
 Work = Callable[[RunningGoal], Awaitable[None]]

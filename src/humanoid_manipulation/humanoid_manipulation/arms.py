@@ -175,20 +175,9 @@ class Arms:
         if side not in self._grippers:
             self._grippers[side] = ActionClient(self._node, GripperCommand, name)
         client = self._grippers[side]
-        patience = Patience()
-        while not client.server_is_ready():
-            if patience.is_over():
-                raise GoalAborted(_CODE, f"The action '{name}' is not there.")
-            await goal.tick()
         command = GripperCommand.Goal()
         command.command.position, command.command.max_effort = gap_m, most_n
-        sent = client.send_goal_async(command)
-        handle = await goal.answer(sent, _LATE_S, _CODE, f"'{name}' does not answer.")
-        if not handle.accepted:
-            raise GoalAborted(_CODE, f"'{name}' rejected a goal: the log of the robot says why.")
-        answer = await goal.answer(
-            handle.get_result_async(), 2.0 * _LATE_S, _CODE, f"'{name}' does not end."
-        )
+        answer = await goal.delegate(client, command, name, _CODE)
         if answer.status != GoalStatus.STATUS_SUCCEEDED:
             raise GoalAborted(_CODE, f"'{name}' did not do what it was told.")
         return answer.result

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from action_msgs.msg import GoalStatus
 from geometry_msgs.msg import Pose, Twist
@@ -13,7 +12,7 @@ from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_control.dynamics.rotations import yaw_of
 from humanoid_description.robot import Array
 from humanoid_manipulation.stances import Bend
-from humanoid_perception.transforms import Patience, Transforms
+from humanoid_perception.transforms import Transforms
 from nav2_msgs.action import NavigateToPose
 import numpy as np
 from rclpy.action import ActionClient
@@ -27,8 +26,10 @@ _NEAR_M, _NEAR_RAD = 0.035, 0.06
 _GAIN_1_S = 0.9
 _FASTEST = (0.15, 0.08, 0.35)
 """Ahead and to the side in m/s, and turning in rad/s."""
-_STEPS_S = 25.0
-"""How long some steps may take."""
+_STUCK_S, _PROGRESS_M, _LEVER_M = 4.0, 0.01, 0.2
+"""Steps that have not brought the robot nearer for so long do not get it there; a turn by 1 rad
+counts as much as a distance."""
+_STUCK = 'I do not get any nearer than %.0f cm: something may be in my way.'
 _SETTLE_S = 1.0
 _BEND_S = 6.0
 _BENT_RAD = 0.04
@@ -51,37 +52,33 @@ class Feet:
 
     def __init__(self, node: Node, transforms: Transforms, base_frame: str) -> None:
         self._node, self._transforms, self._base = node, transforms, base_frame
+        prefix = base_frame.removesuffix('base_link')
+        self.soles = [prefix + sole for sole in ('l_sole', 'r_sole')]
         self._velocities = node.create_publisher(Twist, 'cmd_vel', COMMAND)
         self._poses = node.create_publisher(Pose, 'body_pose', COMMAND)
         self._navigate = ActionClient(node, NavigateToPose, 'navigate_to_pose')
 
+    def place(self, frame: str) -> tuple[float, float, float]:
+        """
+        Return where the robot stands in a frame: x and y in m, and its heading in rad.
+
+        That is the middle of its soles. The pelvis sways while the robot steps, and goes back when
+        it bends.
+        """
+        soles = [self._transforms.pose(frame, sole) for sole in self.soles]
+        middle = (soles[0][:3, 3] + soles[1][:3, 3]) / 2.0
+        left_rad, right_rad = (yaw_of(sole[:3, :3]) for sole in soles)
+        turn_rad = math.remainder(left_rad - right_rad, math.tau)
+        return float(middle[0]), float(middle[1]), right_rad + turn_rad / 2.0
+
     async def go(self, goal: RunningGoal, frame: str, at: tuple[float, float, float]) -> None:
         """Walk to a pose (x, y in m, yaw in rad) by navigation, about; or abort."""
-        patience = Patience()
-        while not self._navigate.server_is_ready():
-            if patience.is_over():
-                raise GoalAborted(
-                    _CODE, "Navigation is not running: there is no 'navigate_to_pose'."
-                )
-            await goal.tick()
         wanted = NavigateToPose.Goal()
         wanted.pose.header.frame_id = frame
         pose = wanted.pose.pose
         pose.position.x, pose.position.y = at[0], at[1]
         pose.orientation.w, pose.orientation.z = math.cos(at[2] / 2.0), math.sin(at[2] / 2.0)
-        sent = self._navigate.send_goal_async(wanted)
-        handle: Any = None
-        try:
-            handle = await goal.answer(sent, 5.0, _CODE, 'Navigation does not answer.')
-            if not handle.accepted:
-                raise GoalAborted(_CODE, 'Navigation has refused where the robot is to stand.')
-            end = handle.get_result_async()
-            while not end.done():
-                await goal.tick()
-        except BaseException:
-            sent.add_done_callback(_cancel)
-            raise
-        answer = end.result()
+        answer = await goal.delegate(self._navigate, wanted, 'navigate_to_pose', _CODE)
         if answer.status != GoalStatus.STATUS_SUCCEEDED:
             reason = answer.result.error_msg or 'navigation did not succeed'
             raise GoalAborted(_CODE, f'I could not get there: {reason}')
@@ -92,17 +89,21 @@ class Feet:
         shift = await self._transforms.known(goal, 'odom', frame)
         place = shift[:3, :3] @ np.array([at[0], at[1], 0.0]) + shift[:3, 3]
         yaw_rad = at[2] + yaw_of(shift[:3, :3])
-        patience = Patience(_STEPS_S)
+        until_s = self._now_s() + _STUCK_S
+        least = math.inf
         try:
             calm = 0
             while calm < _SETTLE_S * 20.0:
                 error = self._error(place, yaw_rad)
+                away = math.hypot(error[0], error[1]) + _LEVER_M * abs(error[2])
+                if away < least - _PROGRESS_M:
+                    least, until_s = away, self._now_s() + _STUCK_S
                 is_near = math.hypot(error[0], error[1]) < _NEAR_M and abs(error[2]) < _NEAR_RAD
                 calm = calm + 1 if is_near else 0
                 command = Twist()
                 if not is_near:
-                    if patience.is_over():
-                        raise GoalAborted(_CODE, 'I did not get near enough in time.')
+                    if self._now_s() > until_s:
+                        raise GoalAborted(_CODE, _STUCK % (100.0 * away))
                     speeds = [
                         max(-most, min(most, _GAIN_1_S * each))
                         for each, most in zip(error, _FASTEST)
@@ -119,10 +120,10 @@ class Feet:
         message.position.z = bend.height_m
         message.orientation.w = math.cos(bend.pitch_rad / 2.0)
         message.orientation.y = math.sin(bend.pitch_rad / 2.0)
-        patience = Patience(_BEND_S)
+        until_s = self._now_s() + _BEND_S
         calm = 0
         while calm < _SETTLE_S * 20.0:
-            if patience.is_over():
+            if self._now_s() > until_s:
                 raise GoalAborted(_CODE, 'I could not bend so far.')
             self._poses.publish(message)
             pitch_rad = -math.asin(
@@ -135,18 +136,13 @@ class Feet:
         """Let the body come up, whatever else goes on."""
         self._poses.publish(Pose())
 
+    def _now_s(self) -> float:
+        return float(self._node.get_clock().now().nanoseconds) * 1e-9
+
     def _error(self, place: Array, yaw_rad: float) -> tuple[float, float, float]:
         """Return how far it is still: ahead, to the left, and to turn."""
-        at = self._transforms.pose('odom', 'base_footprint')
-        heading_rad = yaw_of(at[:3, :3])
-        dx, dy = (place - at[:3, 3])[:2].tolist()
+        x_m, y_m, heading_rad = self.place('odom')
+        dx, dy = float(place[0]) - x_m, float(place[1]) - y_m
         c, s = math.cos(heading_rad), math.sin(heading_rad)
         turn_rad = math.remainder(yaw_rad - heading_rad, math.tau)
         return c * dx + s * dy, -s * dx + c * dy, turn_rad
-
-
-def _cancel(sent: Any) -> None:
-    """Cancel a goal as soon as its handle is there."""
-    handle = sent.result()
-    if handle is not None and handle.accepted:
-        handle.cancel_goal_async()

@@ -8,7 +8,7 @@ from typing import Any, TYPE_CHECKING
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_description.robot import Array
 from humanoid_interfaces.action import HandOver
-from humanoid_manipulation.handling import CARRYING, Handling, HANGING
+from humanoid_manipulation.handling import carrying, Handling, HANGING
 from humanoid_manipulation.motion_planning import plan
 from humanoid_manipulation.upper_body import Reach
 import numpy as np
@@ -64,7 +64,7 @@ class Giving(Handling):
             self.tell(goal, 'waiting')
             if not await self._is_pulled(goal, side):
                 with self.failing():
-                    back = plan(world, side, arms.reach_of(side), CARRYING[side])
+                    back = plan(world, side, arms.reach_of(side), carrying(arms.body, side, held))
                     await self.move(goal, side, back)
                 raise GoalAborted('NOT_TAKEN', 'Nobody has taken it.')
             self.tell(goal, 'opening')

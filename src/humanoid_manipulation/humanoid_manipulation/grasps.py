@@ -27,8 +27,9 @@ _PALM_M = 0.005
 """Between the palm and the thing."""
 _TILTS_RAD = (0.0, 0.4, 0.8)
 """How far a hand from the side points down: a level arm does not get to what is low."""
-_INSIDE_M = 0.03
-"""How deep a hand from above holds what is tall."""
+_INSIDE_M, _HANGS_M = 0.03, 0.05
+"""How deep a hand from above holds what is tall, and how far its middle may hang below: fingers
+do not keep what is taller from swinging."""
 
 
 @dataclass(frozen=True)
@@ -108,6 +109,11 @@ class Grasp:
     lowers_m: float = 0.0
 
     @property
+    def is_lifted(self) -> bool:
+        """Whether a thing is taken, and not put down."""
+        return not self.lowers_m
+
+    @property
     def approach_m(self) -> Array:
         """Return the way (3,) from the gripper to where the hand is before."""
         if self.lowers_m:
@@ -150,15 +156,17 @@ def grasps_of(thing: Graspable, hand: Hand = Hand()) -> Iterator[Grasp]:
                 position -= max(back_m, 0.0) * ahead
                 yield Grasp(Frame(position, _pointing(ahead)), gap_m, width_m)
     top_m = thing.bottom_m + float(thing.size_m[2])
+    height_m = max(
+        top_m - min(_INSIDE_M, 0.5 * float(thing.size_m[2])),
+        thing.bottom_m + hand.tip_m + 0.005,
+    )
+    if height_m - float(thing.position_m[2]) > _HANGS_M:
+        return
     for heading_rad, width_m, _ in _sides(thing, _ABOVE):
         if width_m + 2.0 * _MARGIN_M > hand.widest_m:
             continue
         gap_m = min(width_m + 4.0 * _MARGIN_M, hand.widest_m)
-        position = thing.position_m.copy()
-        position[2] = max(
-            top_m - min(_INSIDE_M, 0.5 * float(thing.size_m[2])),
-            thing.bottom_m + hand.tip_m + 0.005,
-        )
+        position = np.array([*thing.position_m[:2], height_m])
         yield Grasp(Frame(position, about_z(heading_rad)), gap_m, width_m, from_above=True)
 
 

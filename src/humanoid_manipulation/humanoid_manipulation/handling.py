@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Awaitable, Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 import math
@@ -11,30 +11,46 @@ from typing import Any, TYPE_CHECKING
 
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import yaw_of
+from humanoid_control.dynamics.rotations import about_z
 from humanoid_description.robot import Array
 from humanoid_manipulation.arm_world import ArmWorld, Obstacle
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.grasps import Grasp
 from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
-from humanoid_manipulation.stances import base_of, Bend, BENDS, grasp_reaches, Stance
-from humanoid_manipulation.upper_body import OutOfReachError, Reach
+from humanoid_manipulation.stances import (
+    base_of,
+    Bend,
+    BENDS,
+    effort,
+    grasp_reaches,
+    Stance,
+)
+from humanoid_manipulation.upper_body import OutOfReachError, Reach, UpperBody
+import numpy as np
 
 if TYPE_CHECKING:
     from humanoid_manipulation.manipulator import Manipulator
 
-__all__ = ['CARRYING', 'HANGING', 'Handling', 'Held']
+__all__ = ['HANGING', 'Handling', 'Held', 'carrying']
 
-CARRYING = {
-    'left': Reach(0.0, (0.2, 0.15, 0.0, -1.77, 0.0, 0.0)),
-    'right': Reach(0.0, (0.2, -0.15, 0.0, -1.77, 0.0, 0.0)),
-}
-"""Where hands carry something: the upper arm hangs, and the forearm is level."""
 HANGING = {
     'left': Reach(0.0, (0.0, 0.15, 0.0, -0.5, 0.0, 0.0)),
     'right': Reach(0.0, (0.0, -0.15, 0.0, -0.5, 0.0, 0.0)),
 }
 """Where hands are that do nothing."""
+_CARRIED_M = ((0.28, 0.20), (0.33, 0.24), (0.26, 0.28), (0.38, 0.20))
+"""Where a hand may carry something: how far ahead of the pelvis, and how far aside."""
+_CLEAR_M = (0.16, 0.10, 0.04, -0.04, -0.12)
+"""How high above the pelvis the underside of what is carried may be; high enough for a kitchen
+counter is best."""
+_CARRIED_TURNS = 16
+_SLACK_RAD = 0.1
+"""So far from their limits joints stay while they carry something."""
+_LEVEL = {
+    'left': Reach(0.0, (-0.06, 0.15, 0.0, -2.0, 0.0, 0.49)),
+    'right': Reach(0.0, (-0.06, -0.15, 0.0, -2.0, 0.0, 0.49)),
+}
+"""A hand that is level before the body, whatever that means for what it holds."""
 TURNS_RAD = (0.0, 0.15, -0.15, 0.3, -0.3, 0.45, -0.45)
 """The turns of the waist that are tried."""
 _BACK_OFF_M = 0.25
@@ -44,9 +60,12 @@ _BACK_M = 0.30
 _FAR_M, _FAR_RAD = 0.6, 0.8
 """A robot that is farther from where it is to stand walks there by navigation."""
 _SLOW_RAD_S = 0.5
+_SHARES = (1.0, 0.75, 0.5, 0.25)
 _LEAST_SHARE = 0.5
 """Of its width, by which the gripper must stay open if it holds the thing."""
 GRIP_N = 25.0
+_OTHERWISE = ('WALK_FAILED', 'NOT_REACHABLE', 'BLOCKED', 'SLIPPED')
+"""What may go better from elsewhere."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +93,34 @@ class Held:
     width_m: float
     gripper: Array
     below_m: float
+
+
+def carrying(body: UpperBody, side: str, held: Held) -> Reach:
+    """
+    Return how an arm carries a thing: close, high, and upright as it was taken.
+
+    Parameters
+    ----------
+    body, side
+        Whose hand.
+    held
+        What it holds.
+
+    """
+    arm, sign = body.arms[side], 1.0 if side == 'left' else -1.0
+    for clear_m in _CLEAR_M:
+        found: list[tuple[float, Reach]] = []
+        for ahead_m, aside_m in _CARRIED_M:
+            at = np.array([ahead_m, sign * aside_m, clear_m + held.below_m])
+            for number in range(_CARRIED_TURNS):
+                turned = about_z(math.tau * number / _CARRIED_TURNS) @ held.gripper
+                reach = body.find_with_arm(side, Frame(at, turned), 0.0, HANGING[side].posture)
+                if reach is not None and arm.excess_rad(reach.posture) < -_SLACK_RAD:
+                    bent_rad = max(abs(each) for each in reach.posture[1:3])
+                    found.append((bent_rad + ahead_m, reach))
+        if found:
+            return min(found, key=lambda each: each[0])[1]
+    return _LEVEL[side]
 
 
 class Handling:
@@ -118,10 +165,11 @@ class Handling:
         return [each for each in found if each.name not in own]
 
     async def place_of_feet(self, goal: RunningGoal) -> tuple[float, float, float]:
-        """Return where the robot stands in the map: x and y in m, and its heading in rad."""
+        """Return where the robot stands in the map, as soon as that is known: see `Feet.place`."""
         node = self.node
-        at = await node.transforms.known(goal, node.surroundings.frame, 'base_footprint')
-        return float(at[0, 3]), float(at[1, 3]), yaw_of(at[:3, :3])
+        for sole in node.feet.soles:
+            await node.transforms.known(goal, node.surroundings.frame, sole)
+        return node.feet.place(node.surroundings.frame)
 
     async def stand(self, goal: RunningGoal, stance: Stance) -> None:
         """Walk to a stance, unless the robot is there."""
@@ -136,6 +184,48 @@ class Handling:
             await feet.go(goal, frame, before)
         await feet.step_to(goal, frame, (stance.x_m, stance.y_m, stance.yaw_rad))
 
+    async def from_one_of(
+        self,
+        goal: RunningGoal,
+        stances: Iterable[Stance],
+        work: Callable[[Stance], Awaitable[None]],
+    ) -> None:
+        """
+        Walk to one stance after another until some work can be done there.
+
+        Parameters
+        ----------
+        goal, stances
+            What it is done for, and where; at least one.
+        work
+            Is given the stance.
+
+        Raises
+        ------
+        GoalAborted
+            It cannot be done from the last one, or from none.
+
+        """
+        node, trouble = self.node, GoalAborted('NOT_REACHABLE', 'There is nowhere to stand.')
+        for stance in stances:
+            held = node.held.get(stance.side)
+            has_begun = False
+            try:
+                await self.stand(goal, stance)
+                has_begun = True
+                await work(stance)
+                return
+            except GoalAborted as error:
+                if error.name not in _OTHERWISE or node.held.get(stance.side) is not held:
+                    raise
+                trouble = error
+                node.get_logger().info(f'I try another way: {error}')
+                if has_begun:
+                    await self.withdraw(goal, stance.side)
+            finally:
+                node.feet.straighten()
+        raise trouble
+
     def choose(
         self,
         grasps: Iterable[Grasp],
@@ -145,16 +235,13 @@ class Handling:
     ) -> tuple[Grasp, Bend] | None:
         """Return the grasp and the bend that are best from where the robot stands, if any."""
         body = self.node.arms.body
-        arm = body.arms[side]
         best: tuple[float, Grasp, Bend] | None = None
         for grasp in grasps:
             for bend in bends:
                 reached = grasp_reaches(body, side, grasp, base_of(*place, bend), turns=TURNS_RAD)
                 if reached is None:
                     continue
-                slack = min(-arm.excess_rad(each.posture) for each in reached)
-                cost = bend.pitch_rad - 2.0 * bend.height_m - 2.0 * min(slack, 0.3)
-                cost += 0.5 * abs(reached[1].waist_rad) + 0.4 * grasp.from_above
+                cost = effort(body, grasp, reached, side, bend)
                 if best is None or cost < best[0]:
                     best = cost, grasp, bend
         return best and best[1:]
@@ -191,15 +278,16 @@ class Handling:
     async def shift(
         self, goal: RunningGoal, side: str, step_m: Array, waist: bool = False
     ) -> None:
-        """Move a hand straight by a step (3,) in the map, if it can."""
+        """Move a hand straight by a step (3,) in the map, or as much of it as it can."""
         arms = self.node.arms
-        try:
-            way = approach(
-                arms.body, side, arms.reach_of(side), self.base.rotation.T @ step_m, waist
-            )
-        except OutOfReachError:
+        step_m = self.base.rotation.T @ step_m
+        for share in _SHARES:
+            try:
+                way = approach(arms.body, side, arms.reach_of(side), share * step_m, waist)
+            except OutOfReachError:
+                continue
+            await self.move(goal, side, way, _SLOW_RAD_S)
             return
-        await self.move(goal, side, way, _SLOW_RAD_S)
 
     async def rest(
         self,
@@ -223,10 +311,12 @@ class Handling:
 
     async def withdraw(self, goal: RunningGoal, side: str) -> None:
         """Bring a hand that has not got to its goal back, as far as it can."""
+        held = self.node.held.get(side)
+        end = carrying(self.node.arms.body, side, held) if held else HANGING[side]
         try:
-            await self.rest(goal, side, HANGING[side], None)
+            await self.rest(goal, side, end, held.box if held else None)
         except GoalAborted as error:
-            if error.name not in ('BLOCKED', 'NOT_REACHABLE', 'WALK_FAILED'):
+            if error.name not in _OTHERWISE:
                 raise
 
     async def check_held(self, goal: RunningGoal, side: str, width_m: float) -> float:

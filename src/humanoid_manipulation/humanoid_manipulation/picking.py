@@ -14,25 +14,21 @@ from humanoid_control.dynamics.rotations import about_z
 from humanoid_interfaces.action import Pick
 from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.grasps import Grasp, grasps_of
-from humanoid_manipulation.handling import CARRYING, Handling, Held
-from humanoid_manipulation.stances import Stance, stances_for
+from humanoid_manipulation.handling import carrying, Handling, Held
+from humanoid_manipulation.stances import LIFT_M, Stance, stances_for
 from humanoid_manipulation.surroundings import Remembered
-import numpy as np
 from rclpy.action import ActionClient
 
 if TYPE_CHECKING:
     from humanoid_manipulation.manipulator import Manipulator
 
-__all__ = ['Picking']
+__all__ = ['Picking', 'held_by']
 
 _ATTEMPTS, _STANCES = 3, 3
-_LIFT_M = 0.08
 _TURN_S, _LOOK_S = 0.7, 3.0
 """How long the head turns towards a thing, and how long it is looked at then."""
 _LOOKS = 5
 """How often it is to be seen."""
-_OTHERWISE = ('WALK_FAILED', 'NOT_REACHABLE', 'BLOCKED', 'SLIPPED')
-"""What may go better from elsewhere, or with another grasp."""
 
 
 class Picking(Handling):
@@ -65,23 +61,12 @@ class Picking(Handling):
             thing = self._thing(goal.request.object, place[:2])
             goal.result.object = thing.object_id
             sides = self._free_sides(goal.request.side)
-            trouble: GoalAborted | None = None
-            for stance in self._stances(thing, sides, place[:2]):
-                try:
-                    await self.stand(goal, stance)
-                    await self._take(goal, thing.object_id, stance.side)
-                    goal.result.side = stance.side
-                    return
-                except GoalAborted as error:
-                    if error.name not in _OTHERWISE or stance.side in node.held:
-                        raise
-                    trouble = error
-                    node.get_logger().info(f'I try another way: {error}')
-                    await self.withdraw(goal, stance.side)
-                finally:
-                    node.feet.straighten()
-            assert trouble is not None
-            raise trouble
+
+            async def take(stance: Stance) -> None:
+                await self._take(goal, thing.object_id, stance.side)
+                goal.result.side = stance.side
+
+            await self.from_one_of(goal, self._stances(thing, sides, place[:2]), take)
 
     def _thing(self, asked: str, near_m: tuple[float, float] = (0.0, 0.0)) -> Remembered:
         """Return the remembered thing that is meant, of several the one that is nearest."""
@@ -136,6 +121,7 @@ class Picking(Handling):
                 if error.name not in ('BLOCKED', 'SLIPPED') or side in self.node.held:
                     raise trouble or error from None
                 trouble = error
+                self.node.get_logger().info(f'I try another grasp: {error}')
         assert trouble is not None
         raise trouble
 
@@ -191,16 +177,16 @@ class Picking(Handling):
             await arms.grip(goal, side, grasp.gap_m)
             await self.shift(goal, side, grasp.approach_m)
             raise GoalAborted('SLIPPED', f'{thing.object_id} is not between my fingers.')
-        held = node.held[side] = _held(thing, grasp, gap_m)
+        held = node.held[side] = held_by(thing, grasp, gap_m)
         await self._carry(goal, side, held, thing.name)
 
     async def _carry(self, goal: RunningGoal, side: str, held: Held, name: str) -> None:
         """Lift what is held, come up, and hold it before the body."""
         self.tell(goal, 'lifting')
-        await self.shift(goal, side, np.array([0.0, 0.0, _LIFT_M]), waist=True)
+        await self.shift(goal, side, LIFT_M, waist=True)
         await self._still_held(goal, side, held)
         self.tell(goal, 'carrying')
-        await self.rest(goal, side, CARRYING[side], held.box, (name,))
+        await self.rest(goal, side, carrying(self.node.arms.body, side, held), held.box, (name,))
         await self._still_held(goal, side, held)
 
     async def _still_held(self, goal: RunningGoal, side: str, held: Held) -> None:
@@ -210,7 +196,7 @@ class Picking(Handling):
             raise GoalAborted('SLIPPED', f'{held.object_id} has slipped out of my hand.')
 
 
-def _held(thing: Remembered, grasp: Grasp, gap_m: float) -> Held:
+def held_by(thing: Remembered, grasp: Grasp, gap_m: float) -> Held:
     """Return a thing that has just been taken."""
     box = Frame(thing.graspable.position_m, thing.rotation).seen_from(grasp.gripper)
     length, width, height = thing.graspable.size_m.tolist()

@@ -31,7 +31,6 @@ _MARGIN_M = 0.04
 """Between what is put down and other things, and the edge."""
 _ABOVE_M, _LOWERS_M = 0.005, 0.08
 """The thing is let go so high above the surface, and comes from so high above that."""
-_OTHERWISE = ('WALK_FAILED', 'NOT_REACHABLE', 'BLOCKED')
 
 
 class Placing(Handling):
@@ -65,21 +64,12 @@ class Placing(Handling):
             spots = list(free_spots(surface, self._others(surface), _radius_m(held), place[:2]))
             if not spots:
                 raise GoalAborted('BLOCKED', f'Nothing is free on {_words(surface)}.')
-            trouble: GoalAborted | None = None
-            for stance in self._stances(surface, spots, side, held, place[:2]):
-                try:
-                    await self.stand(goal, stance)
-                    await self._put(goal, side, held, surface, spots)
-                    return
-                except GoalAborted as error:
-                    if error.name not in _OTHERWISE or side not in node.held:
-                        raise
-                    trouble = error
-                    node.get_logger().info(f'I try another way: {error}')
-                finally:
-                    node.feet.straighten()
-            assert trouble is not None
-            raise trouble
+
+            async def put(stance: Stance) -> None:
+                await self._put(goal, side, held, surface, spots)
+
+            stances = self._stances(surface, spots, side, held, place[:2])
+            await self.from_one_of(goal, stances, put)
 
     def _surface(self, asked: str, near_m: tuple[float, float]) -> Surface:
         """Return the surface that is meant."""

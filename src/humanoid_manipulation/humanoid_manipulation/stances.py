@@ -16,22 +16,36 @@ from humanoid_manipulation.upper_body import Reach, UpperBody
 from humanoid_perception.places import Places
 import numpy as np
 
-__all__ = ['BENDS', 'Bend', 'Stance', 'base_of', 'grasp_reaches', 'stances_for']
+__all__ = [
+    'BENDS',
+    'LIFT_M',
+    'Bend',
+    'Stance',
+    'base_of',
+    'effort',
+    'grasp_reaches',
+    'stances_for',
+]
 
 _HEIGHT_M = 0.68
 """Of the pelvis of a robot that stands upright."""
-_BACK_M_RAD = 0.13
-"""How far the pelvis goes back for each radian of its pitch, to stay above the feet."""
+_BACK_M, _BACK_M_RAD = 0.007, 0.145
+"""How far the pelvis is behind the middle of the soles, and how far it goes back for each radian
+of its pitch, to keep the weight above the feet."""
 _RISE_M_RAD2 = 0.1
 _AHEAD_M = (0.34, 0.40, 0.46, 0.52, 0.58)
 _ASIDE_M = (0.12, 0.20, 0.28)
 _HEADINGS = 16
 _EDGE_M = 0.20
 """From the middle of the feet to the edge of a piece of furniture, at least."""
+_ARM_M, _ARM_EDGE_M = 0.25, 0.15
+"""How far aside an arm hangs, and how far that is from furniture, at least."""
 _LEAST_COSINE = 0.5
 """Of the angle between where the robot faces and where the hand points."""
 _MOST_JUMP_RAD = 1.2
 """A joint that turns farther over the approach has changed over to another posture."""
+LIFT_M = np.array([0.0, 0.0, 0.06])
+"""How a thing is lifted (3,) from what it stands on."""
 _UPRIGHT_COST = 0.6
 """What a bend of a radian costs, in radians of the joints of an arm."""
 
@@ -62,7 +76,7 @@ class Stance:
     Attributes
     ----------
     x_m, y_m, yaw_rad
-        Where the middle of the feet is in the map, and where the robot faces.
+        Where the middle of the soles is in the map, and where the robot faces.
     bend
         How it is bent.
     side
@@ -86,7 +100,7 @@ class Stance:
 def base_of(x_m: float, y_m: float, yaw_rad: float, bend: Bend) -> Frame:
     """Return where the pelvis is in the map, about, of a robot that stands and bends."""
     heading = about_z(yaw_rad)
-    back = -_BACK_M_RAD * bend.pitch_rad
+    back = -_BACK_M - _BACK_M_RAD * bend.pitch_rad
     height = _HEIGHT_M + bend.height_m + _RISE_M_RAD2 * bend.pitch_rad**2
     position = np.array([x_m, y_m, 0.0]) + heading @ np.array([back, 0.0, height])
     return Frame(position, heading @ about_y(bend.pitch_rad))
@@ -101,7 +115,7 @@ def grasp_reaches(
     turns: Iterable[float] = (0.0,),
 ) -> tuple[Reach, Reach] | None:
     """
-    Return how a hand gets before a grasp, and to it; None if it does not.
+    Return how a hand gets before a grasp, and to it; None if it does not, or cannot lift then.
 
     Parameters
     ----------
@@ -124,9 +138,42 @@ def grasp_reaches(
         first = body.find_with_arm(side, before, waist_rad, last.posture)
         if first is None:
             continue
-        if max(abs(a - b) for a, b in zip(first.posture, last.posture)) < _MOST_JUMP_RAD:
-            return first, last
+        if _jump_rad(first, last) > _MOST_JUMP_RAD:
+            continue
+        if grasp.is_lifted:
+            above = Frame(gripper.position_m + base.rotation.T @ LIFT_M, gripper.rotation)
+            lifted = body.find_with_arm(side, above, waist_rad, last.posture)
+            if lifted is None or _jump_rad(last, lifted) > _MOST_JUMP_RAD:
+                continue
+        return first, last
     return None
+
+
+def _jump_rad(one: Reach, other: Reach) -> float:
+    """Return how far the joint of an arm goes that goes farthest."""
+    return max(abs(a - b) for a, b in zip(one.posture, other.posture))
+
+
+def effort(
+    body: UpperBody, grasp: Grasp, reached: Sequence[Reach], side: str, bend: Bend
+) -> float:
+    """
+    Return how hard a grasp is: less is better.
+
+    Parameters
+    ----------
+    body, side, bend
+        Whose hand, and how the body is bent.
+    grasp, reached
+        The grasp, and the reaches before it and at it.
+
+    """
+    # Joints that are near their limits leave nothing to correct with.
+    arm = body.arms[side]
+    slack_rad = min(-arm.excess_rad(each.posture) for each in reached)
+    posture = 1.0 - 2.0 * min(slack_rad, 0.3) + 0.5 * abs(reached[-1].waist_rad)
+    bent = _UPRIGHT_COST * bend.pitch_rad - 2.0 * bend.height_m
+    return posture + bent + 0.4 * grasp.from_above
 
 
 def stances_for(
@@ -164,11 +211,10 @@ def stances_for(
         if side not in sides:
             continue
         for bend in BENDS:
-            best = _best(body, side, grasps, base_of(x_m, y_m, yaw_rad, bend))
+            best = _best(body, side, grasps, base_of(x_m, y_m, yaw_rad, bend), bend)
             if best is None:
                 continue
-            effort, grasp = best
-            cost = effort + _UPRIGHT_COST * bend.pitch_rad - 2.0 * bend.height_m
+            cost, grasp = best
             if near_m is not None:
                 cost += 0.6 * math.dist(near_m, (x_m, y_m))
             found.append(Stance(x_m, y_m, yaw_rad, bend, side, grasp, cost))
@@ -190,14 +236,25 @@ def _stands(position_m: Array, places: Places) -> Iterator[tuple[float, float, f
                     y_m = float(position_m[1]) - s * ahead - c * left
                     if room and places.room_at(x_m, y_m) != room:
                         continue
-                    if all(each.distance_m((x_m, y_m)) >= _EDGE_M for each in places.surfaces):
+                    if _is_free(places, x_m, y_m, yaw_rad):
                         yield x_m, y_m, yaw_rad, side
 
 
+def _is_free(places: Places, x_m: float, y_m: float, yaw_rad: float) -> bool:
+    """Return whether the robot can stand somewhere, with arms that hang, beside furniture."""
+    aside = (-_ARM_M * math.sin(yaw_rad), _ARM_M * math.cos(yaw_rad))
+    arms = [(x_m + sign * aside[0], y_m + sign * aside[1]) for sign in (1.0, -1.0)]
+    return all(
+        each.distance_m((x_m, y_m)) >= _EDGE_M
+        and all(each.distance_m(arm) >= _ARM_EDGE_M for arm in arms)
+        for each in places.surfaces
+    )
+
+
 def _best(
-    body: UpperBody, side: str, grasps: Iterable[Grasp], base: Frame
+    body: UpperBody, side: str, grasps: Iterable[Grasp], base: Frame, bend: Bend
 ) -> tuple[float, Grasp] | None:
-    """Return the grasp that is easiest from where the pelvis is, and how easy it is."""
+    """Return the grasp that is easiest from where the pelvis is, and how hard it is."""
     best: tuple[float, Grasp] | None = None
     for grasp in grasps:
         if not _is_ahead(grasp, base):
@@ -205,13 +262,9 @@ def _best(
         reached = grasp_reaches(body, side, grasp, base)
         if reached is None:
             continue
-        first, last = reached
-        arm = body.arms[side]
-        # Joints that are near their limits leave nothing to correct with.
-        slack = min(-arm.excess_rad(first.posture), -arm.excess_rad(last.posture), 0.3)
-        effort = 1.0 - 2.0 * slack + 0.5 * abs(last.waist_rad) + 0.4 * grasp.from_above
-        if best is None or effort < best[0]:
-            best = effort, grasp
+        cost = effort(body, grasp, reached, side, bend)
+        if best is None or cost < best[0]:
+            best = cost, grasp
     return best
 
 

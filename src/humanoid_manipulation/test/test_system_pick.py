@@ -11,6 +11,7 @@ from typing import Any
 from action_msgs.msg import GoalStatus
 from geometry_msgs.msg import Vector3, Wrench
 from humanoid_common.qos import LATCHED
+from humanoid_common.testing.launching import running_launch_file
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_interfaces.action import Drop, HandOver, Pick, Place
@@ -22,7 +23,6 @@ import pytest
 from rclpy.action import ActionClient
 from rclpy.duration import Duration
 from simulation_interfaces.srv import GetEntityState
-from std_msgs.msg import String
 from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
 
 SCENE = """\
@@ -34,6 +34,19 @@ PLACES = """\
 frame: odom
 surfaces:
   - {name: table, height: 0.70, outline: [[0.5, -0.6], [1.2, -0.6], [1.2, 0.6], [0.5, 0.6]]}
+"""
+STATE_PUBLISHER = """\
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    parameters = {'robot_description': open(%r).read(), 'use_sim_time': True}
+    node = Node(
+        package='robot_state_publisher', executable='robot_state_publisher',
+        parameters=[parameters],
+    )
+    return LaunchDescription([node])
 """
 PATIENCE_S = 240.0
 KINDS = {'pick': Pick, 'place': Place, 'hand_over': HandOver, 'drop': Drop}
@@ -49,8 +62,6 @@ class World:
         self.ros, self.robot = ros, SimulatedRobot(ros)
         self.states: list[str] = []
         node = ros.observer()
-        self._description = node.create_publisher(String, 'robot_description', LATCHED)
-        self._description.publish(String(data=humanoid_urdf(hands=True)))
         self._objects = node.create_publisher(Detection3DArray, 'objects', LATCHED)
         self._state = node.create_client(GetEntityState, 'simulator/get_entity_state')
         self._push = node.create_client(ApplyWrench, 'simulator/apply_wrench')
@@ -131,10 +142,13 @@ def _world(tmp_path_factory: pytest.TempPathFactory) -> Iterator[World]:
     """Give a robot before a table."""
     folder = tmp_path_factory.mktemp('manipulation')
     scene, places = folder / 'kitchen.yaml', folder / 'places.yaml'
+    urdf, launched = folder / 'humanoid.urdf', folder / 'states.launch.py'
     scene.write_text(SCENE)
     places.write_text(PLACES)
+    urdf.write_text(humanoid_urdf(hands=True))
+    launched.write_text(STATE_PUBLISHER % str(urdf))
     parameters = {'scene': str(scene), 'hands': 'true', 'real_time_factor': '1.5'}
-    with simulation(**parameters) as ros:
+    with simulation(**parameters) as ros, running_launch_file(launched):
         world = World(ros, places)
         yield world
         world.close()

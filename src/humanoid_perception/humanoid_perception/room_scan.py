@@ -117,6 +117,9 @@ class RoomScan:
 
     async def _tick(self, goal: RunningGoal) -> None:
         await goal.tick()
+        self._check_time()
+
+    def _check_time(self) -> None:
         if self._gaze.now_s() > self._end_s:
             raise GoalAborted('TIMEOUT', 'The look around took longer than its time allowance.')
 
@@ -156,23 +159,11 @@ class RoomScan:
 
     async def _turn_with_spin(self, goal: RunningGoal, turn_rad: float) -> None:
         """Let Nav2 turn the body, which looks out for obstacles."""
-        if not self._spin.server_is_ready():
-            raise GoalAborted('BODY_FAILED', "The action 'spin' is not there. Start navigation.")
         limit_s = 4.0 * turn_rad / self._gaze.parameters.current.turn_rate_rad_s + _LATE_S
         request = Spin.Goal(target_yaw=turn_rad, time_allowance=Duration(sec=math.ceil(limit_s)))
-        sent = self._spin.send_goal_async(request)
-        handle = await goal.answer(sent, _LATE_S, 'BODY_FAILED', "'spin' does not answer.")
-        if not handle.accepted:
-            raise GoalAborted('BODY_FAILED', "'spin' rejected the turn of the body.")
-        end = handle.get_result_async()
-        try:
-            while not end.done():
-                await self._tick(goal)
-        except BaseException:
-            handle.cancel_goal_async()
-            raise
-        if end.result().status != GoalStatus.STATUS_SUCCEEDED:
-            reason = getattr(end.result().result, 'error_msg', '')
+        answer = await goal.delegate(self._spin, request, 'spin', 'BODY_FAILED', self._check_time)
+        if answer.status != GoalStatus.STATUS_SUCCEEDED:
+            reason = getattr(answer.result, 'error_msg', '')
             raise GoalAborted('BODY_FAILED', reason or "'spin' could not turn the body.")
 
     async def _turn_with_velocities(self, goal: RunningGoal, turn_rad: float) -> None:
