@@ -24,9 +24,11 @@ from arguments import in_range
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from humanoid_common.testing.launching import running_launch_file
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
+from humanoid_control.walking.planar import PlanarPose
 from humanoid_interfaces.action import Drop, Pick, ScanRoom
 from humanoid_perception.places import load_places, places_path, Surface
 from humanoid_simulation.scene import load_scene
+from humanoid_simulation.scene.occupancy import FREE, occupancy_of
 from humanoid_simulation.testing.simulated_robot import FellError, SimulatedRobot
 import numpy as np
 from rclpy.action import ActionClient
@@ -116,6 +118,7 @@ class Kitchen:
         path = places_path('apartment')
         assert path is not None
         self._places, self._scene = load_places(path), load_scene('apartment')
+        self._map = occupancy_of(self._scene)
         self._things = {each.name: each for each in self._scene.objects}
         self._homes = {name: self._where(name) for name in self._things}
 
@@ -142,16 +145,24 @@ class Kitchen:
     def _start(
         self, random: np.random.Generator, at_m: tuple[float, float]
     ) -> tuple[float, float, float] | None:
-        """Return where the robot begins: 1 to 1.6 m away, in the room, clear of furniture."""
+        """Return where the robot begins: 1 to 1.6 m away, in the room, clear of what is fixed."""
         room = self._places.room_at(*at_m)
         for _ in range(50):
             away, angle = random.uniform(1.0, 1.6), random.uniform(-math.pi, math.pi)
             x, y = at_m[0] + away * math.cos(angle), at_m[1] + away * math.sin(angle)
-            clear = all(each.distance_m((x, y)) > 0.45 for each in self._places.surfaces)
-            if clear and self._places.room_at(x, y) == room:
+            if self._is_clear(x, y) and self._places.room_at(x, y) == room:
                 facing = math.atan2(at_m[1] - y, at_m[0] - x) + random.uniform(-0.5, 0.5)
                 return float(x), float(y), float(facing)
         return None
+
+    def _is_clear(self, x: float, y: float) -> bool:
+        """Return whether a robot can be put somewhere."""
+        around = [math.tau * number / 24 for number in range(24)]
+        return all(
+            self._map.at(x + away * math.cos(angle), y + away * math.sin(angle)) == FREE
+            for away in (0.0, 0.15, 0.3, 0.45)
+            for angle in around
+        )
 
     def tell(self, trial: Trial) -> tuple[str, float, list[str]]:
         """Do a trial; return how it ended, how long it took, and what else was moved."""
@@ -183,9 +194,7 @@ class Kitchen:
         self.robot.reset()
         self._place(trial.thing, trial.at_m, trial.turn_rad)
         x, y, yaw = trial.robot
-        height_m = self._where('robot')[2]
-        self._place('robot', (x, y, height_m), yaw)
-        self.robot.wait(1.0)
+        self.robot.put(PlanarPose(complex(x, y), yaw))
         message = PoseWithCovarianceStamped()
         message.header.frame_id = 'map'
         pose = message.pose.pose

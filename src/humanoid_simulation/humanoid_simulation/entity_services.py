@@ -163,7 +163,7 @@ class EntityServices:
         entity = self._entity(request.entity)
         self._world.refuse_after_failure()
         with refusing(SetEntityState.Response.INVALID_POSE):
-            self._backend.set_entity_state(entity, self._in_world(request.state))
+            self._world.put(entity, self._in_world(request.state))
 
     def _spawn(self, request: SpawnEntity.Request, response: SpawnEntity.Response) -> None:
         """Make a thing."""

@@ -8,7 +8,8 @@ from enum import IntEnum
 import math
 
 from humanoid_control.hosting.host import Host
-from humanoid_simulation.backend import MujocoBackend
+from humanoid_simulation.backend import EntityState, MujocoBackend
+from humanoid_simulation.backend.names import ALONE
 from humanoid_simulation.entity_catalogue import EntityCatalogue
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.guarded_loop import GuardedLoop
@@ -80,6 +81,13 @@ class SimulatedWorld:
         """Refuse what has no effect before a reset."""
         if self.has_failed:
             raise SimulationError('The physics has failed; reset the simulation first.')
+
+    def put(self, entity: str, state: EntityState) -> None:
+        """Put an entity somewhere; a robot begins anew there."""
+        self.backend.set_entity_state(entity, state)
+        for robot in self.backend.robots:
+            if (robot or ALONE) == (entity or ALONE):
+                self._loop.begin_anew(robot)
 
     def pause(self, paused: bool) -> None:
         """Stop the time, or let it go on."""

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import math
 
 from humanoid_control.dynamics.rotations import wrap_angle
+from humanoid_control.walking.planar import PlanarPose
 from humanoid_simulation.examples.push_series import DIRECTIONS
 from humanoid_simulation.testing.simulated_robot import SimulatedRobot
 from humanoid_simulation.testing.simulators import simulated_robot
@@ -61,6 +62,19 @@ def test_it_turns_by_its_odometry(robot: SimulatedRobot) -> None:
     robot.drive()
     robot.wait(3.0)
     assert wrap_angle(robot.pose.yaw_rad - begin.yaw_rad) == pytest.approx(math.pi / 2, abs=0.15)
+
+
+def test_it_stands_and_walks_where_it_was_put(robot: SimulatedRobot) -> None:
+    """Turned round, too, while it walked; and it goes on from there."""
+    robot.drive(0.25)
+    robot.wait(1.5)
+    there = PlanarPose(2.0 + 1.0j, robot.pose.yaw_rad + 2.5)
+    robot.put(there)
+    assert abs(robot.pose.position_m - there.position_m) < 0.1
+    assert abs(wrap_angle(robot.pose.yaw_rad - there.yaw_rad)) < 0.1
+    begin = robot.pose
+    robot.drive(0.25)
+    assert robot.wait_until(lambda: begin.local(robot.pose.position_m).real > 0.5, 8.0)
 
 
 def test_it_steps_sideways(robot: SimulatedRobot) -> None:

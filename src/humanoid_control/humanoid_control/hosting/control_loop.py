@@ -46,3 +46,8 @@ class ControlLoop:
         self.backend.reset(keyframe)
         for brain in self._brains.values():
             brain.reset()
+
+    def begin_anew(self, robot: str) -> None:
+        """Tell a robot that it was put somewhere else."""
+        if robot in self._brains:
+            self._brains[robot].reset()

@@ -19,7 +19,12 @@ from humanoid_simulation.examples.conversions import (
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
-from simulation_interfaces.srv import ResetSimulation, SetSimulationState, StepSimulation
+from simulation_interfaces.srv import (
+    ResetSimulation,
+    SetEntityState,
+    SetSimulationState,
+    StepSimulation,
+)
 from std_msgs.msg import Bool, String
 from std_srvs.srv import Trigger
 
@@ -48,6 +53,7 @@ class RobotTopics:
         self.pause = node.create_client(SetSimulationState, f'{simulator}/set_simulation_state')
         self.steps = node.create_client(StepSimulation, f'{simulator}/step_simulation')
         self.reset = node.create_client(ResetSimulation, f'{simulator}/reset_simulation')
+        self.put = node.create_client(SetEntityState, f'{simulator}/set_entity_state')
         self.push = node.create_client(ApplyWrench, f'{simulator}/apply_wrench')
         self.stand_up = node.create_client(Trigger, 'stand_up')
         self.emergency_stop = node.create_publisher(Bool, 'emergency_stop', LATCHED)

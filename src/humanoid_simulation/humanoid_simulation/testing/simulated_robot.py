@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import math
 from typing import Any
 
 from humanoid_common.testing.ros import RosSandbox
@@ -15,7 +16,8 @@ from humanoid_simulation.examples.push_series import Push
 from humanoid_simulation.testing.robot_topics import RobotTopics
 from rclpy.client import Client
 from rclpy.node import Node
-from simulation_interfaces.srv import ResetSimulation, StepSimulation
+from simulation_interfaces.msg import EntityState
+from simulation_interfaces.srv import ResetSimulation, SetEntityState, StepSimulation
 from std_srvs.srv import Trigger
 
 PATIENCE_S = 60.0
@@ -90,6 +92,19 @@ class SimulatedRobot:
         self._ask(self.topics.reset, ResetSimulation.Request())
         self._fall_watch, begin_s = FallWatch(), self.topics.time_s
         self._spin(lambda: self.topics.time_s > begin_s + 0.1, 0.1)
+        self.wait(1.0)
+
+    def put(self, pose: PlanarPose) -> None:
+        """Put the robot somewhere as it is, and let it stand for a second."""
+        self.drive()
+        state = EntityState()
+        position, orientation = state.pose.position, state.pose.orientation
+        position.x, position.y = pose.position_m.real, pose.position_m.imag
+        position.z = self.topics.height_m
+        orientation.w, orientation.z = math.cos(pose.yaw_rad / 2.0), math.sin(pose.yaw_rad / 2.0)
+        entity = self._namespace.strip('/') or 'robot'
+        self._ros.wait_until(self.topics.put.service_is_ready, PATIENCE_S, 'the entities')
+        self._ask(self.topics.put, SetEntityState.Request(entity=entity, state=state))
         self.wait(1.0)
 
     def stand_up(self) -> None:
