@@ -32,6 +32,8 @@ _PATIENCE_S = 20.0
 _MANAGER = 'lifecycle_manager_navigation/is_active'
 _FURTHER_ACTIONS = ('backup', 'right_arm_controller/follow_joint_trajectory')
 """Those that skills use besides their servers."""
+_HANDS = frozenset(('empty_hand', 'holding'))
+"""What skills need that use hands."""
 
 
 class Patience:
@@ -129,9 +131,14 @@ class Readiness:
 
     def _lacks(self) -> dict[str, str]:
         """Return why the robot cannot do something now that it can do in general."""
-        lacks = {each.name: self._watch.lack(each) for each in self._skills}
+        # Of a robot that was built without hands, nobody expects that it uses them.
+        lacks = {
+            each.name: self._watch.lack(each)
+            for each in self._skills
+            if self._watch.has_hands or not _HANDS.intersection(each.needs)
+        }
         lacks = {name: reason for name, reason in lacks.items() if reason}
-        if not self._node.count_services(self._node.resolve_service_name('task_planner/plan')):
+        if not self._hears_planner():
             lacks['plan'] = UNPLANNED
         if 'go_to' not in lacks:
             if not self._navigates():
@@ -139,6 +146,12 @@ class Readiness:
             elif self._watch.pose() is None:
                 lacks['pose'] = LOST
         return lacks
+
+    def _hears_planner(self) -> bool:
+        """Return whether the planner is there, and what it sends would come."""
+        planner = self._node.resolve_service_name('task_planner/plan')
+        goals = self._node.resolve_service_name('execute_plan/_action/send_goal')
+        return bool(self._node.count_services(planner) and self._node.count_clients(goals))
 
     def _navigates(self) -> bool:
         """Return whether navigation accepts goals, as far as its manager tells."""

@@ -49,6 +49,8 @@ __all__ = ['PlannerParameters', 'TaskPlanner', 'main']
 
 _ANSWER_S = 60.0
 """How long a question waits for its answer."""
+_ACCEPT_S, _SENDINGS = 3.0, 3
+"""How long the answer to a goal is waited for, and how often it is sent."""
 _LOOK_S = 1.0
 """How often the node looks whether the executor is still there."""
 
@@ -125,6 +127,8 @@ class TaskPlanner(Node):
             self._model = ModelPlanner(self._planner.skills, server.answer, told.timeout_s)
         self._dialogue = Dialogue()
         self._sent: Any = None
+        self._unanswered: dict[Future[Any], int] = {}
+        """Whether goals were answered, and how often the executor is looked for until then."""
         self._ends: set[Future[Any]] = set()
         self._run = ''
         self._newest = 0
@@ -213,7 +217,9 @@ class TaskPlanner(Node):
             return None
         self._health.plans += 1
         self._plans.publish(made)
-        sent = self._sent = self._client.send_goal_async(ExecutePlan.Goal(plan=made))
+        sent = await self._sent_goal(ExecutePlan.Goal(plan=made))
+        if sent is None:
+            return None
         try:
             answer = await self._end_of(sent)
         except _ExecutorLostError as error:
@@ -222,6 +228,28 @@ class TaskPlanner(Node):
         if answer is None:
             return None
         return failure_of(answer.result) if answer.status == GoalStatus.STATUS_ABORTED else None
+
+    async def _sent_goal(self, goal: ExecutePlan.Goal) -> Any:
+        """
+        Return the future of the answer to a goal, when it is there; None if it is not to be done.
+
+        A goal to which nothing is answered is sent again: an executor that has only just been
+        found may not have found this node yet.
+        """
+        for _ in range(_SENDINGS):
+            sent = self._sent = self._client.send_goal_async(goal)
+            answered: Future[Any] = Future(executor=self.executor)
+            self._unanswered[answered] = round(_ACCEPT_S / _LOOK_S)
+            sent.add_done_callback(lambda _, told=answered: told.done() or told.set_result(True))
+            is_answered = await answered
+            self._unanswered.pop(answered, None)
+            if self._sent is not sent:  # told to stop, or something newer to do
+                return None
+            if is_answered:
+                return sent
+            sent.add_done_callback(_cancel)
+        self._say('I cannot do anything, as the skill executor does not answer.')
+        return None
 
     async def _end_of(self, sent: Any) -> Any:
         """
@@ -264,7 +292,11 @@ class TaskPlanner(Node):
             self._lose('The skill executor was started anew.')
 
     def _look_for_executor(self) -> None:
-        """Notice that the executor has ended."""
+        """Notice that the executor has ended, or does not answer."""
+        for answered in list(self._unanswered):
+            self._unanswered[answered] -= 1
+            if self._unanswered[answered] < 0 and not answered.done():
+                answered.set_result(False)
         if not self._client.server_is_ready() and self._lose('The skill executor has ended.'):
             self._say('I cannot go on, as the skill executor has ended.')
 

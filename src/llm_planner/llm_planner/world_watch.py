@@ -82,6 +82,11 @@ class WorldWatch:
         wrist = [joint for joint in _WRIST if f'"{side}_{joint}"' in self._model]
         return [f'{side}_{joint}' for joint in (*_ARM, *wrist)]
 
+    @property
+    def has_hands(self) -> bool:
+        """Whether the robot is one with hands, as far as its description has come."""
+        return any(f'_{joint}"' in self._model for joint in _WRIST)
+
     def world(self) -> World:
         """Return all that is known now; it asks the graph for each server."""
         lacks = {each.name: self.lack(each) for each in self._skills}

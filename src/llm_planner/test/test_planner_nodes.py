@@ -13,10 +13,13 @@ from humanoid_interfaces.action import ExecutePlan
 from humanoid_interfaces.msg import Plan, PlanStep
 from humanoid_interfaces.srv import MakePlan
 from llm_planner.model_testing import ModelStub, says, serving
+from llm_planner.robot_testing import Robot
 from llm_planner.skill_executor import SkillExecutor
 from llm_planner.task_planner import TaskPlanner
 import pytest
-from rclpy.action import ActionClient
+from rclpy.action import ActionClient, ActionServer, GoalResponse
+from rclpy.node import Node
+from rclpy.task import Future
 from std_msgs.msg import String
 
 
@@ -141,6 +144,44 @@ def test_an_executor_that_ends_is_missed(ros: RosSandbox, tell: Any) -> None:
     missing = 'I cannot do anything, as the skill executor is not running.'
     ros.wait_until(robot.heard(lost, missing), 60.0, 'other words')
     assert robot.said.count(lost) == 1 and not robot.spins
+
+
+class DeafExecutor(Node):
+    """An executor that does not answer the first goals, as if it had not found the planner yet."""
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__('deaf_executor', **options)
+        self.deaf = self.goals = 0
+        self._never: Future[None] = Future()
+        self._server = ActionServer(
+            self, ExecutePlan, 'execute_plan', self._do, goal_callback=self._consider
+        )
+
+    async def _consider(self, request: Any) -> GoalResponse:
+        self.goals += 1
+        if self.goals <= self.deaf:
+            await self._never
+        return GoalResponse.ACCEPT
+
+    def _do(self, handle: Any) -> Any:
+        handle.succeed()
+        return ExecutePlan.Result()
+
+
+@pytest.mark.parametrize(('deaf', 'goals'), [(1, 2), (9, 3)])
+def test_a_plan_that_is_not_answered_is_sent_again(ros: RosSandbox, deaf: int, goals: int) -> None:
+    """And if that does not help either, it is said."""
+    robot, executor = ros.start(Robot), ros.start(DeafExecutor)
+    executor.deaf = deaf
+    planner = ros.start(TaskPlanner)
+    ros.wait_until(lambda: robot.commands.get_subscription_count() == 1, 30.0, 'a planner')
+    service = '/execute_plan/_action/send_goal'
+    ros.wait_until(lambda: planner.count_services(service) == 1, 30.0, 'an executor')
+    robot.commands.publish(String(data='wait for one second'))
+    ros.wait_until(lambda: executor.goals == goals, 30.0, 'more goals')
+    if deaf > goals:
+        words = 'I cannot do anything, as the skill executor does not answer.'
+        ros.wait_until(robot.heard(words), 30.0, 'words')
 
 
 def test_what_is_not_understood_is_said(ros: RosSandbox, tell: Any) -> None:
