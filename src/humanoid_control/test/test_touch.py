@@ -47,6 +47,12 @@ class Mover:
             self.touch = self.observer.update(self._sensed(link, force_n))
         return self.touch
 
+    def stand(self, time_s: float, link: str, force_n: Point) -> None:
+        """Let time pass in which the robot does not walk."""
+        for _ in range(round(time_s / TICK_S)):
+            self.time_s += TICK_S
+            self.observer.rest(self._sensed(link, force_n))
+
     def _sensed(self, link: str, force_n: Point) -> Sensed:
         """Return what is sensed at a moment; the drives exert what the motion needs."""
         angle, rate = 4.0 * self.time_s + self._phases, 4.0
@@ -112,3 +118,14 @@ def test_after_a_gap_nothing_is_known(mover: Mover) -> None:
     """Differences over a stall of the control say nothing of accelerations."""
     mover.time_s += 0.1
     assert mover.move(TICK_S, KNEE, -80.0j) == NOTHING
+
+
+def test_a_load_in_a_hand_is_no_touch(robot: Robot) -> None:
+    """It is learned while the robot stands; what pushes the arm afterwards is felt on top."""
+    mover = Mover(robot)
+    mover.stand(4.0, ELBOW, 40.0 + 0j)
+    loaded = mover.move(0.5, ELBOW, 40.0 + 0j)
+    assert abs(loaded.arms_nm[LEFT]) < 0.3 * P.arm_touch_nm
+    pushed = mover.move(0.5, ELBOW, 80.0 + 0j)
+    alone = Mover(robot).move(0.5, ELBOW, 40.0 + 0j)
+    assert abs(pushed.arms_nm[LEFT]) == pytest.approx(abs(alone.arms_nm[LEFT]), rel=0.25)

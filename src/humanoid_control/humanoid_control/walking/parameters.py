@@ -233,6 +233,8 @@ class WalkParameters:
     """... and how much of their distance aside less: its direction is known about so well."""
     touch_rate_1_s: float = _rate(16.0)
     """How fast the estimate of what limbs touch follows."""
+    touch_load_rate_1_s: float = _rate(1.5)
+    """How fast what an arm feels while the robot stands becomes a load that it carries."""
     touch_gap_s: float = _time(0.025)
     """Observations that are farther apart say nothing of what limbs touch."""
     leg_touch_nm: float = _growing(4.0, 16.0)

@@ -49,30 +49,44 @@ class TouchObserver:
         self._parameters = parameters
         self._hips = _joints(robot, 'hip_pitch', 'hip_roll')
         self._shoulders = _joints(robot, 'shoulder', 'shoulder_roll')
+        self._arms = [joint for joints in self._shoulders for joint in joints]
         self._last: Sensed | None = None
         self._outside_nm: Array = np.zeros(len(robot.body.joints))
+        self._borne_nm: Array = np.zeros_like(self._outside_nm)
+        """(n,) what arms bore while the robot stood: a load, and a hand that is bent."""
 
-    def rest(self) -> None:
-        """Forget what was felt: nobody asks for a while."""
-        self._last = None
+    def rest(self, sensed: Sensed) -> None:
+        """Learn what arms bear; one who stands walks into nothing, so all else is forgotten."""
+        self._follow(self._borne_nm, sensed, self._parameters.touch_load_rate_1_s)
         self._outside_nm[:] = 0.0
+        self._outside_nm[self._arms] = self._borne_nm[self._arms]
 
     def update(self, sensed: Sensed) -> Touch:
         """Return what the limbs feel now."""
+        if not self._follow(self._outside_nm, sensed, self._parameters.touch_rate_1_s):
+            return NOTHING
+        ahead = cmath.rect(1.0, sensed.attitude.yaw_rad)
+        legs = [self._moment(*joints, ahead, 0.0) for joints in self._hips]
+        arms = [self._moment(*joints, ahead, self._borne_nm) for joints in self._shoulders]
+        return Touch((legs[0], legs[1]), (arms[0], arms[1]))
+
+    def _follow(self, followed_nm: Array, sensed: Sensed, rate_1_s: float) -> bool:
+        """Let an estimate (n,) follow what comes from outside; return whether that is known."""
         last, self._last = self._last, sensed
         passed_s = sensed.time_s - last.time_s if last else 0.0
         if last is None or not 0.0 < passed_s <= self._parameters.touch_gap_s:
-            return NOTHING
-        share = -math.expm1(-self._parameters.touch_rate_1_s * passed_s)
-        self._outside_nm += share * (_outside(last, sensed, passed_s) - self._outside_nm)
-        ahead = cmath.rect(1.0, sensed.attitude.yaw_rad)
-        legs = [self._moment(*joints, ahead) for joints in self._hips]
-        arms = [self._moment(*joints, ahead) for joints in self._shoulders]
-        return Touch((legs[0], legs[1]), (arms[0], arms[1]))
+            return False
+        share = -math.expm1(-rate_1_s * passed_s)
+        followed_nm += share * (_outside(last, sensed, passed_s) - followed_nm)
+        return True
 
-    def _moment(self, pitch: int, roll: int, ahead: Point) -> Point:
-        """Return the moment of a horizontal force below a joint, in the direction of the force."""
-        outside_nm = self._outside_nm
+    def _moment(self, pitch: int, roll: int, ahead: Point, borne_nm: Array | float) -> Point:
+        """
+        Return the moment of a horizontal force below a joint, in the direction of the force.
+
+        What is borne anyway is no such force.
+        """
+        outside_nm = self._outside_nm - borne_nm
         return complex(-outside_nm[pitch], outside_nm[roll]) * ahead
 
 

@@ -178,7 +178,7 @@ class Walk:
     def _felt(self) -> Touch:
         """Return what the limbs touch; who stands walks into nothing."""
         if self.gait.phase == STAND:
-            self._touch.rest()
+            self._touch.rest(self.sensed)
             return NOTHING
         return self._touch.update(self.sensed)
 
