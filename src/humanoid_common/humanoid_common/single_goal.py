@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Iterator
+from contextlib import contextmanager
 import traceback
 from typing import Any
 
@@ -38,6 +39,7 @@ class RunningGoal:
     def __init__(self, owner: SingleGoal, handle: ServerGoalHandle, result: Any) -> None:
         self._owner, self._handle = owner, handle
         self.request, self.result = handle.request, result
+        self._is_ending = False
 
     def publish_feedback(self, feedback: Any) -> None:
         """Tell the client how far it is."""
@@ -56,13 +58,22 @@ class RunningGoal:
             A newer goal is there, or the robot may not move.
 
         """
-        if self._handle.is_cancel_requested:
+        if self._handle.is_cancel_requested and not self._is_ending:
             raise GoalCanceled
         if self._owner.newest is not self._handle:
             raise GoalAborted('PREEMPTED', 'A newer goal took its place.')
         reason = self._owner.inhibition()
         if reason:
             raise GoalAborted('INHIBITED', reason)
+
+    @contextmanager
+    def ending(self) -> Iterator[None]:
+        """Let a goal that is canceled go on meanwhile, to leave things in order."""
+        self._is_ending = True
+        try:
+            yield
+        finally:
+            self._is_ending = False
 
     async def tick(self) -> None:
         """Wait a moment by a clock that nobody stops, and check."""

@@ -94,6 +94,10 @@ class SimulatedRobot:
         self._spin(lambda: self.topics.time_s > begin_s + 0.1, 0.1)
         self.wait(1.0)
 
+    def let_go(self) -> None:
+        """Send no velocities from now on: somebody else drives the robot."""
+        self.topics.velocity = None
+
     def put(self, pose: PlanarPose) -> None:
         """Put the robot somewhere as it is, and let it stand for a second."""
         self.drive()
