@@ -2,10 +2,11 @@
 """
 Let the humanoid take things in the apartment, and count what it holds.
 
-In each trial a thing stands somewhere on a surface, turned somehow, and the robot somewhere in
-that room, facing about there. It looks around, and takes the thing by what its camera sees; ground
-truth says whether it still holds it five seconds later, whether a failure was told as one, what
-was knocked over, and whether the robot fell. It walks in the simulator with physics and noise.
+In each trial a thing stands on a surface, within half a metre of where the robot could stand and
+walk up to, turned somehow, and the robot somewhere in that room, facing about there. It looks
+around, and takes the thing by what its camera sees; ground truth says whether it still holds it
+five seconds later, whether a failure was told as one, what was knocked over, and whether the robot
+fell. It walks in the simulator with physics and noise.
 """
 
 from __future__ import annotations
@@ -34,10 +35,12 @@ import numpy as np
 from rclpy.action import ActionClient
 from simulation_interfaces.msg import EntityState
 from simulation_interfaces.srv import GetEntityState, SetEntityState
+from std_srvs.srv import Trigger
 
 KINDS = ('mug', 'bottle', 'can', 'apple', 'orange', 'cube')
 HELD_M = 0.35
 """What is nearer to a gripper than that, and off its surface, is held."""
+_STANDS_M = 0.5
 TIPPED_M = 0.05
 """A thing that is farther from where it stood was knocked over, or pushed."""
 LEAST = 0.8
@@ -114,6 +117,7 @@ class Kitchen:
             ros.wait_until(client.server_is_ready, 120.0, name)
         self._get = self._node.create_client(GetEntityState, 'simulator/get_entity_state')
         self._set = self._node.create_client(SetEntityState, 'simulator/set_entity_state')
+        self._forget = self._node.create_client(Trigger, 'object_memory/forget')
         self._believe = self._node.create_publisher(PoseWithCovarianceStamped, 'initialpose', 1)
         path = places_path('apartment')
         assert path is not None
@@ -123,7 +127,7 @@ class Kitchen:
         self._homes = {name: self._where(name) for name in self._things}
 
     def drawn(self, random: np.random.Generator) -> Trial:
-        """Draw a trial: a thing on the outer 0.3 m of a surface, and a robot in that room."""
+        """Draw a trial: a thing near which a robot can stand, and a robot in that room."""
         while True:
             name = str(random.choice([n for n, t in self._things.items() if t.kind in KINDS]))
             surfaces = self._places.surfaces
@@ -134,7 +138,9 @@ class Kitchen:
             x, y = random.uniform(min(xs), max(xs)), random.uniform(min(ys), max(ys))
             inset = min(x - min(xs), max(xs) - x, y - min(ys), max(ys) - y)
             others = [at for n, at in self._homes.items() if n != name]
-            if not 0.07 < inset < 0.3 or any(math.dist((x, y), o[:2]) < 0.18 for o in others):
+            if inset < 0.07 or any(math.dist((x, y), o[:2]) < 0.18 for o in others):
+                continue
+            if not self._is_near_room(x, y, self._places.room_at(x, y)):
                 continue
             robot = self._start(random, (x, y))
             if robot is not None:
@@ -155,12 +161,23 @@ class Kitchen:
                 return float(x), float(y), float(facing)
         return None
 
-    def _is_clear(self, x: float, y: float) -> bool:
-        """Return whether a robot can be put somewhere."""
+    def _is_near_room(self, x: float, y: float, room: str) -> bool:
+        """Return whether a robot could stand half a metre from a thing, and walk up to there."""
+        for number in range(16):
+            c, s = math.cos(math.tau * number / 16), math.sin(math.tau * number / 16)
+            stands = (x + _STANDS_M * c, y + _STANDS_M * s)
+            before = (x + (_STANDS_M + 0.4) * c, y + (_STANDS_M + 0.4) * s)
+            is_there = self._places.room_at(*stands) == room
+            if is_there and self._is_clear(*stands, 0.2) and self._is_clear(*before, 0.45):
+                return True
+        return False
+
+    def _is_clear(self, x: float, y: float, radius_m: float = 0.45) -> bool:
+        """Return whether nothing that is fixed is near."""
         around = [math.tau * number / 24 for number in range(24)]
         return all(
             self._map.at(x + away * math.cos(angle), y + away * math.sin(angle)) == FREE
-            for away in (0.0, 0.15, 0.3, 0.45)
+            for away in np.linspace(0.0, radius_m, 4).tolist()
             for angle in around
         )
 
@@ -195,6 +212,7 @@ class Kitchen:
         self._place(trial.thing, trial.at_m, trial.turn_rad)
         x, y, yaw = trial.robot
         self.robot.put(PlanarPose(complex(x, y), yaw))
+        self.robot.let_go()
         message = PoseWithCovarianceStamped()
         message.header.frame_id = 'map'
         pose = message.pose.pose
@@ -204,6 +222,7 @@ class Kitchen:
         message.pose.covariance[35] = 0.01
         self._believe.publish(message)
         self.robot.wait(2.0)
+        self._ask(self._forget, Trigger.Request())
 
     def _is_held(self, trial: Trial) -> bool:
         """Return whether the thing is off its surface, and near the robot."""

@@ -14,6 +14,7 @@ import math
 from typing import Any
 
 from humanoid_control.dynamics.frames import Frame
+from humanoid_control.walking.heading import quaternion_of
 from humanoid_description.drives import SIDES
 from humanoid_description.loading import load_robot
 from humanoid_manipulation.errors import ManipulationError
@@ -105,7 +106,7 @@ class ArmWorld:
         """Build the world."""
         self._robot = load_robot(self.urdf, 'the robot')
         spec = mujoco.MjSpec.from_string(self.urdf.replace('</robot>', _COMPILER))
-        prefix = self.body.base.removesuffix('base_link')
+        prefix = self._robot.prefix
         for geom in spec.geoms:
             is_arm = geom.parent.name.endswith(_ARM_LINKS)
             geom.contype, geom.conaffinity = int(is_arm), 1
@@ -179,13 +180,11 @@ class ArmWorld:
 
     def _add_box(self, body: Any, box: Obstacle, at: Frame, contype: int) -> None:
         """Add a box to a body."""
-        turn = np.zeros(4)
-        mujoco.mju_mat2Quat(turn, np.ascontiguousarray(at.rotation).ravel())
         body.add_geom(
             type=mujoco.mjtGeom.mjGEOM_BOX,
             size=[edge / 2.0 for edge in box.size_m],
             pos=at.position_m,
-            quat=turn,
+            quat=quaternion_of(at.rotation),
             contype=contype,
             conaffinity=1 - contype,
             margin=self.clearance_m,

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -54,7 +54,7 @@ class Arms:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._body: UpperBody | None = None
-        self._urdf = ''
+        self._urdf = self._prefix = ''
         self._reason = 'No robot_description has come. Start robot_state_publisher.'
         self._movers: dict[str, JointMover] = {}
         self._waist: JointMover | None = None
@@ -96,6 +96,11 @@ class Arms:
         arm = self.body.arms[side]
         return Reach(at[self.body.waist], tuple(at[joint] for joint in arm.joints))
 
+    def grip_of(self, side: str) -> tuple[float, float]:
+        """Return the gap between the fingers (m), and the force that opens them (N)."""
+        finger = f'{self._prefix}{side}_gripper'
+        return 2.0 * self._positions.get(finger, 0.0), self._efforts.get(finger, 0.0)
+
     def efforts_of(self, side: str) -> Array:
         """Return what the drives of an arm exert (6,), in N m."""
         joints = self.body.arms[side].joints
@@ -112,9 +117,24 @@ class Arms:
         world.stand(self._positions)
         return world
 
-    async def move(self, goal: RunningGoal, side: str, motion: Motion) -> None:
+    async def move(
+        self,
+        goal: RunningGoal,
+        side: str,
+        motion: Motion,
+        tell: Callable[[], None] = lambda: None,
+    ) -> None:
         """
         Move an arm, and the waist if it has to turn, and wait until they are there.
+
+        Parameters
+        ----------
+        goal
+            What it is done for.
+        side, motion
+            Which arm, and how it moves.
+        tell
+            Called all the time meanwhile.
 
         Raises
         ------
@@ -149,6 +169,7 @@ class Arms:
                 if self._now_s() > end_s:
                     raise GoalAborted(_CODE, f'The {side} arm does not come to where it shall be.')
                 await goal.tick()
+                tell()
         except BaseException:
             for mover in movers:
                 mover.stop()
@@ -203,11 +224,12 @@ class Arms:
 
     def _read(self, message: String) -> None:
         try:
-            body = UpperBody.of(load_robot(message.data, 'robot_description'))
+            robot = load_robot(message.data, 'robot_description')
+            body = UpperBody.of(robot)
         except (DescriptionError, ManipulationError) as error:
             self._body, self._reason = None, str(error)
             return
-        self._urdf = message.data
+        self._urdf, self._prefix = message.data, robot.prefix
         if not self._movers:
             self._movers = {
                 side: JointMover(

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import Any, TYPE_CHECKING
 
-from humanoid_common.single_goal import GoalAborted, RunningGoal
+from humanoid_common.single_goal import GoalAborted, GoalCanceled, RunningGoal
 from humanoid_description.robot import Array
 from humanoid_interfaces.action import HandOver
-from humanoid_manipulation.handling import carrying, Handling, HANGING
+from humanoid_manipulation.handling import Handling, Held, unsound_side
 from humanoid_manipulation.motion_planning import plan
 from humanoid_manipulation.upper_body import Reach
 import numpy as np
@@ -47,40 +47,59 @@ class Giving(Handling):
 
     def unsound(self, request: Any) -> str:
         """Return why a goal makes no sense; nothing if it does."""
-        return self.node.unsound_side(request.side)
+        return unsound_side(request.side)
 
     async def hand_over(self, goal: RunningGoal) -> None:
         """Hold out a thing, and let go when it is pulled at."""
-        node, arms = self.node, self.node.arms
-        side, held = self.holding(goal.request.side)
-        goal.result.object = held.object_id
-        with node.transforms.listening(), arms.listening():
-            await arms.wait(goal)
-            self.tell(goal, 'reaching')
-            # Who takes it stands there: only the robot itself is kept clear of.
-            world = arms.world([], {side: held.box}, 0.0)
+        with self.node.transforms.listening(), self.node.arms.listening():
+            await self.begin(goal)
+            side, held = self.holding(goal.request.side)
+            goal.result.object = held.object_id
+            try:
+                await self._hold_out(goal, side, held)
+                await self._let_go(goal, side, held)
+            except GoalCanceled:
+                with goal.ending():
+                    await self._draw_back(goal)
+                raise
+
+    async def _hold_out(self, goal: RunningGoal, side: str, held: Held) -> None:
+        """Hold out a thing until somebody pulls at it."""
+        arms = self.node.arms
+        self.tell(goal, 'reaching')
+        # Who takes it stands there: only the robot itself is kept clear of.
+        world = arms.world([], {side: held.box}, 0.0)
+        with self.failing():
+            await self.move(goal, side, plan(world, side, arms.reach_of(side), _OUT[side]))
+        self.tell(goal, 'waiting')
+        if not await self._is_pulled(goal, side):
+            await self._draw_back(goal)
+            raise GoalAborted('NOT_TAKEN', 'Nobody has taken it.')
+
+    async def _let_go(self, goal: RunningGoal, side: str, held: Held) -> None:
+        self.tell(goal, 'opening')
+        await self.node.arms.grip(goal, side, min(held.width_m + _OPEN_M, 0.1))
+        del self.node.held[side]
+        await self._wait(goal, 1.0)
+        await self._draw_back(goal)
+
+    async def _draw_back(self, goal: RunningGoal) -> None:
+        """Bring the arms back, whoever stands there."""
+        arms = self.node.arms
+        for side, end in self.at_ease().items():
+            held = {other: each.box for other, each in self.node.held.items()}
             with self.failing():
-                await self.move(goal, side, plan(world, side, arms.reach_of(side), _OUT[side]))
-            self.tell(goal, 'waiting')
-            if not await self._is_pulled(goal, side):
-                with self.failing():
-                    back = plan(world, side, arms.reach_of(side), carrying(arms.body, side, held))
-                    await self.move(goal, side, back)
-                raise GoalAborted('NOT_TAKEN', 'Nobody has taken it.')
-            self.tell(goal, 'opening')
-            await arms.grip(goal, side, min(held.width_m + _OPEN_M, 0.1))
-            del node.held[side]
-            await self._wait(goal, 1.0)
-            world = arms.world([], {}, 0.0)
-            with self.failing():
-                await self.move(goal, side, plan(world, side, arms.reach_of(side), HANGING[side]))
+                way = plan(arms.world([], held, 0.0), side, arms.reach_of(side), end)
+                await self.move(goal, side, way)
 
     async def drop(self, goal: RunningGoal) -> None:
         """Open a hand."""
-        side, held = self.holding(goal.request.side)
-        goal.result.object = held.object_id
-        await self.node.arms.grip(goal, side, 0.1)
-        del self.node.held[side]
+        with self.node.arms.listening():
+            await self.begin(goal)
+            side, held = self.holding(goal.request.side)
+            goal.result.object = held.object_id
+            await self.node.arms.grip(goal, side, 0.1)
+            del self.node.held[side]
 
     async def _is_pulled(self, goal: RunningGoal, side: str) -> bool:
         """Return whether somebody pulls within the time that they may take."""

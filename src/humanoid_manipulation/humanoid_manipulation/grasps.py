@@ -16,11 +16,17 @@ __all__ = ['Grasp', 'Graspable', 'Hand', 'grasps_of']
 
 ROUND = frozenset(('apple', 'ball', 'bottle', 'bowl', 'can', 'cup', 'mug', 'orange'))
 """Classes of things that look the same from all sides: any side of them can be grasped."""
+HANDLED = frozenset(('cup', 'mug'))
+"""Classes of things with a handle, which is seen as a part of their width."""
+_BODY = 0.85
+"""Of its height, by which the body of such a thing is not wider."""
 _AROUND, _ABOVE = 16, 8
 """From how many sides, and in how many turns from above, a round thing is grasped."""
 _APPROACH_M = 0.10
-_MARGIN_M = 0.010
-"""How much wider than the thing the gripper opens, on each side."""
+_LEAST_MARGIN_M, _MARGIN_M = 0.006, 0.020
+"""How much wider than the thing the gripper must open, and opens if it can, on each side."""
+_LOOKS_WIDER_M = 0.025
+"""How much wider than it is a thing may be remembered that was seen from afar."""
 _ABOVE_M = 0.010
 """How high above what a thing stands on the fingers stay."""
 _PALM_M = 0.005
@@ -138,10 +144,8 @@ def grasps_of(thing: Graspable, hand: Hand = Hand()) -> Iterator[Grasp]:
         In the frame of the thing's position. There are none if it is too wide for the hand.
 
     """
-    for heading_rad, width_m, depth_m in _sides(thing):
-        if width_m + 2.0 * _MARGIN_M > hand.widest_m:
-            continue
-        gap_m = min(width_m + 4.0 * _MARGIN_M, hand.widest_m)
+    for heading_rad, width_m, depth_m in _sides(thing, hand):
+        gap_m = min(width_m + 2.0 * _MARGIN_M, hand.widest_m)
         for tilt_rad in _TILTS_RAD:
             sine, cosine = math.sin(tilt_rad), math.cos(tilt_rad)
             level = np.array([math.cos(heading_rad), math.sin(heading_rad), 0.0])
@@ -162,27 +166,33 @@ def grasps_of(thing: Graspable, hand: Hand = Hand()) -> Iterator[Grasp]:
     )
     if height_m - float(thing.position_m[2]) > _HANGS_M:
         return
-    for heading_rad, width_m, _ in _sides(thing, _ABOVE):
-        if width_m + 2.0 * _MARGIN_M > hand.widest_m:
-            continue
-        gap_m = min(width_m + 4.0 * _MARGIN_M, hand.widest_m)
+    for heading_rad, width_m, _ in _sides(thing, hand, _ABOVE):
+        gap_m = min(width_m + 2.0 * _MARGIN_M, hand.widest_m)
         position = np.array([*thing.position_m[:2], height_m])
         yield Grasp(Frame(position, about_z(heading_rad)), gap_m, width_m, from_above=True)
 
 
-def _sides(thing: Graspable, around: int = _AROUND) -> Iterator[tuple[float, float, float]]:
-    """Yield directions to come from: the heading, and how wide and deep the thing is then."""
-    length, width, _ = thing.size_m.tolist()
+def _sides(
+    thing: Graspable, hand: Hand, around: int = _AROUND
+) -> Iterator[tuple[float, float, float]]:
+    """Yield directions to come from where the hand is wide enough: heading, width and depth."""
+    most_m = hand.widest_m - 2.0 * _LEAST_MARGIN_M
+    length, width, height = thing.size_m.tolist()
     if thing.is_round:
         # A handle, or what is seen of another thing, makes a round thing longer than it is.
         across = min(length, width)
-        for number in range(around):
-            yield math.tau * number / around, across, across
+        if thing.class_id in HANDLED:
+            across = min(across, _BODY * height)
+        if across <= most_m + _LOOKS_WIDER_M:
+            for number in range(around):
+                yield math.tau * number / around, min(across, most_m), across
         return
     for number in range(4):
         turned = number % 2 == 1
         heading = thing.yaw_rad + number * math.pi / 2.0
-        yield heading, length if turned else width, width if turned else length
+        across, deep = (length, width) if turned else (width, length)
+        if across <= most_m + _LOOKS_WIDER_M:
+            yield heading, min(across, most_m), deep
 
 
 def _pointing(ahead: Array) -> Array:

@@ -3,17 +3,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Iterable, Iterator, Sequence
+from collections.abc import Awaitable, Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 import math
 from typing import Any, TYPE_CHECKING
 
-from humanoid_common.single_goal import GoalAborted, RunningGoal
+from humanoid_common.single_goal import GoalAborted, GoalCanceled, RunningGoal
 from humanoid_control.dynamics.frames import Frame
 from humanoid_control.dynamics.rotations import about_z
+from humanoid_description.drives import SIDES
 from humanoid_description.robot import Array
 from humanoid_manipulation.arm_world import ArmWorld, Obstacle
+from humanoid_manipulation.arms import Arms
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.grasps import Grasp
 from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
@@ -23,6 +25,7 @@ from humanoid_manipulation.stances import (
     BENDS,
     effort,
     grasp_reaches,
+    is_clear_way,
     Stance,
 )
 from humanoid_manipulation.upper_body import OutOfReachError, Reach, UpperBody
@@ -31,13 +34,18 @@ import numpy as np
 if TYPE_CHECKING:
     from humanoid_manipulation.manipulator import Manipulator
 
-__all__ = ['HANGING', 'Handling', 'Held', 'carrying']
+__all__ = ['HANGING', 'Handling', 'Held', 'carrying', 'unsound_side']
 
 HANGING = {
     'left': Reach(0.0, (0.0, 0.15, 0.0, -0.5, 0.0, 0.0)),
     'right': Reach(0.0, (0.0, -0.15, 0.0, -0.5, 0.0, 0.0)),
 }
 """Where hands are that do nothing."""
+TUCKED = {
+    'left': Reach(0.0, (0.75, 0.2, 0.0, -2.1, 0.0, 0.0)),
+    'right': Reach(0.0, (0.75, -0.2, 0.0, -2.1, 0.0, 0.0)),
+}
+"""Where hands are while the robot steps up to furniture and bends: elbows back, nothing ahead."""
 _CARRIED_M = ((0.28, 0.20), (0.33, 0.24), (0.26, 0.28), (0.38, 0.20))
 """Where a hand may carry something: how far ahead of the pelvis, and how far aside."""
 _CLEAR_M = (0.16, 0.10, 0.04, -0.04, -0.12)
@@ -53,17 +61,24 @@ _LEVEL = {
 """A hand that is level before the body, whatever that means for what it holds."""
 TURNS_RAD = (0.0, 0.15, -0.15, 0.3, -0.3, 0.45, -0.45)
 """The turns of the waist that are tried."""
-_BACK_OFF_M = 0.25
-"""So far before where the robot is to stand, navigation ends and steps begin."""
-_BACK_M = 0.30
+_BACK_M = 0.35
 """How far the robot steps back from where it took a thing, or put it down."""
-_FAR_M, _FAR_RAD = 0.6, 0.8
-"""A robot that is farther from where it is to stand walks there by navigation."""
+_BESIDE_M, _BESIDE_RAD = 0.25, 0.4
+"""A robot that is no farther from where it is to stand steps there at once."""
+_NEAR_M = 1.5
+"""A robot that is no farther from before that, and has nothing in its way, steps there."""
+_THERE_RAD = 0.05
 _SLOW_RAD_S = 0.5
 _SHARES = (1.0, 0.75, 0.5, 0.25)
 _LEAST_SHARE = 0.5
 """Of its width, by which the gripper must stay open if it holds the thing."""
 GRIP_N = 25.0
+_THIN_M, _HOLDING_N = 0.008, 3.0
+"""A hand that is so far open although it closes with such a force holds something."""
+_OTHER_M = 0.025
+"""Fingers that are so much farther or less far open than they were hold it no longer."""
+_SOMETHING_M = (0.07, 0.07, 0.15)
+"""The size of what a hand holds of which nobody knows what it is."""
 _OTHERWISE = ('WALK_FAILED', 'NOT_REACHABLE', 'BLOCKED', 'SLIPPED')
 """What may go better from elsewhere."""
 
@@ -143,6 +158,18 @@ class Handling:
         """Say how far it is."""
         goal.publish_feedback(self._feedback(state=state))
 
+    async def begin(self, goal: RunningGoal) -> None:
+        """Wait until the arms can be moved, and feel what hands hold."""
+        node = self.node
+        await node.arms.wait(goal)
+        for side in HANGING:
+            gap_m, force_n = node.arms.grip_of(side)
+            held = node.held.get(side)
+            if held is None and gap_m > _THIN_M and force_n < -_HOLDING_N:
+                node.held[side] = _something(node.arms, side, gap_m)
+            elif held is not None and abs(gap_m - held.width_m) > _OTHER_M:
+                del node.held[side]
+
     def holding(self, asked: str) -> tuple[str, Held]:
         """Return the hand that is meant, and what it holds."""
         for side, held in self.node.held.items():
@@ -174,15 +201,56 @@ class Handling:
     async def stand(self, goal: RunningGoal, stance: Stance) -> None:
         """Walk to a stance, unless the robot is there."""
         self.tell(goal, 'walking')
-        feet, frame = self.node.feet, self.node.surroundings.frame
+        node, feet, frame = self.node, self.node.feet, self.node.surroundings.frame
         x_m, y_m, yaw_rad = await self.place_of_feet(goal)
-        away_m = math.hypot(stance.x_m - x_m, stance.y_m - y_m)
+        at, before = (stance.x_m, stance.y_m, stance.yaw_rad), stance.before
         turned_rad = abs(math.remainder(stance.yaw_rad - yaw_rad, math.tau))
-        if away_m > _FAR_M or turned_rad > _FAR_RAD:
-            c, s = math.cos(stance.yaw_rad), math.sin(stance.yaw_rad)
-            before = (stance.x_m - _BACK_OFF_M * c, stance.y_m - _BACK_OFF_M * s, stance.yaw_rad)
-            await feet.go(goal, frame, before)
-        await feet.step_to(goal, frame, (stance.x_m, stance.y_m, stance.yaw_rad))
+        if math.dist((x_m, y_m), at[:2]) > _BESIDE_M or turned_rad > _BESIDE_RAD:
+            await self.bring_arms(goal, self.at_ease())
+            # Navigation is for long ways: it turns in wide curves, and ends about there.
+            is_near = math.dist((x_m, y_m), before[:2]) < _NEAR_M
+            if is_near and is_clear_way((x_m, y_m), before[:2], node.surroundings.room_m):
+                await feet.step_to(goal, frame, before)
+            else:
+                await feet.go(goal, frame, before)
+        free = {side: end for side, end in TUCKED.items() if side not in node.held}
+        await self.bring_arms(goal, free)
+        try:
+            await feet.step_to(goal, frame, at)
+        except GoalAborted as error:
+            # Navigation does not begin so near to furniture.
+            if error.name == 'WALK_FAILED':
+                await self.step_back(goal)
+                await self.bring_arms(goal, self.at_ease())
+            raise
+
+    async def step_back(self, goal: RunningGoal) -> None:
+        """Step back from where something was taken, put down, or in the way."""
+        x_m, y_m, yaw_rad = await self.place_of_feet(goal)
+        back = (x_m - _BACK_M * math.cos(yaw_rad), y_m - _BACK_M * math.sin(yaw_rad), yaw_rad)
+        await self.node.feet.step_to(goal, self.node.surroundings.frame, back)
+
+    def at_ease(self) -> dict[str, Reach]:
+        """Return where arms are while the robot walks about."""
+        body, held = self.node.arms.body, self.node.held
+        return {
+            side: carrying(body, side, held[side]) if side in held else hanging
+            for side, hanging in HANGING.items()
+        }
+
+    async def bring_arms(
+        self, goal: RunningGoal, ends: Mapping[str, Reach], but: Sequence[str] = ()
+    ) -> None:
+        """Bring arms somewhere, free of all that is around but for some things."""
+        arms = self.node.arms
+        for side, end in ends.items():
+            start = arms.reach_of(side)
+            if max(abs(a - b) for a, b in zip(start.posture, end.posture)) < _THERE_RAD:
+                continue
+            held = {other: each.box for other, each in self.node.held.items()}
+            world = arms.world(await self.obstacles(goal, but), held, 0.0)
+            with self.failing():
+                await self.move(goal, side, plan(world, side, start, end))
 
     async def from_one_of(
         self,
@@ -221,7 +289,12 @@ class Handling:
                 trouble = error
                 node.get_logger().info(f'I try another way: {error}')
                 if has_begun:
-                    await self.withdraw(goal, stance.side)
+                    await self.withdraw(goal)
+            except GoalCanceled:
+                if has_begun:
+                    with goal.ending():
+                        await self.withdraw(goal)
+                raise
             finally:
                 node.feet.straighten()
         raise trouble
@@ -289,35 +362,28 @@ class Handling:
             await self.move(goal, side, way, _SLOW_RAD_S)
             return
 
-    async def rest(
-        self,
-        goal: RunningGoal,
-        side: str,
-        end: Reach,
-        held: Obstacle | None,
-        but: Sequence[str] = (),
-    ) -> None:
-        """Come up, step back, and bring a hand to where it rests, free of all but some things."""
-        node, arms = self.node, self.node.arms
-        await node.feet.bend(goal, BENDS[0])
-        # The hand may be above a surface; and navigation does not begin so near to furniture.
-        x_m, y_m, yaw_rad = await self.place_of_feet(goal)
-        back = (x_m - _BACK_M * math.cos(yaw_rad), y_m - _BACK_M * math.sin(yaw_rad), yaw_rad)
-        await node.feet.step_to(goal, node.surroundings.frame, back)
-        others = await self.obstacles(goal, but)
-        world = arms.world(others, {side: held} if held else {}, 0.0)
-        with self.failing():
-            await self.move(goal, side, plan(world, side, arms.reach_of(side), end))
+    async def withdraw(self, goal: RunningGoal, but: Sequence[str] = ()) -> None:
+        """
+        Come up, step back, and bring the arms to where they are while the robot walks.
 
-    async def withdraw(self, goal: RunningGoal, side: str) -> None:
-        """Bring a hand that has not got to its goal back, as far as it can."""
-        held = self.node.held.get(side)
-        end = carrying(self.node.arms.body, side, held) if held else HANGING[side]
+        That is done as far as it can be: what was asked for is over by then.
+
+        Parameters
+        ----------
+        goal
+            What it is done for.
+        but
+            The names of what arms may touch meanwhile.
+
+        """
         try:
-            await self.rest(goal, side, end, held.box if held else None)
+            await self.node.feet.bend(goal, BENDS[0])
+            await self.step_back(goal)
+            await self.bring_arms(goal, self.at_ease(), but)
         except GoalAborted as error:
             if error.name not in _OTHERWISE:
                 raise
+            self.node.get_logger().info(f'I do not get back to where I stand at ease: {error}')
 
     async def check_held(self, goal: RunningGoal, side: str, width_m: float) -> float:
         """Close a hand, and return the gap; -1 if what is that wide is not between its fingers."""
@@ -342,3 +408,17 @@ class Handling:
             raise GoalAborted('BLOCKED', str(error)) from None
         except ManipulationError as error:
             raise GoalAborted('ARM_FAILED', str(error)) from None
+
+
+def _something(arms: Arms, side: str, gap_m: float) -> Held:
+    """Return what a hand holds that was taken before this node ran, or by somebody else."""
+    gripper = arms.body.forward(side, arms.reach_of(side)).rotation
+    box = Obstacle('something', Frame(np.zeros(3), gripper.T), _SOMETHING_M)
+    return Held('something', box, gap_m, gripper, 0.5 * _SOMETHING_M[2])
+
+
+def unsound_side(side: str) -> str:
+    """Return why there is no such side; nothing if there is."""
+    if side in ('', *SIDES):
+        return ''
+    return f"There is no side '{side}'. Give left, right, or nothing for the one that fits."

@@ -25,7 +25,7 @@ from humanoid_manipulation.arms import Arms
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.feet import Feet
 from humanoid_manipulation.giving import Giving
-from humanoid_manipulation.handling import Held
+from humanoid_manipulation.handling import Held, unsound_side
 from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
 from humanoid_manipulation.picking import Picking
 from humanoid_manipulation.placing import Placing
@@ -96,10 +96,6 @@ class Manipulator(Node):
                 String, topic, lambda message, tell=take: tell(message.data), LATCHED
             )
 
-    def unsound_side(self, side: str) -> str:
-        """Return why there is no such side; nothing if there is."""
-        return _unsound_side(side)
-
     async def _reach(self, goal: RunningGoal) -> None:
         with self.transforms.listening(), self.arms.listening():
             await self.arms.wait(goal)
@@ -114,7 +110,14 @@ class Manipulator(Node):
             try:
                 side, way = await self._way(goal, wanted)
                 goal.result.side = side
-                await self.arms.move(goal, side, timed(way, told.max_velocity))
+                await self.arms.move(
+                    goal,
+                    side,
+                    timed(way, told.max_velocity),
+                    lambda: goal.publish_feedback(
+                        ReachAction.Feedback(distance=self._away_m(side, wanted))
+                    ),
+                )
             except OutOfReachError as error:
                 _fill_pose(goal.result.reached, told.base_frame, error.pose)
                 raise GoalAborted('NOT_REACHABLE', str(error)) from None
@@ -125,6 +128,11 @@ class Manipulator(Node):
             await goal.tick()
             reached = self.arms.body.forward(side, self.arms.reach_of(side))
             _fill_pose(goal.result.reached, told.base_frame, reached)
+
+    def _away_m(self, side: str, wanted: Frame) -> float:
+        """Return how far a gripper is from where it is to be in the pelvis."""
+        here = self.arms.body.forward(side, self.arms.reach_of(side)).position_m
+        return float(np.linalg.norm(here - wanted.position_m))
 
     async def _way(self, goal: RunningGoal, wanted: Frame) -> tuple[str, list[Reach]]:
         """Return which arm gets to a pose, and how."""
@@ -172,18 +180,11 @@ def _unsound(request: ReachAction.Goal) -> str:
         return 'Its pose has a number that is not finite.'
     if not 0.5 < math.hypot(*numbers[3:]) < 2.0:
         return 'The orientation of its pose is no quaternion of length 1.'
-    if reason := _unsound_side(request.side):
+    if reason := unsound_side(request.side):
         return reason
     if not 0.0 <= request.approach <= _LONGEST_APPROACH_M:
         return f'Its approach is {request.approach:g} m. Give 0 to {_LONGEST_APPROACH_M:g} m.'
     return ''
-
-
-def _unsound_side(side: str) -> str:
-    """Return why there is no such side; nothing if there is."""
-    if side in ('', *SIDES):
-        return ''
-    return f"There is no side '{side}'. Give left, right, or nothing for the one that fits."
 
 
 def _fill_pose(message: PoseStamped, name: str, frame: Frame) -> None:

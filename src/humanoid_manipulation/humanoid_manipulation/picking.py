@@ -14,7 +14,7 @@ from humanoid_control.dynamics.rotations import about_z
 from humanoid_interfaces.action import Pick
 from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.grasps import Grasp, grasps_of
-from humanoid_manipulation.handling import carrying, Handling, Held
+from humanoid_manipulation.handling import Handling, Held, unsound_side
 from humanoid_manipulation.stances import LIFT_M, Stance, stances_for
 from humanoid_manipulation.surroundings import Remembered
 from rclpy.action import ActionClient
@@ -50,13 +50,13 @@ class Picking(Handling):
         """Return why a goal makes no sense; nothing if it does."""
         if not request.object:
             return 'It names no object. Give the id of a remembered thing, or a class such as mug.'
-        return self.node.unsound_side(request.side)
+        return unsound_side(request.side)
 
     async def work(self, goal: RunningGoal) -> None:
         """Take a thing; the result says which one, and with which hand."""
         node = self.node
         with node.transforms.listening(), node.arms.listening():
-            await node.arms.wait(goal)
+            await self.begin(goal)
             place = await self.place_of_feet(goal)
             thing = self._thing(goal.request.object, place[:2])
             goal.result.object = thing.object_id
@@ -94,7 +94,11 @@ class Picking(Handling):
         """Return where to stand."""
         grasps = list(grasps_of(thing.graspable))
         if not grasps:
-            raise GoalAborted('NOT_REACHABLE', f'{thing.object_id} is too wide for my hand.')
+            raise GoalAborted(
+                'NOT_REACHABLE',
+                f'{thing.object_id} is too wide for my hand: '
+                f'{min(thing.graspable.size_m[:2].tolist()):.2f} m.',
+            )
         found = stances_for(
             self.node.arms.body,
             grasps,
@@ -102,6 +106,7 @@ class Picking(Handling):
             self.node.surroundings.places,
             near_m,
             sides,
+            room_m=self.node.surroundings.room_m,
         )
         if not found:
             raise GoalAborted(
@@ -186,7 +191,7 @@ class Picking(Handling):
         await self.shift(goal, side, LIFT_M, waist=True)
         await self._still_held(goal, side, held)
         self.tell(goal, 'carrying')
-        await self.rest(goal, side, carrying(self.node.arms.body, side, held), held.box, (name,))
+        await self.withdraw(goal, (name,))
         await self._still_held(goal, side, held)
 
     async def _still_held(self, goal: RunningGoal, side: str, held: Held) -> None:

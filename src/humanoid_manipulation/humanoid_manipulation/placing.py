@@ -14,7 +14,7 @@ from humanoid_control.dynamics.rotations import about_z
 from humanoid_description.robot import Array
 from humanoid_interfaces.action import Place
 from humanoid_manipulation.grasps import Grasp
-from humanoid_manipulation.handling import Handling, HANGING, Held
+from humanoid_manipulation.handling import Handling, Held, unsound_side
 from humanoid_manipulation.stances import Stance, stances_for
 from humanoid_perception.places import Surface
 import numpy as np
@@ -49,13 +49,13 @@ class Placing(Handling):
 
     def unsound(self, request: Any) -> str:
         """Return why a goal makes no sense; nothing if it does."""
-        return self.node.unsound_side(request.side)
+        return unsound_side(request.side)
 
     async def work(self, goal: RunningGoal) -> None:
         """Put a thing down; the result says where."""
         node = self.node
         with node.transforms.listening(), node.arms.listening():
-            await node.arms.wait(goal)
+            await self.begin(goal)
             side, held = self.holding(goal.request.side)
             goal.result.object = held.object_id
             place = await self.place_of_feet(goal)
@@ -117,6 +117,7 @@ class Placing(Handling):
                 near_m,
                 (side,),
                 1,
+                self.node.surroundings.room_m,
             )
         if not found:
             raise GoalAborted(
@@ -161,7 +162,7 @@ class Placing(Handling):
         position.x, position.y, position.z = float(at[0]), float(at[1]), surface.height_m
         away = grasp.gripper.rotation[:, 2] * 0.10
         await self.shift(goal, side, away)
-        await self.rest(goal, side, HANGING[side], None, (held.box.name,))
+        await self.withdraw(goal, (held.box.name,))
 
 
 def free_spots(

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 import math
 
@@ -24,6 +24,7 @@ __all__ = [
     'base_of',
     'effort',
     'grasp_reaches',
+    'is_clear_way',
     'stances_for',
 ]
 
@@ -33,11 +34,19 @@ _BACK_M, _BACK_M_RAD = 0.007, 0.145
 """How far the pelvis is behind the middle of the soles, and how far it goes back for each radian
 of its pitch, to keep the weight above the feet."""
 _RISE_M_RAD2 = 0.1
-_AHEAD_M = (0.34, 0.40, 0.46, 0.52, 0.58)
+_AHEAD_M = (0.34, 0.40, 0.46, 0.52, 0.58, 0.64)
 _ASIDE_M = (0.12, 0.20, 0.28)
 _HEADINGS = 16
 _EDGE_M = 0.20
 """From the middle of the feet to the edge of a piece of furniture, at least."""
+_LEAST_ROOM_M = 0.18
+"""From the middle of the feet to what is mapped, at least."""
+_BACK_OFF_M = 0.40
+"""So far before where the robot is to stand, navigation ends and steps begin."""
+_NAVIGABLE_M, _WIDE_M, _NARROW_COST_1_M = 0.33, 0.55, 2.0
+"""Navigation gets nowhere nearer to what is mapped, and does not well below the second distance;
+and what each metre less costs."""
+_STEP_M = 0.05
 _ARM_M, _ARM_EDGE_M = 0.25, 0.15
 """How far aside an arm hangs, and how far that is from furniture, at least."""
 _LEAST_COSINE = 0.5
@@ -95,6 +104,11 @@ class Stance:
     side: str
     grasp: Grasp
     cost: float
+
+    @property
+    def before(self) -> tuple[float, float, float]:
+        """Where navigation ends and steps begin: x and y in m, and the heading in rad."""
+        return *_before(self.x_m, self.y_m, self.yaw_rad), self.yaw_rad
 
 
 def base_of(x_m: float, y_m: float, yaw_rad: float, bend: Bend) -> Frame:
@@ -184,6 +198,7 @@ def stances_for(
     near_m: tuple[float, float] | None = None,
     sides: Sequence[str] = SIDES,
     at_most: int = 6,
+    room_m: Callable[[float, float], float] = lambda x_m, y_m: math.inf,
 ) -> list[Stance]:
     """
     Return where to stand to take hold of a thing, the best first.
@@ -204,22 +219,60 @@ def stances_for(
         The hands that may take it.
     at_most
         How many are wanted.
+    room_m
+        Returns how far a point of the map is from what is mapped.
 
     """
     found: list[Stance] = []
     for x_m, y_m, yaw_rad, side in _stands(position_m, places):
-        if side not in sides:
+        if side not in sides or room_m(x_m, y_m) < _LEAST_ROOM_M:
+            continue
+        before_m = room_m(*_before(x_m, y_m, yaw_rad))
+        if before_m < _NAVIGABLE_M:
             continue
         for bend in BENDS:
             best = _best(body, side, grasps, base_of(x_m, y_m, yaw_rad, bend), bend)
             if best is None:
                 continue
             cost, grasp = best
+            cost += _NARROW_COST_1_M * max(0.0, _WIDE_M - before_m)
             if near_m is not None:
                 cost += 0.6 * math.dist(near_m, (x_m, y_m))
             found.append(Stance(x_m, y_m, yaw_rad, bend, side, grasp, cost))
             break
     return _apart(sorted(found, key=lambda stance: stance.cost), at_most)
+
+
+def _before(x_m: float, y_m: float, yaw_rad: float) -> tuple[float, float]:
+    """Return a point behind where the robot stands, clear of what it faces."""
+    return x_m - _BACK_OFF_M * math.cos(yaw_rad), y_m - _BACK_OFF_M * math.sin(yaw_rad)
+
+
+def is_clear_way(
+    begin_m: tuple[float, float],
+    end_m: tuple[float, float],
+    room_m: Callable[[float, float], float],
+) -> bool:
+    """
+    Return whether the robot can step straight from one place to another, facing anywhere.
+
+    Parameters
+    ----------
+    begin_m, end_m
+        Where the robot is, and where it is to be: x and y in the map.
+    room_m
+        Returns how far a point of the map is from what is mapped.
+
+    """
+    count = max(1, math.ceil(math.dist(begin_m, end_m) / _STEP_M))
+    on_the_way = (
+        room_m(
+            begin_m[0] + share * (end_m[0] - begin_m[0]),
+            begin_m[1] + share * (end_m[1] - begin_m[1]),
+        )
+        for share in np.linspace(0.0, 1.0, count + 1).tolist()
+    )
+    return min(on_the_way) >= _NAVIGABLE_M
 
 
 def _stands(position_m: Array, places: Places) -> Iterator[tuple[float, float, float, str]]:

@@ -38,6 +38,8 @@ class World:
         self._description = self.node.create_publisher(String, 'robot_description', LATCHED)
         self._description.publish(String(data=humanoid_urdf(hands=True)))
         self.objects = self.node.create_publisher(Detection3DArray, 'objects', LATCHED)
+        self.distances_m: list[float] = []
+        """How far the hand was from its goal, as the feedback has told."""
         ros.start(MockRobot, {'hands': True})
         ros.start(Manipulator)
         self._client = ActionClient(self.node, Reach, 'reach')
@@ -50,7 +52,12 @@ class World:
         at, turn = goal.pose.pose.position, goal.pose.pose.orientation
         at.x, at.y, at.z = position_m
         turn.w, turn.y = math.cos(math.pi / 4.0), -math.sin(math.pi / 4.0)
-        return self._wait(self._client.send_goal_async(goal))
+        self.distances_m = []
+        return self._wait(
+            self._client.send_goal_async(
+                goal, lambda message: self.distances_m.append(message.feedback.distance)
+            )
+        )
 
     def end_of(self, handle: Any) -> Any:
         """Return how a goal ended."""
@@ -106,6 +113,7 @@ def test_the_hand_comes_to_where_it_is_asked(world: World) -> None:
     assert end.result.reached.header.frame_id == 'base_link'
     assert at(end.result.reached) == pytest.approx(ABOVE, abs=0.005)
     assert world.joints['left_elbow'] < -0.3
+    assert world.distances_m[0] > 0.1 and world.distances_m[-1] < 0.02
     mirrored = (ABOVE[0], -ABOVE[1], ABOVE[2])
     end = world.end_of(world.send(mirrored))
     assert (end.status, end.result.side) == (GoalStatus.STATUS_SUCCEEDED, 'right')

@@ -10,7 +10,7 @@ from typing import Any
 
 from action_msgs.msg import GoalStatus
 from geometry_msgs.msg import Vector3, Wrench
-from humanoid_common.qos import LATCHED
+from humanoid_common.qos import LATCHED, SENSOR
 from humanoid_common.testing.launching import running_launch_file
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_description.expansion import humanoid_urdf
@@ -22,6 +22,7 @@ from humanoid_simulation.testing.simulators import simulation
 import pytest
 from rclpy.action import ActionClient
 from rclpy.duration import Duration
+from sensor_msgs.msg import JointState
 from simulation_interfaces.srv import GetEntityState
 from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
 
@@ -61,7 +62,15 @@ class World:
         """Start the manipulator."""
         self.ros, self.robot = ros, SimulatedRobot(ros)
         self.states: list[str] = []
+        self._handle: Any = None
+        self._joints: dict[str, float] = {}
         node = ros.observer()
+        node.create_subscription(
+            JointState,
+            'joint_states',
+            lambda message: self._joints.update(zip(message.name, message.position)),
+            SENSOR,
+        )
         self._objects = node.create_publisher(Detection3DArray, 'objects', LATCHED)
         self._state = node.create_client(GetEntityState, 'simulator/get_entity_state')
         self._push = node.create_client(ApplyWrench, 'simulator/apply_wrench')
@@ -115,7 +124,16 @@ class World:
             lambda message: self.states.append(message.feedback.state),
         )
         self.ros.wait_until(sent.done, 60.0, 'an answer')
-        return sent.result().get_result_async()
+        self._handle = sent.result()
+        return self._handle.get_result_async()
+
+    def cancel(self) -> None:
+        """Cancel the goal that was begun last."""
+        self._handle.cancel_goal_async()
+
+    def joint_rad(self, name: str) -> float:
+        """Return where a joint is."""
+        return self._joints[name]
 
     def pull(self) -> None:
         """Pull at the can."""
@@ -166,6 +184,23 @@ def test_what_is_not_there_is_not_taken(world: World) -> None:
         ('drop', Drop.Result.EMPTY_HAND),
     ):
         assert world.act(name).result.error_code == code
+
+
+def test_a_canceled_goal_leaves_the_can_and_the_robot_in_order(world: World) -> None:
+    """The hand comes back, and the robot stands upright."""
+    world.remember()
+    world.robot.wait(0.5)
+    before = world.can_m
+    end = world.start('pick', object='can')
+    world.ros.wait_until(lambda: 'reaching' in world.states, PATIENCE_S, 'a hand on its way')
+    world.robot.wait(0.7)
+    world.cancel()
+    world.ros.wait_until(end.done, PATIENCE_S, 'the end')
+    assert end.result().status == GoalStatus.STATUS_CANCELED
+    assert world.can_m == pytest.approx(before, abs=0.02)
+    world.robot.wait(1.0)
+    for side in ('left', 'right'):
+        assert world.joint_rad(f'{side}_elbow') == pytest.approx(-0.5, abs=0.1)
 
 
 def test_a_can_is_taken_put_down_and_handed_over(world: World) -> None:
