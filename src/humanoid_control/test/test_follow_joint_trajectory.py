@@ -13,11 +13,12 @@ from builtin_interfaces.msg import Duration
 from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import JointComponentTolerance, JointTolerance
 from controller_manager_msgs.srv import ListControllers
+from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.hosting.conversions import seconds
 from humanoid_control.hosting.goal_server import FEEDBACK_RATE_HZ
 from humanoid_control.mock_robot import MockRobot
-from humanoid_control.trajectory_testing import trajectory_goal, TrajectoryClient
+from humanoid_control.trajectory_testing import trajectory_goal
 from humanoid_description.drives import load_drives
 import pytest
 from rcl_interfaces.msg import Log
@@ -39,17 +40,15 @@ class World:
         self.ros, self.node = ros, ros.observer()
         self.logs: list[str] = []
         self.joints: dict[str, float] = {}
-        self._clients: list[TrajectoryClient] = []
+        self._clients: list[ActionCaller] = []
         self.node.create_subscription(Log, '/rosout', lambda log: self.logs.append(log.msg), 100)
         self.node.create_subscription(JointState, 'joint_states', self._hear, 10)
         self.robot = ros.start(MockRobot, {})
         ros.wait_until(lambda: bool(self.joints), 60.0, 'joints')
 
-    def client(
-        self, name: str = 'left_arm_controller/follow_joint_trajectory'
-    ) -> TrajectoryClient:
+    def client(self, name: str = 'left_arm_controller/follow_joint_trajectory') -> ActionCaller:
         """Return a client of an action."""
-        self._clients.append(TrajectoryClient(self.ros, name))
+        self._clients.append(ActionCaller(self.ros, FollowJointTrajectory, name))
         return self._clients[-1]
 
     def close(self) -> None:
@@ -107,7 +106,7 @@ def test_cancel(world: World) -> None:
     client = world.client()
     handle = client.send(trajectory_goal(ARM, (20.0, [0.9, 0.4, 0.0, -0.5])))
     world.wait('some way', lambda: world.joints['left_shoulder'] > 0.05)
-    answer = client.wait(handle.cancel_goal_async(), 'an answer to the cancellation')
+    answer = client.cancel(handle)
     assert len(answer.goals_canceling) == 1
     status, result = client.end_of(handle)
     assert status == GoalStatus.STATUS_CANCELED

@@ -7,13 +7,13 @@ from collections.abc import Iterator
 from typing import Any
 
 from action_msgs.msg import GoalStatus
-from control_msgs.action import GripperCommand
+from control_msgs.action import FollowJointTrajectory, GripperCommand
 from controller_manager_msgs.srv import ListControllers
+from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.mock_robot import MockRobot
-from humanoid_control.trajectory_testing import trajectory_goal, TrajectoryClient
+from humanoid_control.trajectory_testing import trajectory_goal
 import pytest
-from rclpy.action import ActionClient
 from sensor_msgs.msg import JointState
 
 ACTION = 'left_gripper_controller/gripper_cmd'
@@ -27,35 +27,18 @@ class World:
         """Start the robot."""
         self.ros, self.node = ros, ros.observer()
         self.joints: dict[str, float] = {}
-        self.feedback: list[Any] = []
         self.node.create_subscription(JointState, 'joint_states', self._hear, 10)
         ros.start(MockRobot, {'hands': True})
-        self._client = ActionClient(self.node, GripperCommand, ACTION)
-        ros.wait_until(self._client.server_is_ready, PATIENCE_S, ACTION)
+        self.caller = ActionCaller(ros, GripperCommand, ACTION)
 
     def send(self, gap_m: float, most_n: float = 0.0) -> Any:
         """Return the handle of a goal."""
         goal = GripperCommand.Goal()
         goal.command.position, goal.command.max_effort = gap_m, most_n
-        return self._wait(self._client.send_goal_async(goal, self._learn))
-
-    def end_of(self, handle: Any) -> Any:
-        """Return how a goal ended."""
-        return self._wait(handle.get_result_async())
-
-    def close(self) -> None:
-        """End."""
-        self._client.destroy()
-
-    def _wait(self, future: Any) -> Any:
-        self.ros.wait_until(future.done, PATIENCE_S, 'an answer')
-        return future.result()
+        return self.caller.send(goal)
 
     def _hear(self, message: JointState) -> None:
         self.joints = dict(zip(message.name, message.position))
-
-    def _learn(self, message: Any) -> None:
-        self.feedback.append(message.feedback)
 
 
 @pytest.fixture(name='world', scope='module')
@@ -64,24 +47,24 @@ def _world() -> Iterator[World]:
     with ros_sandbox() as sandbox:
         world = World(sandbox)
         yield world
-        world.close()
+        world.caller.close()
 
 
 def test_a_gripper_opens_and_closes(world: World) -> None:
     """Positions are gaps; joint_states has the finger, which goes half of that."""
     handle = world.send(0.08)
     assert handle.accepted
-    end = world.end_of(handle)
+    end = world.caller.end_of(handle)
     assert end.status == GoalStatus.STATUS_SUCCEEDED
     assert end.result.reached_goal and not end.result.stalled
     assert end.result.position == pytest.approx(0.08, abs=0.004)
-    assert world.feedback and world.feedback[0].position < 0.08
+    assert world.caller.feedback and world.caller.feedback[0].position < 0.08
     world.ros.wait_until(
         lambda: world.joints.get('left_gripper', 0.0) == pytest.approx(0.04, abs=0.001),
         PATIENCE_S,
         'the finger',
     )
-    assert world.end_of(world.send(0.0)).result.reached_goal
+    assert world.caller.end_of(world.send(0.0)).result.reached_goal
 
 
 def test_what_it_cannot_do_is_rejected(world: World) -> None:
@@ -104,7 +87,9 @@ def test_it_is_one_of_the_controllers(world: World) -> None:
 
 def test_an_arm_moves_with_its_wrist(world: World) -> None:
     """A goal names all six joints."""
-    client = TrajectoryClient(world.ros, 'left_arm_controller/follow_joint_trajectory')
+    client = ActionCaller(
+        world.ros, FollowJointTrajectory, 'left_arm_controller/follow_joint_trajectory'
+    )
     joints = ['shoulder', 'shoulder_roll', 'shoulder_yaw', 'elbow', 'wrist_yaw', 'wrist_pitch']
     goal = trajectory_goal(
         [f'left_{joint}' for joint in joints], (1.0, [0.0, 0.3, 0.0, -1.0, 0.5, -0.4])

@@ -9,13 +9,13 @@ from typing import Any
 
 from action_msgs.msg import GoalStatus
 from humanoid_common.qos import LATCHED
+from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.mock_robot import MockRobot
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_interfaces.action import Reach
 from humanoid_manipulation.manipulator import Manipulator
 import pytest
-from rclpy.action import ActionClient
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from vision_msgs.msg import Detection3D, Detection3DArray
@@ -38,12 +38,9 @@ class World:
         self._description = self.node.create_publisher(String, 'robot_description', LATCHED)
         self._description.publish(String(data=humanoid_urdf(hands=True)))
         self.objects = self.node.create_publisher(Detection3DArray, 'objects', LATCHED)
-        self.distances_m: list[float] = []
-        """How far the hand was from its goal, as the feedback has told."""
         ros.start(MockRobot, {'hands': True})
         ros.start(Manipulator)
-        self._client = ActionClient(self.node, Reach, 'reach')
-        ros.wait_until(self._client.server_is_ready, PATIENCE_S, 'reach')
+        self.caller = ActionCaller(ros, Reach, 'reach')
 
     def send(self, position_m: tuple[float, float, float], **fields: Any) -> Any:
         """Return the handle of a goal: a hand that points ahead."""
@@ -52,17 +49,8 @@ class World:
         at, turn = goal.pose.pose.position, goal.pose.pose.orientation
         at.x, at.y, at.z = position_m
         turn.w, turn.y = math.cos(math.pi / 4.0), -math.sin(math.pi / 4.0)
-        self.distances_m = []
-        return self._wait(
-            self._client.send_goal_async(
-                goal, lambda message: self.distances_m.append(message.feedback.distance)
-            )
-        )
-
-    def end_of(self, handle: Any) -> Any:
-        """Return how a goal ended."""
-        assert handle.accepted
-        return self._wait(handle.get_result_async())
+        self.caller.feedback.clear()
+        return self.caller.send(goal)
 
     def put(self, position_m: tuple[float, float, float], edge_m: float) -> None:
         """Let the robot remember a cube."""
@@ -78,14 +66,6 @@ class World:
         message.header.frame_id = 'base_link'
         self.objects.publish(message)
 
-    def close(self) -> None:
-        """End."""
-        self._client.destroy()
-
-    def _wait(self, future: Any) -> Any:
-        self.ros.wait_until(future.done, PATIENCE_S, 'an answer')
-        return future.result()
-
     def _hear(self, message: JointState) -> None:
         self.joints = dict(zip(message.name, message.position))
 
@@ -96,7 +76,7 @@ def _world() -> Iterator[World]:
     with ros_sandbox() as sandbox:
         world = World(sandbox)
         yield world
-        world.close()
+        world.caller.close()
 
 
 def at(pose: Any) -> tuple[float, float, float]:
@@ -107,22 +87,23 @@ def at(pose: Any) -> tuple[float, float, float]:
 
 def test_the_hand_comes_to_where_it_is_asked(world: World) -> None:
     """By the arm that is nearer, and along the hand if asked."""
-    end = world.end_of(world.send(ABOVE, approach=0.08))
+    end = world.caller.end_of(world.send(ABOVE, approach=0.08))
     assert end.status == GoalStatus.STATUS_SUCCEEDED, end.result.error_msg
     assert end.result.side == 'left'
     assert end.result.reached.header.frame_id == 'base_link'
     assert at(end.result.reached) == pytest.approx(ABOVE, abs=0.005)
     assert world.joints['left_elbow'] < -0.3
-    assert world.distances_m[0] > 0.1 and world.distances_m[-1] < 0.02
+    told_m = [each.distance for each in world.caller.feedback]
+    assert told_m[0] > 0.1 and told_m[-1] < 0.02
     mirrored = (ABOVE[0], -ABOVE[1], ABOVE[2])
-    end = world.end_of(world.send(mirrored))
+    end = world.caller.end_of(world.send(mirrored))
     assert (end.status, end.result.side) == (GoalStatus.STATUS_SUCCEEDED, 'right')
     assert at(end.result.reached) == pytest.approx(mirrored, abs=0.005)
 
 
 def test_what_is_out_of_reach_gets_the_nearest_pose(world: World) -> None:
     """The code and the sentence say so."""
-    end = world.end_of(world.send((0.9, 0.2, 0.2), side='left'))
+    end = world.caller.end_of(world.send((0.9, 0.2, 0.2), side='left'))
     assert end.status == GoalStatus.STATUS_ABORTED
     assert end.result.error_code == Reach.Result.NOT_REACHABLE
     assert 'no closer than' in end.result.error_msg
@@ -135,8 +116,8 @@ def test_what_is_in_the_way_is_named(world: World) -> None:
     try:
         for _ in range(10):
             # What the hand touches already, it may.
-            assert world.end_of(world.send(ASIDE, side='left')).result.error_code == 0
-            end = world.end_of(world.send(ABOVE, side='left'))
+            assert world.caller.end_of(world.send(ASIDE, side='left')).result.error_code == 0
+            end = world.caller.end_of(world.send(ABOVE, side='left'))
             if end.status == GoalStatus.STATUS_ABORTED:
                 break
         assert end.result.error_code == Reach.Result.BLOCKED
@@ -147,14 +128,14 @@ def test_what_is_in_the_way_is_named(world: World) -> None:
 
 def test_cancel_stops_the_arm(world: World) -> None:
     """It goes no further."""
-    world.end_of(world.send(ASIDE, side='left'))
+    world.caller.end_of(world.send(ASIDE, side='left'))
     handle = world.send((0.40, 0.25, 0.25), side='left')
     before = world.joints['left_shoulder']
     world.ros.wait_until(
         lambda: abs(world.joints['left_shoulder'] - before) > 0.05, PATIENCE_S, 'a motion'
     )
     handle.cancel_goal_async()
-    assert world.end_of(handle).status == GoalStatus.STATUS_CANCELED
+    assert world.caller.end_of(handle).status == GoalStatus.STATUS_CANCELED
 
 
 @pytest.mark.parametrize(

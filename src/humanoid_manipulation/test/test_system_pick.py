@@ -11,6 +11,7 @@ from typing import Any
 from action_msgs.msg import GoalStatus
 from geometry_msgs.msg import Vector3, Wrench
 from humanoid_common.qos import LATCHED, SENSOR
+from humanoid_common.testing.actions import ActionCaller, End
 from humanoid_common.testing.launching import running_launch_file
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_description.expansion import humanoid_urdf
@@ -20,7 +21,6 @@ from humanoid_manipulation.manipulator import Manipulator
 from humanoid_simulation.testing.simulated_robot import SimulatedRobot
 from humanoid_simulation.testing.simulators import simulation
 import pytest
-from rclpy.action import ActionClient
 from rclpy.duration import Duration
 from sensor_msgs.msg import JointState
 from simulation_interfaces.srv import GetEntityState
@@ -61,8 +61,6 @@ class World:
     def __init__(self, ros: RosSandbox, places: Path) -> None:
         """Start the manipulator."""
         self.ros, self.robot = ros, SimulatedRobot(ros)
-        self.states: list[str] = []
-        self._handle: Any = None
         self._joints: dict[str, float] = {}
         node = ros.observer()
         node.create_subscription(
@@ -75,9 +73,7 @@ class World:
         self._state = node.create_client(GetEntityState, 'simulator/get_entity_state')
         self._push = node.create_client(ApplyWrench, 'simulator/apply_wrench')
         ros.start(Manipulator, {'places_file': str(places), 'use_sim_time': True})
-        self._clients = {name: ActionClient(node, kind, name) for name, kind in KINDS.items()}
-        for name, client in self._clients.items():
-            ros.wait_until(client.server_is_ready, 60.0, name)
+        self._callers = {name: ActionCaller(ros, kind, name) for name, kind in KINDS.items()}
         ros.wait_until(self._state.service_is_ready, 60.0, 'the simulator')
 
     @property
@@ -101,35 +97,24 @@ class World:
         message.header.frame_id = 'odom'
         self._objects.publish(message)
 
-    def act(self, name: str, **fields: Any) -> Any:
+    def act(self, name: str, **fields: Any) -> End:
         """Do a goal, and return its end; the robot stays on its feet."""
-        self.states.clear()
-        client = self._clients[name]
-        sent = client.send_goal_async(
-            KINDS[name].Goal(**fields),
-            lambda message: self.states.append(getattr(message.feedback, 'state', '')),
-        )
-        self.ros.wait_until(sent.done, 60.0, 'an answer')
-        assert sent.result().accepted
-        end = sent.result().get_result_async()
-        self.ros.wait_until(lambda: end.done() or not self.robot.stands, PATIENCE_S, name)
+        end = self._callers[name].end_of(self.start(name, **fields), PATIENCE_S)
         assert self.robot.stands
-        return end.result()
+        return end
 
     def start(self, name: str, **fields: Any) -> Any:
-        """Begin a goal, and return the future of its end."""
-        self.states.clear()
-        sent = self._clients[name].send_goal_async(
-            KINDS[name].Goal(**fields),
-            lambda message: self.states.append(message.feedback.state),
-        )
-        self.ros.wait_until(sent.done, 60.0, 'an answer')
-        self._handle = sent.result()
-        return self._handle.get_result_async()
+        """Begin a goal, and return its handle."""
+        self._callers[name].feedback.clear()
+        return self._callers[name].send(**fields)
 
-    def cancel(self) -> None:
-        """Cancel the goal that was begun last."""
-        self._handle.cancel_goal_async()
+    def end_of(self, name: str, handle: Any) -> End:
+        """Return how a goal ends."""
+        return self._callers[name].end_of(handle, PATIENCE_S)
+
+    def states(self, name: str) -> list[str]:
+        """Return what the newest goal of an action has told of itself."""
+        return [each.state for each in self._callers[name].feedback]
 
     def joint_rad(self, name: str) -> float:
         """Return where a joint is."""
@@ -146,8 +131,8 @@ class World:
 
     def close(self) -> None:
         """End."""
-        for client in self._clients.values():
-            client.destroy()
+        for caller in self._callers.values():
+            caller.close()
 
     def _ask(self, client: Any, request: Any) -> Any:
         future = client.call_async(request)
@@ -191,12 +176,13 @@ def test_a_canceled_goal_leaves_the_can_and_the_robot_in_order(world: World) -> 
     world.remember()
     world.robot.wait(0.5)
     before = world.can_m
-    end = world.start('pick', object='can')
-    world.ros.wait_until(lambda: 'reaching' in world.states, PATIENCE_S, 'a hand on its way')
+    goal = world.start('pick', object='can')
+    world.ros.wait_until(
+        lambda: 'reaching' in world.states('pick'), PATIENCE_S, 'a hand on its way'
+    )
     world.robot.wait(0.7)
-    world.cancel()
-    world.ros.wait_until(end.done, PATIENCE_S, 'the end')
-    assert end.result().status == GoalStatus.STATUS_CANCELED
+    goal.cancel_goal_async()
+    assert world.end_of('pick', goal).status == GoalStatus.STATUS_CANCELED
     assert world.can_m == pytest.approx(before, abs=0.02)
     world.robot.wait(1.0)
     for side in ('left', 'right'):
@@ -210,7 +196,8 @@ def test_a_can_is_taken_put_down_and_handed_over(world: World) -> None:
     end = world.act('pick', object='red can')
     assert end.status == GoalStatus.STATUS_SUCCEEDED, end.result.error_msg
     assert end.result.object == 'red_can_1'
-    assert world.states[-1] == 'carrying' and 'closing' in world.states
+    states = world.states('pick')
+    assert states[-1] == 'carrying' and 'closing' in states
     world.robot.wait(3.0)
     assert world.can_m[2] > 0.80
     pose = world.robot.pose.position_m
@@ -229,10 +216,12 @@ def test_a_can_is_taken_put_down_and_handed_over(world: World) -> None:
     world.robot.wait(0.5)
     assert world.act('pick', object='red_can_1').status == GoalStatus.STATUS_SUCCEEDED
     handed = world.start('hand_over')
-    world.ros.wait_until(lambda: 'waiting' in world.states, PATIENCE_S, 'a hand that is held out')
+    world.ros.wait_until(
+        lambda: 'waiting' in world.states('hand_over'), PATIENCE_S, 'a hand that is held out'
+    )
     world.robot.wait(2.0)
-    assert 'opening' not in world.states
+    assert 'opening' not in world.states('hand_over')
     world.pull()
-    world.ros.wait_until(handed.done, PATIENCE_S, 'the end')
-    assert handed.result().status == GoalStatus.STATUS_SUCCEEDED, handed.result().result.error_msg
+    end = world.end_of('hand_over', handed)
+    assert end.status == GoalStatus.STATUS_SUCCEEDED, end.result.error_msg
     assert world.act('drop').result.error_code == Drop.Result.EMPTY_HAND

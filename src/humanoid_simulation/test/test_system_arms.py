@@ -10,8 +10,9 @@ from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Duration
 from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import JointTolerance
+from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.ros import RosSandbox
-from humanoid_control.trajectory_testing import trajectory_goal, TrajectoryClient
+from humanoid_control.trajectory_testing import trajectory_goal
 from humanoid_simulation.testing.simulated_robot import SimulatedRobot
 from humanoid_simulation.testing.simulators import simulation
 import numpy as np
@@ -34,7 +35,9 @@ class Arms:
         self.states: list[JointState] = []
         ros.observer().create_subscription(JointState, 'joint_states', self.states.append, 100)
         self.clients = {
-            side: TrajectoryClient(ros, f'{side}_arm_controller/follow_joint_trajectory')
+            side: ActionCaller(
+                ros, FollowJointTrajectory, f'{side}_arm_controller/follow_joint_trajectory'
+            )
             for side in SIDES
         }
         ros.wait_until(lambda: bool(self.states), 60.0, 'joint states')

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Call an action in a test."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from humanoid_common.testing.ros import RosSandbox
+from rclpy.action import ActionClient
+from rclpy.task import Future
+
+PATIENCE_S = 100.0
+"""How long an answer may take on a busy computer."""
+
+
+class End(NamedTuple):
+    """How a goal ended: one of the statuses of `action_msgs/msg/GoalStatus`, and its result."""
+
+    status: int
+    result: Any
+
+
+class ActionCaller:
+    """
+    A client of an action, which is there when this has been made.
+
+    Parameters
+    ----------
+    ros
+        Where the nodes of the test are.
+    kind, name
+        The type and the name of the action.
+
+    Attributes
+    ----------
+    feedback
+        What was told of the goals so far; a test may clear it.
+
+    """
+
+    def __init__(self, ros: RosSandbox, kind: Any, name: str) -> None:
+        self.kind, self._ros, self._name = kind, ros, name
+        self.feedback: list[Any] = []
+        self._client = ActionClient(ros.observer(), kind, name)
+        ros.wait_until(self._client.server_is_ready, PATIENCE_S, name)
+
+    def send(self, goal: Any = None, **fields: Any) -> Any:
+        """Return the handle of a goal, which is given as a whole or by its fields."""
+        future = self._client.send_goal_async(
+            self.kind.Goal(**fields) if goal is None else goal,
+            lambda message: self.feedback.append(message.feedback),
+        )
+        return self._waited(future, PATIENCE_S)
+
+    def end_of(self, handle: Any, patience_s: float = PATIENCE_S) -> End:
+        """Return how a goal that was accepted ends."""
+        assert handle.accepted
+        answer = self._waited(handle.get_result_async(), patience_s)
+        return End(answer.status, answer.result)
+
+    def cancel(self, handle: Any) -> Any:
+        """Cancel a goal, and return what is answered to that."""
+        return self._waited(handle.cancel_goal_async(), PATIENCE_S)
+
+    def close(self) -> None:
+        """End."""
+        self._client.destroy()
+
+    def _waited(self, future: Future[Any], patience_s: float) -> Any:
+        self._ros.wait_until(future.done, patience_s, f'an answer of {self._name}')
+        return future.result()
