@@ -299,25 +299,70 @@ class Handling:
                 node.feet.straighten()
         raise trouble
 
-    def choose(
+    async def choose(
         self,
+        goal: RunningGoal,
         grasps: Iterable[Grasp],
         side: str,
         place: tuple[float, float, float],
+        where: str,
+        but: str,
         bends: Iterable[Bend] = BENDS,
-    ) -> tuple[Grasp, Bend] | None:
-        """Return the grasp and the bend that are best from where the robot stands, if any."""
-        body = self.node.arms.body
+    ) -> tuple[Grasp, Bend]:
+        """
+        Return the grasp and the bend that are best from where the robot stands.
+
+        Parameters
+        ----------
+        goal
+            What it is done for.
+        grasps, side
+            The grasps in the map, and whose hand.
+        place
+            Where the robot stands: see `Feet.place`.
+        where
+            What that is called in sentences.
+        but
+            The name of what the arm may touch.
+        bends
+            Those that are considered.
+
+        Raises
+        ------
+        GoalAborted
+            The hand gets to none of them, or the arm would touch something there.
+
+        """
+        node, body, grasps = self.node, self.node.arms.body, list(grasps)
+        around, now = await self.obstacles(goal), self.base
+        held = {each: thing.box for each, thing in node.held.items()}
         best: tuple[float, Grasp, Bend] | None = None
-        for grasp in grasps:
-            for bend in bends:
-                reached = grasp_reaches(body, side, grasp, base_of(*place, bend), turns=TURNS_RAD)
+        trouble = GoalAborted('NOT_REACHABLE', f'I do not get to {where} from here.')
+        for bend in bends:
+            base = base_of(*place, bend)
+            world = node.arms.world([_moved(each, now, base) for each in around], held, 0.0)
+            anyway = {each.names for each in world.contacts(side, node.arms.reach_of(side))}
+            for grasp in grasps:
+                reached = grasp_reaches(body, side, grasp, base, turns=TURNS_RAD)
                 if reached is None:
                     continue
                 cost = effort(body, grasp, reached, side, bend)
-                if best is None or cost < best[0]:
+                if best is not None and cost >= best[0]:
+                    continue
+                touched = [
+                    contact
+                    for reach in reached
+                    for contact in world.contacts(side, reach)
+                    if contact.names not in anyway and but not in contact.names
+                ]
+                if touched:
+                    text = f'The {side} arm cannot get to {where}: {touched[0]}.'
+                    trouble = GoalAborted('BLOCKED', text)
+                else:
                     best = cost, grasp, bend
-        return best and best[1:]
+        if best is None:
+            raise trouble
+        return best[1:]
 
     async def go_before(
         self, goal: RunningGoal, side: str, grasp: Grasp, world: ArmWorld, name: str
@@ -408,6 +453,13 @@ class Handling:
             raise GoalAborted('BLOCKED', str(error)) from None
         except ManipulationError as error:
             raise GoalAborted('ARM_FAILED', str(error)) from None
+
+
+def _moved(obstacle: Obstacle, now: Frame, then: Frame) -> Obstacle:
+    """Return what is seen from the pelvis as it will be seen from another place of it."""
+    at = now.position_m + now.rotation @ obstacle.middle.position_m
+    middle = Frame(at, now.rotation @ obstacle.middle.rotation)
+    return Obstacle(obstacle.name, middle.seen_from(then), obstacle.size_m)
 
 
 def _something(arms: Arms, side: str, gap_m: float) -> Held:

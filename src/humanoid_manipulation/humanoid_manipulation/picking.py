@@ -160,16 +160,12 @@ class Picking(Handling):
         node, arms = self.node, self.node.arms
         thing = self._thing(object_id)
         feet = await self.place_of_feet(goal)
-        chosen = self.choose(_untried(thing, tried), side, feet)
-        if chosen is None:
-            raise GoalAborted('NOT_REACHABLE', f'I do not get to {thing.object_id} from here.')
+        name = thing.name
+        _, bend = await self.choose(goal, _untried(thing, tried), side, feet, name, name)
         self.tell(goal, 'bending')
-        await node.feet.bend(goal, chosen[1])
+        await node.feet.bend(goal, bend)
         thing = await self._look_at(goal, thing)
-        chosen = self.choose(_untried(thing, tried), side, feet, (chosen[1],))
-        if chosen is None:
-            raise GoalAborted('NOT_REACHABLE', f'I do not get to {thing.object_id} from here.')
-        grasp = chosen[0]
+        grasp, _ = await self.choose(goal, _untried(thing, tried), side, feet, name, name, (bend,))
         tried.append(grasp)
         world = arms.world(await self.obstacles(goal), {}, node.parameters.current.clearance)
         self.tell(goal, 'reaching')

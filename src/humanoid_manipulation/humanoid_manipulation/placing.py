@@ -140,10 +140,7 @@ class Placing(Handling):
         grasps = [
             each for spot in near for each in _ways_down(held, np.array([*spot, surface.height_m]))
         ]
-        chosen = self.choose(grasps, side, feet)
-        if chosen is None:
-            raise GoalAborted('NOT_REACHABLE', f'I do not get onto {_words(surface)} from here.')
-        grasp, bend = chosen
+        grasp, bend = await self.choose(goal, grasps, side, feet, _words(surface), held.box.name)
         self.tell(goal, 'bending')
         await node.feet.bend(goal, bend)
         world = arms.world(await self.obstacles(goal), {side: held.box}, 0.0)
