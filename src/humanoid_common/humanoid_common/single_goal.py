@@ -18,7 +18,7 @@ __all__ = ['GoalAborted', 'GoalCanceled', 'RunningGoal', 'SingleGoal']
 
 _TICK_HZ = 20.0
 _PATIENCE_S = 5.0
-"""How long another action may take to be there, and to answer."""
+"""How long what a goal needs may take to come."""
 
 
 class GoalCanceled(Exception):
@@ -80,15 +80,13 @@ class RunningGoal:
         await self._owner.tick()
         self.check()
 
-    async def answer(self, future: Future, timeout_s: float, name: str, text: str) -> Any:
-        """Return what a future brings; abort with the code and text if it brings nothing."""
-        ticks = 0
-        while not future.done():
-            ticks += 1
-            if ticks > timeout_s * _TICK_HZ:
-                raise GoalAborted(name, text)
+    async def comes(self, condition: Callable[[], bool]) -> bool:
+        """Wait until something holds; return whether it does after a while."""
+        for _ in range(round(_PATIENCE_S * _TICK_HZ)):
+            if condition():
+                break
             await self.tick()
-        return future.result()
+        return condition()
 
     async def delegate(
         self,
@@ -118,31 +116,25 @@ class RunningGoal:
             The action is not there, does not answer, rejects the goal, or ends in its middle.
 
         """
-        if not await self._comes(client.server_is_ready):
+        if not await self.comes(client.server_is_ready):
             raise GoalAborted(code, f"The action '{action}' is not there. Start what offers it.")
         sent = client.send_goal_async(wanted)
         try:
-            handle = await self.answer(sent, _PATIENCE_S, code, f"'{action}' does not answer.")
+            if not await self.comes(sent.done):
+                raise GoalAborted(code, f"'{action}' does not answer.")
+            handle = sent.result()
             if not handle.accepted:
                 raise GoalAborted(code, f"'{action}' rejected a goal: its log says why.")
             end = handle.get_result_async()
             while not end.done():
                 await self.tick()
                 check()
-                if not client.server_is_ready() and not await self._comes(end.done):
+                if not client.server_is_ready() and not await self.comes(end.done):
                     raise GoalAborted(code, f"'{action}' ended in the middle of its work.")
         except BaseException:
             sent.add_done_callback(_cancel)
             raise
         return end.result()
-
-    async def _comes(self, condition: Callable[[], bool]) -> bool:
-        """Wait until something holds; return whether it does after a while."""
-        for _ in range(round(_PATIENCE_S * _TICK_HZ)):
-            if condition():
-                break
-            await self.tick()
-        return condition()
 
 
 def _cancel(sent: Future[Any]) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 from action_msgs.msg import GoalStatus
 from control_msgs.action import PointHead
 from humanoid_common.single_goal import GoalAborted, GoalCanceled, RunningGoal, SingleGoal
+from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 import pytest
 from rclpy.action import ActionClient
@@ -69,21 +70,7 @@ class World:
         """Start the worker."""
         self.ros = ros
         self.worker = ros.start(Worker)
-        self._client = ActionClient(ros.observer(), PointHead, 'work')
-        ros.wait_until(self._client.server_is_ready, PATIENCE_S, 'the worker')
-
-    def begin(self) -> Any:
-        """Begin a goal, and return its handle."""
-        return self.wait(self._client.send_goal_async(PointHead.Goal()))
-
-    def wait(self, future: Any) -> Any:
-        """Return what a future brings."""
-        self.ros.wait_until(future.done, PATIENCE_S, 'an answer')
-        return future.result()
-
-    def close(self) -> None:
-        """End."""
-        self._client.destroy()
+        self.caller = ActionCaller(ros, PointHead, 'work')
 
 
 @pytest.fixture(name='world')
@@ -92,27 +79,27 @@ def _world() -> Iterator[World]:
     with ros_sandbox() as ros:
         world = World(ros)
         yield world
-        world.close()
+        world.caller.close()
 
 
 def test_what_another_action_does_is_waited_for(world: World) -> None:
     """And its success is that of the goal."""
     helper = world.ros.start(Helper)
-    end = world.begin().get_result_async()
+    handle = world.caller.send()
+    end = handle.get_result_async()
     world.ros.wait_until(lambda: helper.goals.newest is not None, PATIENCE_S, 'a goal')
     assert not end.done()
     helper.is_done = True
-    assert world.wait(end).status == GoalStatus.STATUS_SUCCEEDED
+    assert world.caller.end_of(handle).status == GoalStatus.STATUS_SUCCEEDED
 
 
 def test_another_action_is_canceled_with_the_goal(world: World) -> None:
     """What leaves things in order still runs, and then the goal is canceled."""
     helper = world.ros.start(Helper)
-    handle = world.begin()
-    end = handle.get_result_async()
+    handle = world.caller.send()
     world.ros.wait_until(lambda: helper.goals.newest is not None, PATIENCE_S, 'a goal')
-    handle.cancel_goal_async()
-    assert world.wait(end).status == GoalStatus.STATUS_CANCELED
+    world.caller.cancel(handle)
+    assert world.caller.end_of(handle).status == GoalStatus.STATUS_CANCELED
     assert world.worker.ticks == 10
     world.ros.wait_until(lambda: helper.was_canceled, PATIENCE_S, 'the other cancel')
 
@@ -126,7 +113,7 @@ def test_an_action_that_is_of_no_use_aborts_the_goal(
     """With the code that was asked for."""
     if is_there:
         world.ros.start(Helper).reason = 'It does not like it.'
-    result = world.wait(world.begin().get_result_async())
-    assert result.status == GoalStatus.STATUS_ABORTED
+    end = world.caller.end_of(world.caller.send())
+    assert end.status == GoalStatus.STATUS_ABORTED
     assert world.worker.trouble.name == 'BODY_FAILED'
     assert sentence in str(world.worker.trouble)

@@ -20,7 +20,6 @@ from humanoid_manipulation.arm_world import ArmWorld, Obstacle
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.motion_planning import Motion
 from humanoid_manipulation.upper_body import Reach, UpperBody
-from humanoid_perception.transforms import Patience
 import numpy as np
 from rclpy.action import ActionClient
 from rclpy.node import Node
@@ -84,11 +83,8 @@ class Arms:
 
     async def wait(self, goal: RunningGoal) -> None:
         """Wait until the arms can be moved and it is known where they are, or abort."""
-        patience = Patience()
-        while missing := self._missing():
-            if patience.is_over():
-                raise GoalAborted(_CODE, missing)
-            await goal.tick()
+        if not await goal.comes(lambda: not self._missing()):
+            raise GoalAborted(_CODE, self._missing())
 
     def reach_of(self, side: str) -> Reach:
         """Return where an arm and the waist are."""

@@ -72,7 +72,9 @@ class World:
         self._objects = node.create_publisher(Detection3DArray, 'objects', LATCHED)
         self._state = node.create_client(GetEntityState, 'simulator/get_entity_state')
         self._push = node.create_client(ApplyWrench, 'simulator/apply_wrench')
-        ros.start(Manipulator, {'places_file': str(places), 'use_sim_time': True})
+        self.manipulator = ros.start(
+            Manipulator, {'places_file': str(places), 'use_sim_time': True}
+        )
         self._callers = {name: ActionCaller(ros, kind, name) for name, kind in KINDS.items()}
         ros.wait_until(self._state.service_is_ready, 60.0, 'the simulator')
 
@@ -204,6 +206,13 @@ def test_a_can_is_taken_put_down_and_handed_over(world: World) -> None:
     assert math.hypot(world.can_m[0] - pose.real, world.can_m[1] - pose.imag) < 0.5
     busy = world.act('pick', object='red can', side=end.result.side)
     assert busy.result.error_code == Pick.Result.OCCUPIED_HAND
+    # As after a restart: what the hand holds is felt, not remembered.
+    held = dict(world.manipulator.held)
+    world.manipulator.held.clear()
+    busy = world.act('pick', object='red can', side=end.result.side)
+    assert busy.result.error_code == Pick.Result.OCCUPIED_HAND
+    assert 'something' in busy.result.error_msg
+    world.manipulator.held.update(held)
 
     down = world.act('place', place='table')
     assert down.status == GoalStatus.STATUS_SUCCEEDED, down.result.error_msg

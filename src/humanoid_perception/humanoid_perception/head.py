@@ -9,7 +9,7 @@ from humanoid_common.joint_mover import JointMover, trajectory_point
 from humanoid_common.qos import LATCHED
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_perception.gazing import HeadChain, HeadError
-from humanoid_perception.transforms import Array, Patience, Transforms
+from humanoid_perception.transforms import Array, Transforms
 import numpy as np
 from rclpy.node import Node
 from std_msgs.msg import String
@@ -58,16 +58,12 @@ class Head(Transforms):
 
     async def wait(self, goal: RunningGoal) -> None:
         """Wait until the head can be moved; abort with what is missing."""
-        patience = Patience()
-        while not self._mover.is_ready or self._known is None:
-            if patience.is_over():
-                _ = self.chain
-                raise GoalAborted(
-                    'HEAD_FAILED',
-                    f"The action '{self._mover.action}' is not there. Start the robot's "
-                    'controllers.',
-                )
-            await goal.tick()
+        if not await goal.comes(lambda: self._mover.is_ready and self._known is not None):
+            _ = self.chain
+            raise GoalAborted(
+                'HEAD_FAILED',
+                f"The action '{self._mover.action}' is not there. Start the robot's controllers.",
+            )
         await self.known(goal, self.chain.base_frame, self.chain.tip_frame)
 
     def angles_rad(self) -> Array:

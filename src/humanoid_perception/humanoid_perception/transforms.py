@@ -14,24 +14,9 @@ from rclpy.node import Node
 from rclpy.time import Time
 from tf2_ros import Buffer, TransformException, TransformListener
 
-__all__ = ['PATIENCE_S', 'Patience', 'Transforms']
+__all__ = ['Transforms']
 
 Array = npt.NDArray[np.float64]
-PATIENCE_S = 5.0
-"""How long what a goal needs may take to come."""
-_TICK_HZ = 20.0
-
-
-class Patience:
-    """A time by a clock that nobody stops."""
-
-    def __init__(self, seconds: float = PATIENCE_S) -> None:
-        self._ticks = seconds * _TICK_HZ
-
-    def is_over(self) -> bool:
-        """Whether it is over; to be asked once a tick."""
-        self._ticks -= 1.0
-        return self._ticks < 0.0
 
 
 class Transforms:
@@ -63,16 +48,15 @@ class Transforms:
 
     async def known(self, goal: RunningGoal, frame: str, child: str) -> Array:
         """Return the pose (4, 4) of a frame in another; wait a while for it, or abort."""
-        patience = Patience()
-        while True:
-            try:
-                return self.pose(frame, child)
-            except TransformException as error:
-                if patience.is_over():
-                    raise GoalAborted(
-                        'NO_TRANSFORM', f"It is not known where '{child}' is: {error}"
-                    ) from None
-            await goal.tick()
+        await goal.comes(
+            lambda: frame == child or bool(self._buffer.can_transform(frame, child, Time()))
+        )
+        try:
+            return self.pose(frame, child)
+        except TransformException as error:
+            raise GoalAborted(
+                'NO_TRANSFORM', f"It is not known where '{child}' is: {error}"
+            ) from None
 
     def pose(self, frame: str, child: str) -> Array:
         """Look up the newest matrix (4, 4) of a frame in another; raise TransformException."""
