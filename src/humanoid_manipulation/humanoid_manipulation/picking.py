@@ -57,6 +57,7 @@ class Picking(Handling):
         node = self.node
         with node.transforms.listening(), node.arms.listening():
             await self.begin(goal)
+            self._thing(goal.request.object)  # what is not remembered needs no place
             place = await self.place_of_feet(goal)
             thing = self._thing(goal.request.object, place[:2])
             goal.result.object = thing.object_id

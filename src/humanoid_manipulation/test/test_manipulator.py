@@ -13,7 +13,7 @@ from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.mock_robot import MockRobot
 from humanoid_description.expansion import humanoid_urdf
-from humanoid_interfaces.action import Reach
+from humanoid_interfaces.action import Pick, Reach
 from humanoid_manipulation.manipulator import Manipulator
 import pytest
 from sensor_msgs.msg import JointState
@@ -145,3 +145,12 @@ def test_what_makes_no_sense_is_rejected(world: World, fields: dict[str, Any]) -
     """Before anything moves."""
     assert not world.send(ABOVE, **fields).accepted
     assert not world.send((math.nan, 0.0, 0.0)).accepted
+
+
+def test_what_is_not_remembered_is_not_seen_wherever_the_robot_is(world: World) -> None:
+    """Nobody tells where the map is here."""
+    caller = ActionCaller(world.ros, Pick, 'pick')
+    end = caller.end_of(caller.send(object='unicorn'))
+    caller.close()
+    assert end.status == GoalStatus.STATUS_ABORTED
+    assert end.result.error_code == Pick.Result.NOT_SEEN
