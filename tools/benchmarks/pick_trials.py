@@ -30,11 +30,10 @@ from humanoid_interfaces.action import Drop, Pick, ScanRoom
 from humanoid_perception.places import load_places, places_path, Surface
 from humanoid_simulation.scene import load_scene
 from humanoid_simulation.scene.occupancy import FREE, occupancy_of
+from humanoid_simulation.testing.entities import Entities
 from humanoid_simulation.testing.simulated_robot import FellError, SimulatedRobot
 import numpy as np
 from rclpy.action import ActionClient
-from simulation_interfaces.msg import EntityState
-from simulation_interfaces.srv import GetEntityState, SetEntityState
 from std_srvs.srv import Trigger
 
 KINDS = ('mug', 'bottle', 'can', 'apple', 'orange', 'cube')
@@ -115,16 +114,16 @@ class Kitchen:
         }
         for name, client in self._clients.items():
             ros.wait_until(client.server_is_ready, 120.0, name)
-        self._get = self._node.create_client(GetEntityState, 'simulator/get_entity_state')
-        self._set = self._node.create_client(SetEntityState, 'simulator/set_entity_state')
+        self._entities = Entities(ros)
         self._forget = self._node.create_client(Trigger, 'object_memory/forget')
+        ros.wait_until(self._forget.service_is_ready, 60.0, 'a memory')
         self._believe = self._node.create_publisher(PoseWithCovarianceStamped, 'initialpose', 1)
         path = places_path('apartment')
         assert path is not None
         self._places, self._scene = load_places(path), load_scene('apartment')
         self._map = occupancy_of(self._scene)
         self._things = {each.name: each for each in self._scene.objects}
-        self._homes = {name: self._where(name) for name in self._things}
+        self._homes = {name: self._entities.position_m(name) for name in self._things}
 
     def drawn(self, random: np.random.Generator) -> Trial:
         """Draw a trial: a thing near which a robot can stand, and a robot in that room."""
@@ -184,7 +183,7 @@ class Kitchen:
     def tell(self, trial: Trial) -> tuple[str, float, list[str]]:
         """Do a trial; return how it ended, how long it took, and what else was moved."""
         self._prepare(trial)
-        before = {name: self._where(name) for name in self._things}
+        before = {name: self._entities.position_m(name) for name in self._things}
         begin_s = self.robot.topics.time_s
         try:
             self._act('scan_room', ScanRoom.Goal())
@@ -201,7 +200,7 @@ class Kitchen:
         tipped = [
             name
             for name, at in before.items()
-            if name != trial.thing and math.dist(at, self._where(name)) > TIPPED_M
+            if name != trial.thing and math.dist(at, self._entities.position_m(name)) > TIPPED_M
         ]
         self._act('drop', Drop.Goal())
         return told, took_s, tipped
@@ -209,7 +208,7 @@ class Kitchen:
     def _prepare(self, trial: Trial) -> None:
         """Put all things and the robot where they are to be."""
         self.robot.reset()
-        self._place(trial.thing, trial.at_m, trial.turn_rad)
+        self._entities.put(trial.thing, trial.at_m, trial.turn_rad)
         x, y, yaw = trial.robot
         self.robot.put(PlanarPose(complex(x, y), yaw))
         self.robot.let_go()
@@ -222,25 +221,14 @@ class Kitchen:
         message.pose.covariance[35] = 0.01
         self._believe.publish(message)
         self.robot.wait(2.0)
-        self._ask(self._forget, Trigger.Request())
+        forgotten = self._forget.call_async(Trigger.Request())
+        self._ros.wait_until(forgotten.done, 60.0, 'a memory that forgets')
 
     def _is_held(self, trial: Trial) -> bool:
         """Return whether the thing is off its surface, and near the robot."""
-        at, robot = self._where(trial.thing), self.robot.pose.position_m
+        at, robot = self._entities.position_m(trial.thing), self.robot.pose.position_m
         away_m = math.hypot(at[0] - robot.real, at[1] - robot.imag)
         return away_m < HELD_M + 0.2 and at[2] > 0.6 and math.dist(at, trial.at_m) > 0.05
-
-    def _where(self, entity: str) -> tuple[float, float, float]:
-        answer = self._ask(self._get, GetEntityState.Request(entity=entity))
-        position = answer.state.pose.position
-        return position.x, position.y, position.z
-
-    def _place(self, entity: str, at_m: tuple[float, float, float], yaw_rad: float) -> None:
-        state = EntityState()
-        position, turn = state.pose.position, state.pose.orientation
-        position.x, position.y, position.z = at_m
-        turn.w, turn.z = math.cos(yaw_rad / 2.0), math.sin(yaw_rad / 2.0)
-        self._ask(self._set, SetEntityState.Request(entity=entity, state=state))
 
     def _act(self, name: str, goal: Any) -> Any:
         sent = self._clients[name].send_goal_async(goal)
@@ -248,12 +236,6 @@ class Kitchen:
         end = sent.result().get_result_async()
         self.robot.wait_until(end.done, 400.0)
         return end.result()
-
-    def _ask(self, client: Any, request: Any) -> Any:
-        self._ros.wait_until(client.service_is_ready, 60.0, client.srv_name)
-        future = client.call_async(request)
-        self._ros.wait_until(future.done, 60.0, client.srv_name)
-        return future.result()
 
 
 if __name__ == '__main__':

@@ -19,6 +19,8 @@ DEFAULTS = {
     'scene': ('apartment', 'The scene that is simulated.'),
     'navigation': ('true', 'Start Nav2, so that the robot finds its way.'),
     'perception': ('true', 'Detect objects, remember where they are, and look for them.'),
+    'hands': ('true', 'Give the arms wrists and grippers.'),
+    'manipulation': ('true', 'Take things, carry them, and put them down; the robot needs hands.'),
     'assistants_port': ('8765', 'The port of the server for assistants; 0 for any.'),
 }
 

@@ -3,17 +3,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
 import math
 from pathlib import Path
 import re
 
+from humanoid_bringup.stories import (
+    AS_ASKED,
+    Check,
+    EXPLAINED,
+    Play,
+    Scene,
+    stays,
+    Story,
+    tell_all,
+)
 from humanoid_bringup.testing import ToldRobot
 from humanoid_common.testing.launching import running_launch_file
 from humanoid_common.testing.ros import ros_sandbox
-from humanoid_common.testing.waiting import WaitedInVainError
-from humanoid_control.walking.planar import PlanarPose
 from humanoid_simulation.scene import load_scene, Thing
 import pytest
 
@@ -22,82 +29,35 @@ SPEECH = Path(__file__).parents[2] / 'voice_control' / 'test' / 'speech'
 SCENE = load_scene('apartment')
 THINGS = {thing.name.replace('_', ' '): thing for thing in SCENE.objects}
 LEAST = 17
-AS_ASKED, EXPLAINED, WRONG = 'as asked', 'explained', 'WRONG'
 
 pytestmark = pytest.mark.timeout(3600)
 
 
-@dataclass
-class Scene:
-    """What a check looks at: the robot that was told, and where it was before."""
-
-    told: ToldRobot
-    before: PlanarPose
-
-    @property
-    def said(self) -> str:
-        """All that was said since."""
-        return ' '.join(self.told.said)
-
-    @property
-    def turned_deg(self) -> float:
-        """By how much the robot has truly turned, to the left."""
-        turn = self.told.robot.pose.yaw_rad - self.before.yaw_rad
-        return math.degrees(math.remainder(turn, math.tau))
-
-    @property
-    def moved_m(self) -> complex:
-        """How far it has truly walked, ahead and to the left of how it faced before."""
-        way = self.told.robot.pose.position_m - self.before.position_m
-        return way * complex(math.cos(self.before.yaw_rad), -math.sin(self.before.yaw_rad))
-
-    def tells(self, at_least: int, surface: str) -> bool:
-        """Whether what was said names so many things that stand there, and nothing else."""
-        named = {name for name in THINGS if re.search(rf'\b{name}\b', self.said)}
-        return len(named) >= at_least and named <= {
-            name for name, thing in THINGS.items() if self._surface_of(thing) == surface
-        }
-
-    def looks_at(self, name: str) -> bool:
-        """Whether the head is truly turned towards a thing."""
-        pose, joints = self.told.robot.pose, self.told.robot.topics.positions_rad
-        x, y, _ = THINGS[name].position_m
-        way = complex(x, y) - pose.position_m
-        bearing = math.atan2(way.imag, way.real) - pose.yaw_rad - joints['head_yaw']
-        return abs(math.remainder(bearing, math.tau)) < 0.2
-
-    def _surface_of(self, thing: Thing) -> str:
-        x, y, z = thing.position_m
-        return self.told.places.surface_at(x, y, z - 0.5 * thing.box_m[2])
+def tells(scene: Scene, at_least: int, surface: str) -> bool:
+    """Whether what was said names so many things that stand there, and nothing else."""
+    named = {name for name in THINGS if re.search(rf'\b{name}\b', scene.said)}
+    there = {name for name, thing in THINGS.items() if surface_of(scene, thing) == surface}
+    return len(named) >= at_least and named <= there
 
 
-Check = Callable[[Scene], bool]
-Play = Callable[[ToldRobot], None]
+def surface_of(scene: Scene, thing: Thing) -> str:
+    """Return the name of what a thing stands on."""
+    x, y, z = thing.position_m
+    return scene.told.places.surface_at(x, y, z - 0.5 * thing.box_m[2])
 
 
-@dataclass(frozen=True)
-class Story:
-    """A command of a kind, what is to come of it, and, if it is spoken, the WAV file."""
-
-    kind: str
-    command: str
-    check: Check
-    wav: str = ''
-    has_plan: bool = True
-    play: Play = lambda told: None
-    """What is said after the command."""
+def looks_at(scene: Scene, name: str) -> bool:
+    """Whether the head is truly turned towards a thing."""
+    pose, joints = scene.told.robot.pose, scene.told.robot.topics.positions_rad
+    x, y, _ = THINGS[name].position_m
+    way = complex(x, y) - pose.position_m
+    bearing = math.atan2(way.imag, way.real) - pose.yaw_rad - joints['head_yaw']
+    return abs(math.remainder(bearing, math.tau)) < 0.2
 
 
 def in_room(name: str) -> Check:
     """Check that the robot truly is in a room, and as far as it knows."""
     return lambda scene: scene.told.room == name and scene.told.has_succeeded
-
-
-def stays(text: str) -> Check:
-    """Check that the robot says something, and does nothing."""
-    return lambda scene: (
-        text in scene.said and abs(scene.moved_m) < 0.1 and abs(scene.turned_deg) < 5.0
-    )
 
 
 def stop_on_the_way(told: ToldRobot) -> None:
@@ -134,7 +94,7 @@ def reach_out(told: ToldRobot) -> None:
 
 
 STORIES = (
-    Story('moving', 'go to the kitchen', in_room('kitchen'), 'go_to_the_kitchen.slt.wav'),
+    Story('moving', 'go to the kitchen', in_room('kitchen'), SPEECH / 'go_to_the_kitchen.slt.wav'),
     Story('looking', 'look around', lambda s: s.told.has_succeeded and abs(s.moved_m) < 0.4),
     Story(
         'looking',
@@ -144,7 +104,7 @@ STORIES = (
     Story(
         'looking',
         'look at the blue mug',
-        lambda s: s.told.has_succeeded and s.looks_at('blue mug'),
+        lambda s: s.told.has_succeeded and looks_at(s, 'blue mug'),
     ),
     Story(
         'asking',
@@ -157,7 +117,7 @@ STORIES = (
         lambda s: s.told.has_succeeded,
         play=reach_out,
     ),
-    Story('asking', 'what is on the kitchen table', lambda s: s.tells(3, 'kitchen_table')),
+    Story('asking', 'what is on the kitchen table', lambda s: tells(s, 3, 'kitchen_table')),
     Story('asking', 'what is next to the red mug', lambda s: 'blue mug' in s.said),
     Story('moving', 'turn left by 90 degrees', lambda s: abs(s.turned_deg - 90.0) < 12.0),
     Story('moving', 'walk half a metre backwards', lambda s: abs(s.moved_m + 0.5) < 0.2),
@@ -168,9 +128,8 @@ STORIES = (
     ),
     Story(
         'refusing',
-        'bring me the red mug from the kitchen',
-        stays('I have no hands yet.'),
-        'bring_me_the_red_mug_from_the_kitchen.rms.wav',
+        'put it down',
+        stays('I would hold nothing by then.'),
         has_plan=False,
     ),
     Story(
@@ -188,7 +147,7 @@ STORIES = (
     Story(
         'refusing',
         'look at the mug',
-        lambda s: s.told.has_succeeded and s.looks_at('red mug'),
+        lambda s: s.told.has_succeeded and looks_at(s, 'red mug'),
         play=answer('Which mug: the blue one or the red one?', 'the red one'),
     ),
     Story(
@@ -201,12 +160,12 @@ STORIES = (
         'asking',
         'how many books are on the sideboard',
         lambda s: 'There is one book on the sideboard.' in s.said,
-        'how_many_books_are_on_the_sideboard.slt.wav',
+        SPEECH / 'how_many_books_are_on_the_sideboard.slt.wav',
     ),
     Story(
         'together',
         'go to the bedroom, look around and tell me what is on the desk',
-        lambda s: s.told.room == 'bedroom' and s.tells(2, 'desk'),
+        lambda s: s.told.room == 'bedroom' and tells(s, 2, 'desk'),
     ),
     Story(
         'together',
@@ -233,46 +192,13 @@ def told() -> Iterator[ToldRobot]:
         yield ToldRobot(ros)
 
 
-def tell(told: ToldRobot, story: Story) -> str:
-    """Tell a story, and return how it ended."""
-    told.forget()
-    scene = Scene(told, told.robot.pose)
-    try:
-        if story.wav:
-            told.speak(SPEECH / story.wav)
-        else:
-            told.tell(story.command)
-        story.play(told)
-        if story.has_plan:
-            told.wait_for_the_end(600.0)
-        else:
-            told.wait_until(lambda: bool(told.said), 60.0, 'an answer')
-            told.robot.wait(1.0)
-    except WaitedInVainError:
-        told.tell('stop')
-        told.wait_for('I have stopped.', 60.0)
-        return WRONG
-    if story.check(scene):
-        return AS_ASKED
-    if told.said and not told.has_succeeded:
-        return EXPLAINED
-    return f'{WRONG}: moved by {scene.moved_m:.2f} m, turned by {scene.turned_deg:.0f} degrees'
-
-
 def test_twenty_stories(told: ToldRobot, capsys: pytest.CaptureFixture[str]) -> None:
     """Nearly all end as asked, the others with an explanation; the robot never falls."""
-    ends = []
-    for number, story in enumerate(STORIES, 1):
-        begin_s = told.robot.topics.time_s
-        ends.append(tell(told, story))
-        took_s = told.robot.topics.time_s - begin_s
-        how = 'spoken' if story.wav else 'typed'
+
+    def show(row: str) -> None:
         with capsys.disabled():
-            print(
-                f'\n| {number} | {story.kind} | {story.command} ({how}) | {ends[-1]} | '
-                f'{took_s:.0f} s | {" ".join(told.said)} |',
-                end='',
-                flush=True,
-            )
+            print(f'\n{row}', end='', flush=True)
+
+    ends = tell_all(told, STORIES, show)
     assert {AS_ASKED, EXPLAINED}.issuperset(ends)
     assert ends.count(AS_ASKED) >= LEAST

@@ -12,7 +12,7 @@ import pytest
 pytest.importorskip('mcp')
 
 LAUNCH_FILE = Path(__file__).parents[1] / 'launch' / 'full_system.launch.py'
-WITHOUT = ('gui', 'navigation', 'perception', 'voice', 'planner', 'use_controller')
+WITHOUT = ('gui', 'navigation', 'perception', 'voice', 'planner', 'use_controller', 'manipulation')
 ARGUMENTS = ('backend:=mock', *(f'{name}:=false' for name in WITHOUT))
 
 

@@ -8,7 +8,8 @@ from typing import Any, TYPE_CHECKING
 from humanoid_common.single_goal import GoalAborted, GoalCanceled, RunningGoal
 from humanoid_description.robot import Array
 from humanoid_interfaces.action import HandOver
-from humanoid_manipulation.handling import Handling, Held, unsound_side
+from humanoid_manipulation.handling import Handling, unsound_side
+from humanoid_manipulation.held_things import Held
 from humanoid_manipulation.motion_planning import plan
 from humanoid_manipulation.upper_body import Reach
 import numpy as np
@@ -28,7 +29,6 @@ _STILL_S, _PULL_S = 0.8, 0.15
 """How long an arm has to be still until a pull can be felt, and how long that lasts."""
 _PULL_NM = 1.6
 """How much the effort of a joint changes when somebody pulls."""
-_OPEN_M = 0.03
 
 
 class Giving(Handling):
@@ -57,7 +57,7 @@ class Giving(Handling):
             goal.result.object = held.object_id
             try:
                 await self._hold_out(goal, side, held)
-                await self._let_go(goal, side, held)
+                await self._give(goal, side)
             except GoalCanceled:
                 with goal.ending():
                     await self._draw_back(goal)
@@ -76,10 +76,10 @@ class Giving(Handling):
             await self._draw_back(goal)
             raise GoalAborted('NOT_TAKEN', 'Nobody has taken it.')
 
-    async def _let_go(self, goal: RunningGoal, side: str, held: Held) -> None:
+    async def _give(self, goal: RunningGoal, side: str) -> None:
+        """Let go, and draw back."""
         self.tell(goal, 'opening')
-        await self.node.arms.grip(goal, side, min(held.width_m + _OPEN_M, 0.1))
-        del self.node.held[side]
+        await self.let_go(goal, side)
         await self._wait(goal, 1.0)
         await self._draw_back(goal)
 
@@ -87,9 +87,9 @@ class Giving(Handling):
         """Bring the arms back, whoever stands there."""
         arms = self.node.arms
         for side, end in self.at_ease().items():
-            held = {other: each.box for other, each in self.node.held.items()}
+            world = arms.world([], self.node.held.boxes, 0.0)
             with self.failing():
-                way = plan(arms.world([], held, 0.0), side, arms.reach_of(side), end)
+                way = plan(world, side, arms.reach_of(side), end)
                 await self.move(goal, side, way)
 
     async def drop(self, goal: RunningGoal) -> None:
@@ -98,8 +98,7 @@ class Giving(Handling):
             await self.begin(goal)
             side, held = self.holding(goal.request.side)
             goal.result.object = held.object_id
-            await self.node.arms.grip(goal, side, 0.1)
-            del self.node.held[side]
+            await self.let_go(goal, side, wide=True)
 
     async def _is_pulled(self, goal: RunningGoal, side: str) -> bool:
         """Return whether somebody pulls within the time that they may take."""

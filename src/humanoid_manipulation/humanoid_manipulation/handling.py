@@ -5,19 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 import math
 from typing import Any, TYPE_CHECKING
 
 from humanoid_common.single_goal import GoalAborted, GoalCanceled, RunningGoal
 from humanoid_control.dynamics.frames import Frame
-from humanoid_control.dynamics.rotations import about_z
 from humanoid_description.drives import SIDES
 from humanoid_description.robot import Array
 from humanoid_manipulation.arm_world import ArmWorld, Obstacle
 from humanoid_manipulation.arms import Arms
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.grasps import Grasp
+from humanoid_manipulation.held_things import carrying, HANGING, Held, SOMETHING
 from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
 from humanoid_manipulation.stances import (
     base_of,
@@ -28,37 +27,19 @@ from humanoid_manipulation.stances import (
     is_clear_way,
     Stance,
 )
-from humanoid_manipulation.upper_body import OutOfReachError, Reach, UpperBody
+from humanoid_manipulation.upper_body import OutOfReachError, Reach
 import numpy as np
 
 if TYPE_CHECKING:
     from humanoid_manipulation.manipulator import Manipulator
 
-__all__ = ['HANGING', 'Handling', 'Held', 'carrying', 'unsound_side']
+__all__ = ['Handling', 'unsound_side']
 
-HANGING = {
-    'left': Reach(0.0, (0.0, 0.15, 0.0, -0.5, 0.0, 0.0)),
-    'right': Reach(0.0, (0.0, -0.15, 0.0, -0.5, 0.0, 0.0)),
-}
-"""Where hands are that do nothing."""
 TUCKED = {
     'left': Reach(0.0, (0.75, 0.2, 0.0, -2.1, 0.0, 0.0)),
     'right': Reach(0.0, (0.75, -0.2, 0.0, -2.1, 0.0, 0.0)),
 }
 """Where hands are while the robot steps up to furniture and bends: elbows back, nothing ahead."""
-_CARRIED_M = ((0.28, 0.20), (0.33, 0.24), (0.26, 0.28), (0.38, 0.20))
-"""Where a hand may carry something: how far ahead of the pelvis, and how far aside."""
-_CLEAR_M = (0.16, 0.10, 0.04, -0.04, -0.12)
-"""How high above the pelvis the underside of what is carried may be; high enough for a kitchen
-counter is best."""
-_CARRIED_TURNS = 16
-_SLACK_RAD = 0.1
-"""So far from their limits joints stay while they carry something."""
-_LEVEL = {
-    'left': Reach(0.0, (-0.06, 0.15, 0.0, -2.0, 0.0, 0.49)),
-    'right': Reach(0.0, (-0.06, -0.15, 0.0, -2.0, 0.0, 0.49)),
-}
-"""A hand that is level before the body, whatever that means for what it holds."""
 TURNS_RAD = (0.0, 0.15, -0.15, 0.3, -0.3, 0.45, -0.45)
 """The turns of the waist that are tried."""
 _BACK_M = 0.35
@@ -73,6 +54,8 @@ _SHARES = (1.0, 0.75, 0.5, 0.25)
 _LEAST_SHARE = 0.5
 """Of its width, by which the gripper must stay open if it holds the thing."""
 GRIP_N = 25.0
+_OPENS_M, _WIDEST_M = 0.03, 0.10
+"""How much wider than a thing the gripper opens to let go of it, and how wide it can be."""
 _THIN_M, _HOLDING_N = 0.008, 3.0
 """A hand that is so far open although it closes with such a force holds something."""
 _OTHER_M = 0.025
@@ -81,61 +64,6 @@ _SOMETHING_M = (0.07, 0.07, 0.15)
 """The size of what a hand holds of which nobody knows what it is."""
 _OTHERWISE = ('WALK_FAILED', 'NOT_REACHABLE', 'BLOCKED', 'SLIPPED')
 """What may go better from elsewhere."""
-
-
-@dataclass(frozen=True, eq=False)
-class Held:
-    """
-    A thing in a hand.
-
-    Attributes
-    ----------
-    object_id
-        Which one.
-    box
-        Its box, in the gripper.
-    width_m
-        The gap of the gripper that holds it.
-    gripper
-        How the gripper was turned when it took the thing, seen along the heading of the hand.
-    below_m
-        How far its underside was below the middle of the gripper then.
-
-    """
-
-    object_id: str
-    box: Obstacle
-    width_m: float
-    gripper: Array
-    below_m: float
-
-
-def carrying(body: UpperBody, side: str, held: Held) -> Reach:
-    """
-    Return how an arm carries a thing: close, high, and upright as it was taken.
-
-    Parameters
-    ----------
-    body, side
-        Whose hand.
-    held
-        What it holds.
-
-    """
-    arm, sign = body.arms[side], 1.0 if side == 'left' else -1.0
-    for clear_m in _CLEAR_M:
-        found: list[tuple[float, Reach]] = []
-        for ahead_m, aside_m in _CARRIED_M:
-            at = np.array([ahead_m, sign * aside_m, clear_m + held.below_m])
-            for number in range(_CARRIED_TURNS):
-                turned = about_z(math.tau * number / _CARRIED_TURNS) @ held.gripper
-                reach = body.find_with_arm(side, Frame(at, turned), 0.0, HANGING[side].posture)
-                if reach is not None and arm.excess_rad(reach.posture) < -_SLACK_RAD:
-                    bent_rad = max(abs(each) for each in reach.posture[1:3])
-                    found.append((bent_rad + ahead_m, reach))
-        if found:
-            return min(found, key=lambda each: each[0])[1]
-    return _LEVEL[side]
 
 
 class Handling:
@@ -247,8 +175,7 @@ class Handling:
             start = arms.reach_of(side)
             if max(abs(a - b) for a, b in zip(start.posture, end.posture)) < _THERE_RAD:
                 continue
-            held = {other: each.box for other, each in self.node.held.items()}
-            world = arms.world(await self.obstacles(goal, but), held, 0.0)
+            world = arms.world(await self.obstacles(goal, but), self.node.held.boxes, 0.0)
             with self.failing():
                 await self.move(goal, side, plan(world, side, start, end))
 
@@ -335,7 +262,7 @@ class Handling:
         """
         node, body, grasps = self.node, self.node.arms.body, list(grasps)
         around, now = await self.obstacles(goal), self.base
-        held = {each: thing.box for each, thing in node.held.items()}
+        held = node.held.boxes
         best: tuple[float, Grasp, Bend] | None = None
         trouble = GoalAborted('NOT_REACHABLE', f'I do not get to {where} from here.')
         for bend in bends:
@@ -435,6 +362,12 @@ class Handling:
         closed = await self.node.arms.grip(goal, side, 0.0, GRIP_N)
         return float(closed.position) if closed.position >= _LEAST_SHARE * width_m else -1.0
 
+    async def let_go(self, goal: RunningGoal, side: str, *, wide: bool = False) -> None:
+        """Open a hand so far that it holds nothing any more, or as wide as it opens."""
+        gap_m = _WIDEST_M if wide else min(self.node.held[side].width_m + _OPENS_M, _WIDEST_M)
+        await self.node.arms.grip(goal, side, gap_m)
+        del self.node.held[side]
+
     async def move(
         self, goal: RunningGoal, side: str, way: list[Reach], velocity_rad_s: float = 0.0
     ) -> None:
@@ -465,8 +398,8 @@ def _moved(obstacle: Obstacle, now: Frame, then: Frame) -> Obstacle:
 def _something(arms: Arms, side: str, gap_m: float) -> Held:
     """Return what a hand holds that was taken before this node ran, or by somebody else."""
     gripper = arms.body.forward(side, arms.reach_of(side)).rotation
-    box = Obstacle('something', Frame(np.zeros(3), gripper.T), _SOMETHING_M)
-    return Held('something', box, gap_m, gripper, 0.5 * _SOMETHING_M[2])
+    box = Obstacle(SOMETHING, Frame(np.zeros(3), gripper.T), _SOMETHING_M)
+    return Held(SOMETHING, (SOMETHING,), box, gap_m, gripper, 0.5 * _SOMETHING_M[2])
 
 
 def unsound_side(side: str) -> str:

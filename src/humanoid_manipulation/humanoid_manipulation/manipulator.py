@@ -25,7 +25,8 @@ from humanoid_manipulation.arms import Arms
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.feet import Feet
 from humanoid_manipulation.giving import Giving
-from humanoid_manipulation.handling import Held, unsound_side
+from humanoid_manipulation.handling import unsound_side
+from humanoid_manipulation.held_things import held_objects, HeldThings
 from humanoid_manipulation.motion_planning import approach, BlockedError, plan, timed
 from humanoid_manipulation.picking import Picking
 from humanoid_manipulation.placing import Placing
@@ -34,7 +35,8 @@ from humanoid_manipulation.upper_body import OutOfReachError, Reach
 from humanoid_perception.transforms import Transforms
 import numpy as np
 from rclpy.node import Node
-from std_msgs.msg import String
+from std_msgs.msg import Header, String
+from vision_msgs.msg import Detection3DArray
 
 __all__ = ['Manipulator', 'ManipulatorParameters', 'main']
 
@@ -80,8 +82,8 @@ class Manipulator(Node):
         self.surroundings = Surroundings(self, self.transforms, told.base_frame, told.places_file)
         self.goals = SingleGoal(self, lambda: self._inhibition.reason)
         self.feet = Feet(self, self.transforms, told.base_frame)
-        self.held: dict[str, Held] = {}
-        """What hands hold, by their sides."""
+        self._held = self.create_publisher(Detection3DArray, 'held_objects', LATCHED)
+        self.held = HeldThings(self._tell_held)
         picking, placing, giving = Picking(self), Placing(self), Giving(self)
         self.goals.offer(ReachAction, 'reach', self._reach, _unsound)
         self.goals.offer(Pick, 'pick', picking.work, picking.unsound)
@@ -95,6 +97,13 @@ class Manipulator(Node):
             self.create_subscription(
                 String, topic, lambda message, tell=take: tell(message.data), LATCHED
             )
+
+    def _tell_held(self) -> None:
+        """Publish what hands hold."""
+        header = Header(frame_id=self.parameters.current.base_frame)
+        header.stamp = self.get_clock().now().to_msg()
+        grippers = {side: arm.gripper for side, arm in self.arms.body.arms.items()}
+        self._held.publish(held_objects(self.held, grippers, header))
 
     async def _reach(self, goal: RunningGoal) -> None:
         with self.transforms.listening(), self.arms.listening():
@@ -138,8 +147,7 @@ class Manipulator(Node):
         """Return which arm gets to a pose, and how."""
         told, request, body = self.parameters.current, goal.request, self.arms.body
         obstacles = await self.surroundings.obstacles(goal)
-        held = {side: each.box for side, each in self.held.items()}
-        world = self.arms.world(obstacles, held, told.clearance)
+        world = self.arms.world(obstacles, self.held.boxes, told.clearance)
         # Along the hand, z points back to the wrist.
         back = wanted.rotation[:, 2] * float(request.approach)
         first = Frame(wanted.position_m + back, wanted.rotation)

@@ -14,7 +14,8 @@ from humanoid_control.dynamics.rotations import about_z
 from humanoid_interfaces.action import Pick
 from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.grasps import Grasp, grasps_of
-from humanoid_manipulation.handling import Handling, Held, unsound_side
+from humanoid_manipulation.handling import Handling, unsound_side
+from humanoid_manipulation.held_things import Held
 from humanoid_manipulation.stances import LIFT_M, Stance, stances_for
 from humanoid_manipulation.surroundings import Remembered
 from rclpy.action import ActionClient
@@ -206,6 +207,7 @@ def held_by(thing: Remembered, grasp: Grasp, gap_m: float) -> Held:
     heading_rad = math.atan2(-back[1], -back[0])
     return Held(
         thing.object_id,
+        thing.names,
         Obstacle(thing.name, box, (length, width, height)),
         gap_m,
         about_z(-heading_rad) @ grasp.gripper.rotation,

@@ -14,7 +14,8 @@ from humanoid_control.dynamics.rotations import about_z
 from humanoid_description.robot import Array
 from humanoid_interfaces.action import Place
 from humanoid_manipulation.grasps import Grasp
-from humanoid_manipulation.handling import Handling, Held, unsound_side
+from humanoid_manipulation.handling import Handling, unsound_side
+from humanoid_manipulation.held_things import Held
 from humanoid_manipulation.stances import Stance, stances_for
 from humanoid_perception.places import Surface
 import numpy as np
@@ -29,6 +30,8 @@ _HEADINGS = 16
 _GRID_M = 0.06
 _MARGIN_M = 0.04
 """Between what is put down and other things, and the edge."""
+_RIM_M = 0.04
+"""So high above the rim of a container a thing is let go."""
 _ABOVE_M, _LOWERS_M = 0.005, 0.08
 """The thing is let go so high above the surface, and comes from so high above that."""
 
@@ -61,7 +64,7 @@ class Placing(Handling):
             place = await self.place_of_feet(goal)
             surface = self._surface(goal.request.place, place[:2])
             goal.result.place = surface.name
-            spots = list(free_spots(surface, self._others(surface), _radius_m(held), place[:2]))
+            spots = self._spots(surface, held, place[:2])
             if not spots:
                 raise GoalAborted('BLOCKED', f'Nothing is free on {_words(surface)}.')
 
@@ -85,6 +88,14 @@ class Placing(Handling):
         hint = did_you_mean(wanted, [each.name for each in surfaces])
         raise GoalAborted('INVALID', f"There is no surface '{asked}'. {hint}".rstrip())
 
+    def _spots(
+        self, surface: Surface, held: Held, near_m: tuple[float, float]
+    ) -> list[tuple[float, float]]:
+        """Return where on a surface, or above a container, the thing can be let go."""
+        if surface.is_container:
+            return [surface.middle_m]
+        return list(free_spots(surface, self._others(surface), _radius_m(held), near_m))
+
     def _others(self, surface: Surface) -> list[tuple[float, float, float]]:
         """Return where things are on a surface: x, y and the radius, in the map."""
         found = []
@@ -107,7 +118,7 @@ class Placing(Handling):
         """Return where to stand."""
         found: list[Stance] = []
         for spot in spots[:_SPOTS]:
-            position = np.array([*spot, surface.height_m])
+            position = _let_go(surface, spot)
             grasps = list(_ways_down(held, position))
             found += stances_for(
                 self.node.arms.body,
@@ -137,9 +148,7 @@ class Placing(Handling):
         node, arms = self.node, self.node.arms
         feet = await self.place_of_feet(goal)
         near = sorted(spots, key=lambda spot: math.dist(spot, feet[:2]))[:_SPOTS]
-        grasps = [
-            each for spot in near for each in _ways_down(held, np.array([*spot, surface.height_m]))
-        ]
+        grasps = [each for spot in near for each in _ways_down(held, _let_go(surface, spot))]
         grasp, bend = await self.choose(goal, grasps, side, feet, _words(surface), held.box.name)
         self.tell(goal, 'bending')
         await node.feet.bend(goal, bend)
@@ -152,14 +161,18 @@ class Placing(Handling):
         self.tell(goal, 'lowering')
         await self.go_to(goal, side, grasp, world, held.box.name)
         self.tell(goal, 'opening')
-        await arms.grip(goal, side, min(held.width_m + 0.03, 0.1))
-        del node.held[side]
+        await self.let_go(goal, side, wide=surface.is_container)
         at = grasp.gripper.position_m
         position = goal.result.position
         position.x, position.y, position.z = float(at[0]), float(at[1]), surface.height_m
         away = grasp.gripper.rotation[:, 2] * 0.10
         await self.shift(goal, side, away)
         await self.withdraw(goal, (held.box.name,))
+
+
+def _let_go(surface: Surface, spot: tuple[float, float]) -> Array:
+    """Return where the underside of a thing is let go (3,): on a surface, or above its rim."""
+    return np.array([*spot, surface.height_m + (_RIM_M if surface.is_container else 0.0)])
 
 
 def free_spots(

@@ -7,7 +7,7 @@ from humanoid_description.drives import SIDES
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_description.loading import load_robot
 from humanoid_manipulation.grasps import Graspable, grasps_of
-from humanoid_manipulation.handling import carrying
+from humanoid_manipulation.held_things import carrying
 from humanoid_manipulation.picking import held_by
 from humanoid_manipulation.surroundings import Remembered
 from humanoid_manipulation.upper_body import UpperBody

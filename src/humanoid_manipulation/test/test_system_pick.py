@@ -9,21 +9,18 @@ from pathlib import Path
 from typing import Any
 
 from action_msgs.msg import GoalStatus
-from geometry_msgs.msg import Vector3, Wrench
 from humanoid_common.qos import LATCHED, SENSOR
 from humanoid_common.testing.actions import ActionCaller, End
 from humanoid_common.testing.launching import running_launch_file
 from humanoid_common.testing.ros import RosSandbox
 from humanoid_description.expansion import humanoid_urdf
 from humanoid_interfaces.action import Drop, HandOver, Pick, Place
-from humanoid_interfaces.srv import ApplyWrench
 from humanoid_manipulation.manipulator import Manipulator
+from humanoid_simulation.testing.entities import Entities
 from humanoid_simulation.testing.simulated_robot import SimulatedRobot
 from humanoid_simulation.testing.simulators import simulation
 import pytest
-from rclpy.duration import Duration
 from sensor_msgs.msg import JointState
-from simulation_interfaces.srv import GetEntityState
 from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
 
 SCENE = """\
@@ -70,19 +67,16 @@ class World:
             SENSOR,
         )
         self._objects = node.create_publisher(Detection3DArray, 'objects', LATCHED)
-        self._state = node.create_client(GetEntityState, 'simulator/get_entity_state')
-        self._push = node.create_client(ApplyWrench, 'simulator/apply_wrench')
+        self._entities = Entities(ros)
         self.manipulator = ros.start(
             Manipulator, {'places_file': str(places), 'use_sim_time': True}
         )
         self._callers = {name: ActionCaller(ros, kind, name) for name, kind in KINDS.items()}
-        ros.wait_until(self._state.service_is_ready, 60.0, 'the simulator')
 
     @property
     def can_m(self) -> tuple[float, float, float]:
         """Return where the can truly is."""
-        position = self._ask(self._state, GetEntityState.Request(entity='can')).state.pose.position
-        return position.x, position.y, position.z
+        return self._entities.position_m('can')
 
     def remember(self) -> None:
         """Let the robot remember the can where it is."""
@@ -124,22 +118,12 @@ class World:
 
     def pull(self) -> None:
         """Pull at the can."""
-        request = ApplyWrench.Request(
-            entity='can',
-            wrench=Wrench(force=Vector3(x=12.0)),
-            duration=Duration(seconds=1.0).to_msg(),
-        )
-        assert self._ask(self._push, request).success
+        self._entities.pull('can', (12.0, 0.0, 0.0))
 
     def close(self) -> None:
         """End."""
         for caller in self._callers.values():
             caller.close()
-
-    def _ask(self, client: Any, request: Any) -> Any:
-        future = client.call_async(request)
-        self.ros.wait_until(future.done, 60.0, client.srv_name)
-        return future.result()
 
 
 @pytest.fixture(name='world', scope='module')
@@ -207,12 +191,11 @@ def test_a_can_is_taken_put_down_and_handed_over(world: World) -> None:
     busy = world.act('pick', object='red can', side=end.result.side)
     assert busy.result.error_code == Pick.Result.OCCUPIED_HAND
     # As after a restart: what the hand holds is felt, not remembered.
-    held = dict(world.manipulator.held)
-    world.manipulator.held.clear()
+    held = world.manipulator.held.pop(end.result.side)
     busy = world.act('pick', object='red can', side=end.result.side)
     assert busy.result.error_code == Pick.Result.OCCUPIED_HAND
     assert 'something' in busy.result.error_msg
-    world.manipulator.held.update(held)
+    world.manipulator.held[end.result.side] = held
 
     down = world.act('place', place='table')
     assert down.status == GoalStatus.STATUS_SUCCEEDED, down.result.error_msg

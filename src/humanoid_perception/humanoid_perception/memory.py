@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 import math
+from types import MappingProxyType
 
 from humanoid_perception.association import assign
 from humanoid_perception.remembered import Pose2, RememberedThing, Sighting, sighting_noise
@@ -33,6 +34,8 @@ _CALM_RAD_S = 0.5
 """A camera that turns faster says nothing of what it does not see."""
 _JUMP_M, _JUMP_RAD = 0.15, 0.10
 """What the frame of the odometry moves at once that is more than a correction of drift."""
+_IN_HAND_M = 0.15
+"""What is detected so near to a thing in a hand is that thing, or the hand."""
 _FAR_M = 2.0
 """No detection is so far from its thing."""
 
@@ -128,7 +131,11 @@ class ObjectMemory:
             self._anchor = _composed(shift, self._anchor)
 
     def look(
-        self, view: View, sightings: Iterable[Sighting], anchor: Pose2 = (0.0, 0.0, 0.0)
+        self,
+        view: View,
+        sightings: Iterable[Sighting],
+        anchor: Pose2 = (0.0, 0.0, 0.0),
+        held_m: Mapping[str, Array] = MappingProxyType({}),
     ) -> None:
         """
         Take a look of the camera into account.
@@ -142,6 +149,9 @@ class ObjectMemory:
         anchor
             Where the odometry's frame is in that of the memory. Where it jumps, what was seen
             before under the same anchor moves along.
+        held_m
+            Where things are that hands hold, by id; (3,), in the same frame. Detections near there
+            are left out: what a hand holds, and the hand itself.
 
         """
         self._correct(anchor, view)
@@ -149,9 +159,18 @@ class ObjectMemory:
         self._time_s = view.time_s
         for thing in self._all:
             thing.drift(passed_s, self.settings.drift_m_s**2, 0.3)
-        sound = [sighting for sighting in sightings if sighting.is_sound]
+        sound = [
+            sighting
+            for sighting in sightings
+            if sighting.is_sound
+            and all(math.dist(sighting.position_m, at) > _IN_HAND_M for at in held_m.values())
+        ]
+        carried = [each for each in self._all if each.object_id in held_m]
+        for thing in carried:
+            thing.carry(held_m[thing.object_id], view.time_s)
+            thing.anchor = anchor
         seen = self._recognise(view, sound)
-        self._miss(view, seen)
+        self._miss(view, [*seen, *carried])
         self._merge(seen)
         self._give_ids()
         self._forget()

@@ -43,7 +43,7 @@ from sensor_msgs.msg import CameraInfo, Image
 from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 from tf2_ros import Buffer, TransformException, TransformListener
-from vision_msgs.msg import Detection3DArray
+from vision_msgs.msg import Detection3D, Detection3DArray
 from visualization_msgs.msg import MarkerArray
 
 __all__ = ['MemoryParameters', 'ObjectMemoryNode', 'main']
@@ -124,9 +124,11 @@ class ObjectMemoryNode(Node):
         self._published: dict[str, tuple[Any, ...]] | None = None
         self._buffer = Buffer()
         self._listener = TransformListener(self._buffer, self)
+        self._held: list[Detection3D] = []
         self._objects = self.create_publisher(Detection3DArray, 'objects', LATCHED)
         self._markers = self.create_publisher(MarkerArray, 'objects/markers', LATCHED)
         self.create_subscription(Detection3DArray, 'detections_3d', self._take, STATE)
+        self.create_subscription(Detection3DArray, 'held_objects', self._take_held, LATCHED)
         self.create_subscription(
             CameraInfo, 'camera/camera_info', self._take_camera, SENSOR, raw=True
         )
@@ -170,6 +172,9 @@ class ObjectMemoryNode(Node):
             self._pending.append((time.monotonic(), message))
         self._work()
 
+    def _take_held(self, message: Detection3DArray) -> None:
+        self._held = message.detections
+
     def _clear(self) -> None:
         self._memory.clear()
         self._pending.clear()
@@ -208,8 +213,24 @@ class ObjectMemoryNode(Node):
             for each in message.detections
         ]
         self._memory.look(
-            _seen_from(self._anchor, view), [each for each in sightings if each], self._anchor
+            _seen_from(self._anchor, view),
+            [each for each in sightings if each],
+            self._anchor,
+            self._held_m(told.odom_frame),
         )
+
+    def _held_m(self, odom: str) -> dict[str, Array]:
+        """Return where things are that hands hold, by id."""
+        found = {}
+        for each in self._held:
+            at = each.bbox.center.position
+            try:
+                position, rotation = self._pose(odom, each.header.frame_id, Time())
+            except TransformException:
+                continue
+            in_odom = position + rotation @ np.array([at.x, at.y, at.z])
+            found[each.id], _ = _placed(self._anchor, in_odom, rotation)
+        return found
 
     def _choose_frame(self, told: MemoryParameters) -> None:
         """Remember in the map if there is one; express what is known in it when it appears."""

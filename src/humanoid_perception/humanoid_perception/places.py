@@ -45,6 +45,8 @@ class Surface:
         How exact these are.
     depth_m
         How thick it is: a table top, or a cabinet down to the floor, which is meant by zero.
+    is_container
+        Whether it is the opening of a container, such as a bin: what is put there falls in.
 
     """
 
@@ -53,6 +55,7 @@ class Surface:
     height_m: float
     tolerance_m: float = _TOLERANCE_M
     depth_m: float = 0.0
+    is_container: bool = False
 
     @property
     def middle_m(self) -> Point:
@@ -223,15 +226,18 @@ def _places(table: Any) -> Places:
 
 
 def _surface(entry: Any) -> Surface:
-    keys = ('name', 'outline', 'height', 'tolerance', 'depth')
+    keys = ('name', 'outline', 'height', 'tolerance', 'depth', 'container')
     known = _checked(entry, 'a surface', keys, ('name', 'outline', 'height'))
-    name = _name(known)
+    name, is_container = _name(known), known.get('container', False)
+    if not isinstance(is_container, bool):
+        raise PlacesError(f'container of {name} is {is_container!r}, but has to be true or false.')
     return Surface(
         name,
         _outline(known['outline'], name),
         _number(known['height'], f'the height of {name}'),
         abs(_number(known.get('tolerance', _TOLERANCE_M), f'the tolerance of {name}')),
         abs(_number(known.get('depth', 0.0), f'the depth of {name}')),
+        is_container,
     )
 
 

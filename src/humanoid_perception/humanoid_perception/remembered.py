@@ -19,6 +19,8 @@ _FLOOR_M = 0.012
 """Looks from about the same place err alike: none makes a position surer than this."""
 _LOCALISATION_M = 0.04
 """The standard deviation of where the robot believes to be in the map, along an axis."""
+_CARRIED_M = 0.02
+"""How exactly it is known where a hand has brought a thing."""
 _SURPRISE = 11.3
 """A squared Mahalanobis distance that one look of a hundred exceeds, if the thing is at rest."""
 _MOST_LOOKS = 20.0
@@ -225,6 +227,13 @@ class RememberedThing:
     def believe(self, change: float) -> None:
         """Change how sure it is that the thing is there, by a change of the log odds."""
         self.log_odds = max(-_MOST_LOG_ODDS, min(_MOST_LOG_ODDS, self.log_odds + change))
+
+    def carry(self, position_m: Array, time_s: float) -> None:
+        """Take note of where a hand has brought it."""
+        self.position_m = position_m.copy()
+        self.covariance_m2 = _CARRIED_M**2 * np.eye(3)
+        self.last_seen_s = max(self.last_seen_s, time_s)
+        self.missed = self.empty = 0
 
     def distance2(self, sighting: Sighting, noise_m2: Array) -> float:
         """Return the squared Mahalanobis distance of a sighting."""

@@ -376,3 +376,32 @@ def test_everything_can_be_expressed_in_another_frame() -> None:
     (thing,) = memory.things
     assert thing.position_m == pytest.approx([1.0, 2.3, 0.75], abs=0.03)
     assert thing.yaw_rad == pytest.approx(math.pi / 2)
+
+
+def test_what_a_hand_holds_goes_along_with_it() -> None:
+    """Without being seen, without a double, and it stays where the hand lets it go."""
+    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    watch(memory, world, 10)
+    there = np.array([0.3, -0.2, 0.75])
+    for share in np.linspace(0.0, 1.0, 20):
+        at = (1.0 - share) * np.array(MIDDLE) + share * there
+        world = World([TABLE, WALL, mug(*at[:2])], time_s=world.time_s)
+        view = world.view(around(MIDDLE, 1.3, 0.0), MIDDLE)
+        seen = world.sightings(view) if share < 0.5 else []
+        memory.look(view, seen, held_m={'red_mug_1': at})
+        (thing,) = memory.things
+        assert thing.position_m == pytest.approx(at)
+    watch(memory, world, 10)
+    (thing,) = memory.things
+    assert thing.object_id == 'red_mug_1'
+    assert memory.tentative_count == 0
+    assert np.linalg.norm(thing.position_m - there) < 0.03
+
+
+def test_what_nobody_knows_in_a_hand_is_no_thing() -> None:
+    """Such as what a hand took that was started anew."""
+    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    for number in range(10):
+        view = world.view(around(MIDDLE, 1.3, 0.02 * number), MIDDLE)
+        memory.look(view, world.sightings(view), held_m={'something': np.array(MIDDLE)})
+    assert memory.things == []

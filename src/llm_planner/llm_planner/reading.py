@@ -90,7 +90,7 @@ class Reading:
             said.get('colour', ''),
             said.get('which', ''),
             place,
-            is_inside=place in self._world.rooms or place.endswith('bin'),
+            is_inside=place in (*self._world.rooms, *self._world.containers),
             is_definite=is_definite,
         )
 
@@ -179,10 +179,7 @@ class Reading:
             return False
         if isinstance(self._held, ObjectDescription):
             return bool(wanted == self._held)
-        words = {*self._held.split()}
-        return isinstance(wanted, ObjectDescription) and {
-            wanted.colour or wanted.class_id, wanted.class_id
-        } <= {*words, ANYTHING}  # fmt: skip
+        return isinstance(wanted, ObjectDescription) and wanted.names(self._held)
 
 
 def _field(arguments: Mapping[str, Any], source: str) -> Any:

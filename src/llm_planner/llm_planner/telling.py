@@ -49,6 +49,9 @@ class Telling:
 
     def where(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
         """Say where a thing is."""
+        if object.names(self._watch.holding):
+            self._robot.say(f'I hold the {self._watch.holding}.')
+            return
         thing = self._recall.thing(object)
         self._robot.say(f'The {thing.name} is{where_is(thing) or " where I have seen it"}.')
         return

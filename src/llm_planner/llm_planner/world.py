@@ -89,6 +89,13 @@ class ObjectDescription:
         words = (article, self.which, self.colour, noun, self.place and where)
         return ' '.join(filter(None, words))
 
+    def names(self, name: str) -> bool:
+        """Return whether a thing with a name, such as `red mug`, can be meant, wherever it is."""
+        words = name.split()
+        return (
+            bool(words) and self.class_id in (ANYTHING, words[-1]) and self.colour in ('', *words)
+        )
+
     def fits(self, thing: Thing) -> bool:
         """Return whether a thing can be meant, whatever `which` says."""
         if self.object_id:
@@ -143,6 +150,8 @@ class World:
         The name of what the hand holds; empty if nothing.
     robot
         Where the robot is in the map: x and y in m, yaw in rad; None if that is not known.
+    containers
+        The named surfaces that things are put into, not on.
 
     """
 
@@ -153,6 +162,7 @@ class World:
     inhibition: str = ''
     holding: str = ''
     robot: tuple[float, float, float] | None = None
+    containers: tuple[str, ...] = ()
 
     @property
     def place_names(self) -> tuple[str, ...]:

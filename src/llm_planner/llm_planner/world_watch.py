@@ -48,11 +48,13 @@ class WorldWatch:
         self._node, self._skills, self._implemented = node, skills, implemented
         self.places = places
         self._things: tuple[Thing, ...] = ()
+        self._holding = ''
         self._inhibition = Inhibition()
         self._buffer = Buffer()
         self._listener = TransformListener(self._buffer, node)
         self._model = ''
         node.create_subscription(Detection3DArray, 'objects', self._take, LATCHED)
+        node.create_subscription(Detection3DArray, 'held_objects', self._take_held, LATCHED)
         node.create_subscription(String, 'robot_description', self._take_model, LATCHED)
         for topic, tell in (
             ('walking_state', self._inhibition.tell_walking_state),
@@ -71,6 +73,11 @@ class WorldWatch:
     def things(self) -> tuple[Thing, ...]:
         """Return what is remembered."""
         return self._things
+
+    @property
+    def holding(self) -> str:
+        """Return the name of what a hand holds; empty if nothing."""
+        return self._holding
 
     @property
     def inhibition(self) -> str:
@@ -96,7 +103,9 @@ class WorldWatch:
             self._things,
             {name: reason for name, reason in lacks.items() if reason},
             self.inhibition,
-            robot=self.pose(),
+            self._holding,
+            self.pose(),
+            tuple(base_name(each.name) for each in self.places.surfaces if each.is_container),
         )
 
     def lack(self, skill: Skill) -> str:
@@ -161,6 +170,14 @@ class WorldWatch:
     def _take_model(self, message: String) -> None:
         self._model = message.data
 
+    def _take_held(self, message: Detection3DArray) -> None:
+        names = [
+            Thing(each.id, *_class_and_colour(each)).name
+            for each in message.detections
+            if each.results
+        ]
+        self._holding = names[0] if names else ''
+
     def _take(self, message: Detection3DArray) -> None:
         self._things = tuple(
             _thing(each, self.places) for each in message.detections if each.results
@@ -168,22 +185,26 @@ class WorldWatch:
 
 
 def _thing(detection: Any, places: Places) -> Thing:
-    """Return a remembered object; its colour is that of a second name, such as `red mug`."""
-    class_id = detection.results[0].hypothesis.class_id
-    names = [each.hypothesis.class_id for each in detection.results[1:]]
-    colour = next(
-        (name[: -len(class_id) - 1] for name in names if name.endswith(f' {class_id}')), ''
-    )
+    """Return a remembered object."""
     centre, size = detection.bbox.center.position, detection.bbox.size
     covariance_m2 = np.reshape(detection.results[0].pose.covariance, (6, 6))[:3, :3]
     sigma_m = greatest_sigma_m(covariance_m2)
     place = places.surface_at(centre.x, centre.y, centre.z - 0.5 * size.z, sigma_m)
     return Thing(
         detection.id,
-        class_id,
-        colour,
+        *_class_and_colour(detection),
         place,
         places.room_at(centre.x, centre.y),
         (centre.x, centre.y, centre.z),
         (size.x, size.y, size.z),
     )
+
+
+def _class_and_colour(detection: Any) -> tuple[str, str]:
+    """Return what a thing is, and its colour: that of a second name, such as `red mug`."""
+    class_id = detection.results[0].hypothesis.class_id
+    names = [each.hypothesis.class_id for each in detection.results[1:]]
+    colour = next(
+        (name[: -len(class_id) - 1] for name in names if name.endswith(f' {class_id}')), ''
+    )
+    return class_id, colour

@@ -33,7 +33,7 @@ def test_what_the_planner_does() -> None:
 
 def test_skills_that_cannot_be_used_are_named() -> None:
     """With the reason; what no robot of this kind can do is no trouble."""
-    missing = {'pick': 'I have no hands yet.', 'go_to': 'Navigation is not running.'}
+    missing = {'pick': 'Manipulation is not running.', 'go_to': 'Navigation is not running.'}
     status = skills_status(missing, {'go_to', 'wave'})
     assert status.level == Level.WARN and status.message == 'Not available now: go_to'
     assert status.values == missing

@@ -21,7 +21,9 @@ import pytest
 
 SKILLS = load_skills(Path(__file__).parents[1] / 'config' / 'skills.yaml')
 MUG = Thing('red_mug_1', 'mug', 'red', 'desk', 'study')
-WORLD = World({'desk': 'study'}, ('study', 'hall'), (MUG,), {'pick': 'I have no hands yet.'})
+WORLD = World(
+    {'desk': 'study'}, ('study', 'hall'), (MUG,), {'pick': 'Manipulation is not running.'}
+)
 KEY = 'sk-very-secret'
 
 
@@ -127,7 +129,7 @@ BAD: list[tuple[list[Any], str]] = [
     ([says({'steps': [step('turn', direction='left')] * 200})], '200 steps'),
     ([says({'steps': [{'skill': 'turn', 'arguments': 'left'}]})], 'no object'),
     ([says({'steps': [step('hand_over')]})], 'hold nothing'),
-    ([says({'steps': [step('pick', object={'class': 'mug'})]})], 'no hands yet'),
+    ([says({'steps': [step('pick', object={'class': 'mug'})]})], 'Manipulation is not running'),
     ([(200, hangs)], 'did not answer in time'),
     ([(200, trickles)], 'did not answer in time'),
     ([(200, floods)], 'endless'),
@@ -234,5 +236,5 @@ def test_the_model_is_told_what_there_is() -> None:
         server = ModelServer(stub.url, 'any')
         ModelPlanner(SKILLS, server.answer, 60.0).plan('x"}' * 400, WORLD)
     system, user = (each['content'] for each in stub.asked[0]['messages'])
-    assert 'red_mug_1' in system and 'desk' in system and 'I have no hands yet.' in system
+    assert 'red_mug_1' in system and 'desk' in system and 'Manipulation is not running.' in system
     assert len(json.loads(user)['wish']) == 500 and 'cmd_vel' not in system

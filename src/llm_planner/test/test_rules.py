@@ -126,9 +126,11 @@ def test_it_is_what_was_spoken_of_before() -> None:
 
 def test_what_the_robot_cannot_do_now_is_refused_with_the_reason() -> None:
     """Before anything begins, whichever step it is; nor does it walk while it may not."""
-    world = replace(WORLD, missing={'pick': 'I have no hands yet.'})
-    assert plan('take the mug', world) == Refusal('I have no hands yet.')
-    assert plan('go to the kitchen and take the red mug', world) == Refusal('I have no hands yet.')
+    world = replace(WORLD, missing={'pick': 'Manipulation is not running.'})
+    assert plan('take the mug', world) == Refusal('Manipulation is not running.')
+    assert plan('go to the kitchen and take the red mug', world) == Refusal(
+        'Manipulation is not running.'
+    )
     fallen = replace(WORLD, inhibition='The robot has fallen.')
     assert plan('go to the kitchen', fallen) == Refusal('The robot has fallen.')
     assert told(plan('what do you see', fallen)) == 'say what I see'

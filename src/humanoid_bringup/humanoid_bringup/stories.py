@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Stories: what a robot is told, what is to come of it, and how it ended by ground truth."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+import math
+from pathlib import Path
+
+from humanoid_bringup.testing import ToldRobot
+from humanoid_common.testing.waiting import WaitedInVainError
+from humanoid_control.walking.planar import PlanarPose
+
+__all__ = [
+    'AS_ASKED', 'EXPLAINED', 'WRONG', 'Check', 'Play', 'Scene', 'Story', 'stays', 'tell_all',
+]  # fmt: skip
+
+AS_ASKED, EXPLAINED, WRONG = 'as asked', 'explained', 'WRONG'
+_END_S, _ANSWER_S = 600.0, 60.0
+
+
+@dataclass
+class Scene:
+    """What a check looks at: the robot that was told, and where it was before."""
+
+    told: ToldRobot
+    before: PlanarPose
+
+    @property
+    def said(self) -> str:
+        """All that was said since."""
+        return ' '.join(self.told.said)
+
+    @property
+    def turned_deg(self) -> float:
+        """By how much the robot has truly turned, to the left."""
+        turn = self.told.robot.pose.yaw_rad - self.before.yaw_rad
+        return math.degrees(math.remainder(turn, math.tau))
+
+    @property
+    def moved_m(self) -> complex:
+        """How far it has truly walked, ahead and to the left of how it faced before."""
+        way = self.told.robot.pose.position_m - self.before.position_m
+        return way * complex(math.cos(self.before.yaw_rad), -math.sin(self.before.yaw_rad))
+
+
+Check = Callable[[Scene], bool]
+Play = Callable[[ToldRobot], None]
+
+
+@dataclass(frozen=True)
+class Story:
+    """A command of a kind, what is to come of it, and, if it is spoken, the WAV file."""
+
+    kind: str
+    command: str
+    check: Check
+    wav: Path | None = None
+    has_plan: bool = True
+    play: Play = lambda told: None
+    """What happens after the command."""
+
+
+def stays(text: str) -> Check:
+    """Check that the robot says something, and does nothing."""
+    return lambda scene: (
+        text in scene.said and abs(scene.moved_m) < 0.1 and abs(scene.turned_deg) < 5.0
+    )
+
+
+def tell_all(told: ToldRobot, stories: Sequence[Story], show: Callable[[str], None]) -> list[str]:
+    """
+    Tell one story after another, and return how each ended.
+
+    Parameters
+    ----------
+    told, stories
+        Who is told what.
+    show
+        Is called with a row of a table for each.
+
+    """
+    ends = []
+    for number, story in enumerate(stories, 1):
+        begin_s = told.robot.topics.time_s
+        ends.append(_tell(told, story))
+        took_s = told.robot.topics.time_s - begin_s
+        how = 'spoken' if story.wav else 'typed'
+        show(
+            f'| {number} | {story.kind} | {story.command} ({how}) | {ends[-1]} | '
+            f'{took_s:.0f} s | {" ".join(told.said)} |'
+        )
+    return ends
+
+
+def _tell(told: ToldRobot, story: Story) -> str:
+    """Tell a story, and return how it ended."""
+    told.forget()
+    scene = Scene(told, told.robot.pose)
+    try:
+        if story.wav:
+            told.speak(story.wav)
+        else:
+            told.tell(story.command)
+        story.play(told)
+        if story.has_plan:
+            told.wait_for_the_end(_END_S)
+        else:
+            told.wait_until(lambda: bool(told.said), _ANSWER_S, 'an answer')
+            told.robot.wait(1.0)
+    except WaitedInVainError:
+        told.tell('stop')
+        told.wait_for('I have stopped.', _ANSWER_S)
+        return WRONG
+    if story.check(scene):
+        return AS_ASKED
+    if told.said and not told.has_succeeded:
+        return EXPLAINED
+    return f'{WRONG}: moved by {scene.moved_m:.2f} m, turned by {scene.turned_deg:.0f} degrees'

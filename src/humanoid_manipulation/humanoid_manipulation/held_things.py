@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What hands hold, how that is carried, and how others are told of it."""
+
+from __future__ import annotations
+
+from collections import UserDict
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+import math
+
+from humanoid_control.dynamics.frames import Frame
+from humanoid_control.dynamics.rotations import about_z
+from humanoid_control.walking.heading import quaternion_of
+from humanoid_description.robot import Array
+from humanoid_manipulation.arm_world import Obstacle
+from humanoid_manipulation.upper_body import Reach, UpperBody
+import numpy as np
+from std_msgs.msg import Header
+from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
+
+__all__ = ['HANGING', 'SOMETHING', 'Held', 'HeldThings', 'carrying', 'held_objects']
+
+SOMETHING = 'something'
+"""What a thing is called that a hand holds and of which nobody knows what it is."""
+HANGING = {
+    'left': Reach(0.0, (0.0, 0.15, 0.0, -0.5, 0.0, 0.0)),
+    'right': Reach(0.0, (0.0, -0.15, 0.0, -0.5, 0.0, 0.0)),
+}
+"""Where hands are that do nothing."""
+_LEVEL = {
+    'left': Reach(0.0, (-0.06, 0.15, 0.0, -2.0, 0.0, 0.49)),
+    'right': Reach(0.0, (-0.06, -0.15, 0.0, -2.0, 0.0, 0.49)),
+}
+"""A hand that is level before the body, whatever that means for what it holds."""
+_CARRIED_M = ((0.28, 0.20), (0.33, 0.24), (0.26, 0.28), (0.38, 0.20))
+"""Where a hand may carry something: how far ahead of the pelvis, and how far aside."""
+_CLEAR_M = (0.16, 0.10, 0.04, -0.04, -0.12)
+"""How high above the pelvis the underside of what is carried may be; high enough for a kitchen
+counter is best."""
+_CARRIED_TURNS = 16
+_SLACK_RAD = 0.1
+"""So far from their limits joints stay while they carry something."""
+
+
+@dataclass(frozen=True, eq=False)
+class Held:
+    """
+    A thing in a hand.
+
+    Attributes
+    ----------
+    object_id, names
+        Which one, and what it can be called: its class, and its colour and class.
+    box
+        Its box, in the gripper.
+    width_m
+        The gap of the gripper that holds it.
+    gripper
+        How the gripper was turned when it took the thing, seen along the heading of the hand.
+    below_m
+        How far its underside was below the middle of the gripper then.
+
+    """
+
+    object_id: str
+    names: tuple[str, ...]
+    box: Obstacle
+    width_m: float
+    gripper: Array
+    below_m: float
+
+
+class HeldThings(UserDict[str, Held]):
+    """
+    What hands hold, by their sides.
+
+    Parameters
+    ----------
+    tell
+        Is called after each change.
+
+    """
+
+    def __init__(self, tell: Callable[[], None] = lambda: None) -> None:
+        super().__init__()
+        self._tell = tell
+
+    def __setitem__(self, side: str, held: Held) -> None:
+        """Take note of what a hand has taken."""
+        super().__setitem__(side, held)
+        self._tell()
+
+    def __delitem__(self, side: str) -> None:
+        """Take note that a hand is empty."""
+        super().__delitem__(side)
+        self._tell()
+
+    @property
+    def boxes(self) -> dict[str, Obstacle]:
+        """Return the boxes of the things, each in its gripper, by side."""
+        return {side: held.box for side, held in self.items()}
+
+
+def held_objects(
+    things: HeldThings, grippers: Mapping[str, str], header: Header
+) -> Detection3DArray:
+    """
+    Return the message that tells what hands hold.
+
+    Parameters
+    ----------
+    things
+        What they hold.
+    grippers
+        The frames of the grippers, by side: each thing is in that of its hand.
+    header
+        The time, and the frame of the pelvis.
+
+    """
+    message = Detection3DArray(header=header)
+    for side, held in things.items():
+        detection = Detection3D(id=held.object_id)
+        detection.header.stamp, detection.header.frame_id = header.stamp, grippers[side]
+        for name in held.names:
+            result = ObjectHypothesisWithPose()
+            result.hypothesis.class_id, result.hypothesis.score = name, 1.0
+            detection.results.append(result)
+        at, turn = detection.bbox.center.position, detection.bbox.center.orientation
+        at.x, at.y, at.z = held.box.middle.position_m.tolist()
+        turn.w, turn.x, turn.y, turn.z = quaternion_of(held.box.middle.rotation)
+        size = detection.bbox.size
+        size.x, size.y, size.z = held.box.size_m
+        message.detections.append(detection)
+    return message
+
+
+def carrying(body: UpperBody, side: str, held: Held) -> Reach:
+    """
+    Return how an arm carries a thing: close, high, and upright as it was taken.
+
+    Parameters
+    ----------
+    body, side
+        Whose hand.
+    held
+        What it holds.
+
+    """
+    arm, sign = body.arms[side], 1.0 if side == 'left' else -1.0
+    for clear_m in _CLEAR_M:
+        found: list[tuple[float, Reach]] = []
+        for ahead_m, aside_m in _CARRIED_M:
+            at = np.array([ahead_m, sign * aside_m, clear_m + held.below_m])
+            for number in range(_CARRIED_TURNS):
+                turned = about_z(math.tau * number / _CARRIED_TURNS) @ held.gripper
+                reach = body.find_with_arm(side, Frame(at, turned), 0.0, HANGING[side].posture)
+                if reach is not None and arm.excess_rad(reach.posture) < -_SLACK_RAD:
+                    bent_rad = max(abs(each) for each in reach.posture[1:3])
+                    found.append((bent_rad + ahead_m, reach))
+        if found:
+            return min(found, key=lambda each: each[0])[1]
+    return _LEVEL[side]
