@@ -6,7 +6,8 @@ from __future__ import annotations
 import math
 
 from humanoid_control.dynamics.rotations import from_rpy
-from humanoid_control.walking.terrain import Facet, GroundLevel, tilt_of
+from humanoid_control.walking.sides import LEFT, other
+from humanoid_control.walking.terrain import Facet, GroundLevel, LevelFloor, tilt_of
 import numpy as np
 import pytest
 
@@ -60,3 +61,30 @@ def test_level_stays_near_the_feet() -> None:
         for _ in range(100):
             level.update(0.02, -sunk_m, 0.01)
         assert level.height_m == pytest.approx(0.02 - 0.04)
+
+
+def climbed_m(step_m: float, lean_m: float = 0.0, steps: int = 50) -> float:
+    """Return how high a robot believes to be after steps of a height, if its sensor leans."""
+    floor, heights_m, side = LevelFloor(0.005), [0.0, 0.0], LEFT
+    for _ in range(steps):
+        floor.update(heights_m, side)
+        lean_m = -lean_m
+        heights_m[side] = heights_m[other(side)] + step_m + lean_m
+        floor.update(heights_m, None)
+        side = other(side)
+    floor.update(heights_m, side)
+    shares = [0.0 if each == side else 1.0 for each in (0, 1)]
+    return heights_m[other(side)] + floor.rise_m(shares)
+
+
+@pytest.mark.parametrize('lean_m', [0.0, 0.004])
+@pytest.mark.parametrize('step_m', [-0.002, 0.001])
+def test_a_floor_does_not_drift(step_m: float, lean_m: float) -> None:
+    """Each foothold seems to be a little higher or lower than the one before, and is not."""
+    assert climbed_m(step_m, lean_m) == pytest.approx(0.0, abs=0.01)
+
+
+@pytest.mark.parametrize('step_m', [-0.02, 0.01])
+def test_stairs_are_climbed(step_m: float) -> None:
+    """What is higher by more than that is."""
+    assert climbed_m(step_m) == pytest.approx(50 * step_m, abs=0.01)

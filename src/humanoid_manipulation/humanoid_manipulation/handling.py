@@ -113,10 +113,22 @@ class Handling:
         pose = node.transforms.pose(node.surroundings.frame, base_frame)
         return Frame(pose[:3, 3], pose[:3, :3])
 
-    async def obstacles(self, goal: RunningGoal, but: Sequence[str] = ()) -> list[Obstacle]:
-        """Return what is near the robot, but for what it holds, which it sees as well."""
+    async def obstacles(
+        self, goal: RunningGoal, but: Sequence[str] = (), wider_m: float = 0.0
+    ) -> list[Obstacle]:
+        """
+        Return what is near the robot, but for what it holds, which it sees as well.
+
+        Parameters
+        ----------
+        goal, but
+            What it is done for, and the names of what is left out.
+        wider_m
+            See `Surroundings.obstacles`.
+
+        """
         own = {*but, *(each.box.name for each in self.node.held.values())}
-        found = await self.node.surroundings.obstacles(goal)
+        found = await self.node.surroundings.obstacles(goal, wider_m)
         return [each for each in found if each.name not in own]
 
     async def place_of_feet(self, goal: RunningGoal) -> tuple[float, float, float]:
@@ -261,7 +273,8 @@ class Handling:
 
         """
         node, body, grasps = self.node, self.node.arms.body, list(grasps)
-        around, now = await self.obstacles(goal), self.base
+        around = await self.obstacles(goal, wider_m=node.parameters.current.clearance)
+        now = self.base
         held = node.held.boxes
         best: tuple[float, Grasp, Bend] | None = None
         trouble = GoalAborted('NOT_REACHABLE', f'I do not get to {where} from here.')

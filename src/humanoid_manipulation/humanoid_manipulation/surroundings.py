@@ -103,8 +103,19 @@ class Surroundings:
         node.create_subscription(Detection3DArray, 'objects', self._take, LATCHED)
         node.create_subscription(OccupancyGrid, 'map', self._take_map, LATCHED)
 
-    async def obstacles(self, goal: RunningGoal) -> list[Obstacle]:
-        """Return what is near the robot, in the pelvis."""
+    async def obstacles(self, goal: RunningGoal, wider_m: float = 0.0) -> list[Obstacle]:
+        """
+        Return what is near the robot, in the pelvis.
+
+        Parameters
+        ----------
+        goal
+            What it is done for.
+        wider_m
+            How much farther than they seem things go on each side: they are known less exactly
+            than surfaces.
+
+        """
         found: list[Obstacle] = []
         if self.places.surfaces:
             pose = await self._transforms.known(goal, self._base, self.places.frame)
@@ -116,7 +127,7 @@ class Surroundings:
                 Obstacle(
                     each.name,
                     Frame(each.graspable.position_m, each.rotation),
-                    tuple(each.graspable.size_m.tolist()),
+                    tuple((each.graspable.size_m + 2.0 * wider_m).tolist()),
                 )
                 for each in self.things()
             ]

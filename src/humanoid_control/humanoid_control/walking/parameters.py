@@ -199,6 +199,8 @@ class WalkParameters:
     """... and gives way to where it is measured, ..."""
     level_distance_m: float = _length(0.04)
     """... by so much at most."""
+    level_tolerance_m: float = _length(0.005)
+    """Footholds whose heights differ by less are one level floor for odometry."""
 
     # Falls.
     fall_tilt_rad: float = 0.6

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
 from humanoid_control.dynamics.rotations import about_z
 from humanoid_control.walking.planar import dot, limited, Point
+from humanoid_control.walking.sides import other
 import numpy as np
 from numpy.typing import NDArray
 
@@ -78,3 +80,44 @@ class GroundLevel:
         height_m = before_m + to_feet * (feet_m - before_m) + to_com * (below_com_m - before_m)
         away_m = limited(height_m - feet_m, -self.most_distance_m, self.most_distance_m)
         self.height_m = feet_m + away_m
+
+
+class LevelFloor:
+    """
+    Takes footholds that are about as high as those before for one floor, as rooms have.
+
+    Odometry by the legs is a little off at each foothold, and an inertial sensor that takes level
+    ground for a slope makes the robot climb as long as it walks ahead: without this, the height
+    of the floor drifts by centimetres in a home. A foot that stands higher or lower than where it
+    stood before, by more than a tolerance, is on a step or on a slope. Left and right are not
+    compared: a sensor that leans aside sees one of them higher all the time.
+    """
+
+    def __init__(self, tolerance_m: float) -> None:
+        """
+        Begin with both feet on the ground.
+
+        :param tolerance_m: by how much a level foothold may seem to be higher or lower
+        """
+        self._tolerance_m = tolerance_m
+        self._before_m, self._rise_m = [0.0, 0.0], [0.0, 0.0]
+        self._support: int | None = None
+
+    def update(self, heights_m: Sequence[float], in_air: int | None) -> None:
+        """
+        Take note of where the feet are.
+
+        :param heights_m: of both feet, left and right, as odometry has them
+        :param in_air: the side whose foot swings: that of the other one is known then
+        """
+        if in_air is None or self._support == other(in_air):
+            return
+        side = self._support = other(in_air)
+        step_m = heights_m[side] - self._before_m[side]
+        if abs(step_m) <= self._tolerance_m:
+            self._rise_m[side] -= step_m
+        self._before_m[side] = heights_m[side]
+
+    def rise_m(self, shares: Sequence[float]) -> float:
+        """Return by how much all is higher than odometry has it, by the feet that carry."""
+        return sum(share * rise_m for share, rise_m in zip(shares, self._rise_m))

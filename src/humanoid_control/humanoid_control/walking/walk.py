@@ -23,8 +23,9 @@ from humanoid_control.walking.phases import STAND
 from humanoid_control.walking.planar import Point
 from humanoid_control.walking.planned_acceleration import PlannedAcceleration, within
 from humanoid_control.walking.senses import Sensed
+from humanoid_control.walking.sides import SIDES
 from humanoid_control.walking.soles import footing_below, soles_below
-from humanoid_control.walking.terrain import GroundLevel
+from humanoid_control.walking.terrain import GroundLevel, LevelFloor
 from humanoid_control.walking.touch import NOTHING, Touch, TouchObserver
 from humanoid_control.walking.velocity_command import STANDING, VelocityCommand
 from humanoid_control.walking.walking_robot import WalkingRobot
@@ -64,6 +65,7 @@ class Walk:
         self._level = GroundLevel(
             parameters.level_rate_1_s, parameters.level_leak_1_s, parameters.level_distance_m
         )
+        self._floor = LevelFloor(parameters.level_tolerance_m)
         self._force = ForceObserver(robot.body.mass_kg, parameters.force_rate_1_s)
         self._touch = TouchObserver(robot, parameters)
         self.body = BodyPoseFollower(parameters)
@@ -87,6 +89,11 @@ class Walk:
     def footing(self) -> Footing:
         """Return where the feet stand."""
         return self._footing
+
+    @property
+    def height_m(self) -> float:
+        """Return how high the base is, above the floor on which the walk began."""
+        return float(self.base.position_m[2]) + self._floor.rise_m(self._shares)
 
     def command(self, velocity: VelocityCommand, pose: BodyPose) -> None:
         """
@@ -189,6 +196,7 @@ class Walk:
         in_air = output.swing.side if output.swing else None
         shares = loads_for(self._footing, output.sides, output.zmp_m).shares
         self._conforming.update(self._footing, soles, shares, in_air, passed_s)
+        self._floor.update([self._footing[side].facet.height_m for side in SIDES], in_air)
         com_m = float(self.base.position_m[2] + self.sensed.state.com_m[2])
         self._level.update(
             self._footing.height_m(shares),

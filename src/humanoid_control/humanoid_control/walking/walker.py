@@ -220,7 +220,7 @@ class Walker:
         to_base = state.base_rotation.T
         return Odometry(
             pose=self._pose(walk),
-            height_m=float(walk.base.position_m[2]),
+            height_m=walk.height_m,
             orientation=quaternion_of(state.base_rotation),
             linear_velocity_m_s=to_base @ walk.base.velocity_m_s,
             angular_velocity_rad_s=to_base @ state.base_angular_velocity_rad_s,
