@@ -8,7 +8,7 @@ from typing import Any, TYPE_CHECKING
 from humanoid_common.single_goal import GoalAborted, GoalCanceled, RunningGoal
 from humanoid_description.robot import Array
 from humanoid_interfaces.action import HandOver
-from humanoid_manipulation.handling import Handling, unsound_side
+from humanoid_manipulation.handling import Handling, LEAST_SHARE, unsound_side
 from humanoid_manipulation.held_things import Held
 from humanoid_manipulation.motion_planning import plan
 from humanoid_manipulation.upper_body import Reach
@@ -72,7 +72,7 @@ class Giving(Handling):
         with self.failing():
             await self.move(goal, side, plan(world, side, arms.reach_of(side), _OUT[side]))
         self.tell(goal, 'waiting')
-        if not await self._is_pulled(goal, side):
+        if not await self._is_taken(goal, side, held):
             await self._draw_back(goal)
             raise GoalAborted('NOT_TAKEN', 'Nobody has taken it.')
 
@@ -100,14 +100,16 @@ class Giving(Handling):
             goal.result.object = held.object_id
             await self.let_go(goal, side, wide=True)
 
-    async def _is_pulled(self, goal: RunningGoal, side: str) -> bool:
-        """Return whether somebody pulls within the time that they may take."""
+    async def _is_taken(self, goal: RunningGoal, side: str, held: Held) -> bool:
+        """Return whether somebody pulls within the time that they may take, or has got it."""
         given = goal.request.patience
         patience_s = given.sec + given.nanosec * 1e-9 or _PATIENCE_S
         at_rest = await self._efforts_nm(goal, side, _STILL_S)
         for _ in range(round(patience_s / _PULL_S)):
             now = await self._efforts_nm(goal, side, _PULL_S)
-            if float(np.abs(now - at_rest).max()) > _PULL_NM:
+            gap_m, _ = self.node.arms.grip_of(side)
+            is_gone = gap_m < LEAST_SHARE * held.width_m
+            if is_gone or float(np.abs(now - at_rest).max()) > _PULL_NM:
                 return True
         return False
 

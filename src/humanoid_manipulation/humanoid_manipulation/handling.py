@@ -33,7 +33,7 @@ import numpy as np
 if TYPE_CHECKING:
     from humanoid_manipulation.manipulator import Manipulator
 
-__all__ = ['Handling', 'unsound_side']
+__all__ = ['LEAST_SHARE', 'Handling', 'unsound_side']
 
 TUCKED = {
     'left': Reach(0.0, (0.75, 0.2, 0.0, -2.1, 0.0, 0.0)),
@@ -51,7 +51,7 @@ _NEAR_M = 1.5
 _THERE_RAD = 0.05
 _SLOW_RAD_S = 0.5
 _SHARES = (1.0, 0.75, 0.5, 0.25)
-_LEAST_SHARE = 0.5
+LEAST_SHARE = 0.5
 """Of its width, by which the gripper must stay open if it holds the thing."""
 GRIP_N = 25.0
 _OPENS_M, _WIDEST_M = 0.03, 0.10
@@ -114,7 +114,11 @@ class Handling:
         return Frame(pose[:3, 3], pose[:3, :3])
 
     async def obstacles(
-        self, goal: RunningGoal, but: Sequence[str] = (), wider_m: float = 0.0
+        self,
+        goal: RunningGoal,
+        but: Sequence[str] = (),
+        wider_m: float = 0.0,
+        exact: str = '',
     ) -> list[Obstacle]:
         """
         Return what is near the robot, but for what it holds, which it sees as well.
@@ -123,12 +127,12 @@ class Handling:
         ----------
         goal, but
             What it is done for, and the names of what is left out.
-        wider_m
+        wider_m, exact
             See `Surroundings.obstacles`.
 
         """
         own = {*but, *(each.box.name for each in self.node.held.values())}
-        found = await self.node.surroundings.obstacles(goal, wider_m)
+        found = await self.node.surroundings.obstacles(goal, wider_m, exact)
         return [each for each in found if each.name not in own]
 
     async def place_of_feet(self, goal: RunningGoal) -> tuple[float, float, float]:
@@ -273,7 +277,7 @@ class Handling:
 
         """
         node, body, grasps = self.node, self.node.arms.body, list(grasps)
-        around = await self.obstacles(goal, wider_m=node.parameters.current.clearance)
+        around = await self.obstacles(goal, (), node.parameters.current.clearance, but)
         now = self.base
         held = node.held.boxes
         best: tuple[float, Grasp, Bend] | None = None
@@ -373,7 +377,7 @@ class Handling:
     async def check_held(self, goal: RunningGoal, side: str, width_m: float) -> float:
         """Close a hand, and return the gap; -1 if what is that wide is not between its fingers."""
         closed = await self.node.arms.grip(goal, side, 0.0, GRIP_N)
-        return float(closed.position) if closed.position >= _LEAST_SHARE * width_m else -1.0
+        return float(closed.position) if closed.position >= LEAST_SHARE * width_m else -1.0
 
     async def let_go(self, goal: RunningGoal, side: str, *, wide: bool = False) -> None:
         """Open a hand so far that it holds nothing any more, or as wide as it opens."""

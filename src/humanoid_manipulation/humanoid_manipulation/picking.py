@@ -169,7 +169,7 @@ class Picking(Handling):
         thing = await self._look_at(goal, thing)
         grasp, _ = await self.choose(goal, _untried(thing, tried), side, feet, name, name, (bend,))
         tried.append(grasp)
-        around = await self.obstacles(goal, wider_m=node.parameters.current.clearance)
+        around = await self.obstacles(goal, (), node.parameters.current.clearance, name)
         world = arms.world(around, node.held.boxes, 0.0)
         self.tell(goal, 'reaching')
         await arms.grip(goal, side, grasp.gap_m)

@@ -152,7 +152,7 @@ class Placing(Handling):
         grasp, bend = await self.choose(goal, grasps, side, feet, _words(surface), held.box.name)
         self.tell(goal, 'bending')
         await node.feet.bend(goal, bend)
-        around = await self.obstacles(goal, wider_m=node.parameters.current.clearance)
+        around = await self.obstacles(goal, (), node.parameters.current.clearance)
         world = arms.world(around, node.held.boxes, 0.0)
         self.tell(goal, 'reaching')
         await self.go_before(goal, side, grasp, world, surface.name)

@@ -103,7 +103,9 @@ class Surroundings:
         node.create_subscription(Detection3DArray, 'objects', self._take, LATCHED)
         node.create_subscription(OccupancyGrid, 'map', self._take_map, LATCHED)
 
-    async def obstacles(self, goal: RunningGoal, wider_m: float = 0.0) -> list[Obstacle]:
+    async def obstacles(
+        self, goal: RunningGoal, wider_m: float = 0.0, exact: str = ''
+    ) -> list[Obstacle]:
         """
         Return what is near the robot, in the pelvis.
 
@@ -114,6 +116,8 @@ class Surroundings:
         wider_m
             How much farther than they seem things go on each side: they are known less exactly
             than surfaces.
+        exact
+            The name of a thing that does not.
 
         """
         found: list[Obstacle] = []
@@ -127,7 +131,7 @@ class Surroundings:
                 Obstacle(
                     each.name,
                     Frame(each.graspable.position_m, each.rotation),
-                    tuple((each.graspable.size_m + 2.0 * wider_m).tolist()),
+                    _widened(each, wider_m if each.name != exact else 0.0),
                 )
                 for each in self.things()
             ]
@@ -208,6 +212,12 @@ class Surroundings:
 
     def _take_map(self, message: OccupancyGrid) -> None:
         self._map, self._room_m = message, None
+
+
+def _widened(thing: Remembered, wider_m: float) -> tuple[float, float, float]:
+    """Return the edges of a thing that goes on farther on each side."""
+    length, width, height = (thing.graspable.size_m + 2.0 * wider_m).tolist()
+    return length, width, height
 
 
 def surface_boxes(surface: Surface) -> list[Obstacle]:

@@ -35,7 +35,7 @@ _CALM_RAD_S = 0.5
 _JUMP_M, _JUMP_RAD = 0.15, 0.10
 """What the frame of the odometry moves at once that is more than a correction of drift."""
 _IN_HAND_M = 0.15
-"""What is detected so near to a thing in a hand is that thing, or the hand."""
+"""What is detected so near to a hand, or a thing in one, is that thing, or the hand."""
 _FAR_M = 2.0
 """No detection is so far from its thing."""
 
@@ -136,6 +136,7 @@ class ObjectMemory:
         sightings: Iterable[Sighting],
         anchor: Pose2 = (0.0, 0.0, 0.0),
         held_m: Mapping[str, Array] = MappingProxyType({}),
+        hands_m: Sequence[Array] = (),
     ) -> None:
         """
         Take a look of the camera into account.
@@ -150,8 +151,10 @@ class ObjectMemory:
             Where the odometry's frame is in that of the memory. Where it jumps, what was seen
             before under the same anchor moves along.
         held_m
-            Where things are that hands hold, by id; (3,), in the same frame. Detections near there
-            are left out: what a hand holds, and the hand itself.
+            Where things are that hands hold, by id; (3,), in the same frame.
+        hands_m
+            Where the robot's own hands are; (3,). Detections near there are left out, as the hands
+            themselves look like things; what is remembered there stays.
 
         """
         self._correct(anchor, view)
@@ -159,18 +162,19 @@ class ObjectMemory:
         self._time_s = view.time_s
         for thing in self._all:
             thing.drift(passed_s, self.settings.drift_m_s**2, 0.3)
+        own = [*held_m.values(), *hands_m]
         sound = [
             sighting
             for sighting in sightings
-            if sighting.is_sound
-            and all(math.dist(sighting.position_m, at) > _IN_HAND_M for at in held_m.values())
+            if sighting.is_sound and not _is_near(sighting.position_m, own)
         ]
         carried = [each for each in self._all if each.object_id in held_m]
         for thing in carried:
             thing.carry(held_m[thing.object_id], view.time_s)
             thing.anchor = anchor
         seen = self._recognise(view, sound)
-        self._miss(view, [*seen, *carried])
+        hidden = [each for each in self._all if _is_near(each.position_m, own)]
+        self._miss(view, [*seen, *carried, *hidden])
         self._merge(seen)
         self._give_ids()
         self._forget()
@@ -379,6 +383,11 @@ def _cost(thing: RememberedThing, sighting: Sighting, noise_m2: Array) -> float:
     if sighting.colour and thing.colours.best:
         cost += 3.0 * (1.0 - thing.colours.share(sighting.colour))
     return cost
+
+
+def _is_near(position_m: Array, own_m: Iterable[Array]) -> bool:
+    """Whether something is where the robot's own hands are, or what they hold."""
+    return any(math.dist(position_m, at) < _IN_HAND_M for at in own_m)
 
 
 def _is_same(thing: RememberedThing, other: RememberedThing) -> bool:

@@ -74,6 +74,10 @@ class MemoryParameters:
         'The named places: a YAML file, or the name of one of this package (apartment).',
         read_only=True,
     )
+    hand_frames: tuple[str, ...] = parameter(
+        ('l_gripper', 'r_gripper'),
+        "Frames of the robot's own hands: what is detected there is no thing.",
+    )
     classes: tuple[str, ...] = parameter(
         _CLASSES, 'What the detector can name; a question for another class is refused.'
     )
@@ -216,21 +220,32 @@ class ObjectMemoryNode(Node):
             _seen_from(self._anchor, view),
             [each for each in sightings if each],
             self._anchor,
-            self._held_m(told.odom_frame),
+            *self._own_m(told),
         )
 
-    def _held_m(self, odom: str) -> dict[str, Array]:
-        """Return where things are that hands hold, by id."""
-        found = {}
-        for each in self._held:
-            at = each.bbox.center.position
-            try:
-                position, rotation = self._pose(odom, each.header.frame_id, Time())
-            except TransformException:
-                continue
-            in_odom = position + rotation @ np.array([at.x, at.y, at.z])
-            found[each.id], _ = _placed(self._anchor, in_odom, rotation)
-        return found
+    def _own_m(self, told: MemoryParameters) -> tuple[dict[str, Array], list[Array]]:
+        """Return where things are that hands hold, by id, and where the hands are."""
+        held = {each.id: (each.header.frame_id, each.bbox.center.position) for each in self._held}
+        found = {
+            name: self._placed_point(told.odom_frame, frame, (at.x, at.y, at.z))
+            for name, (frame, at) in held.items()
+        }
+        hands = [
+            self._placed_point(told.odom_frame, frame, (0.0, 0.0, 0.0))
+            for frame in told.hand_frames
+        ]
+        known = {name: at for name, at in found.items() if at is not None}
+        return known, [at for at in hands if at is not None]
+
+    def _placed_point(
+        self, odom: str, frame: str, point_m: tuple[float, float, float]
+    ) -> Array | None:
+        """Return where a point of a frame is in that of the memory now; None if unknown."""
+        try:
+            position, rotation = self._pose(odom, frame, Time())
+        except TransformException:
+            return None
+        return _placed(self._anchor, position + rotation @ np.array(point_m), rotation)[0]
 
     def _choose_frame(self, told: MemoryParameters) -> None:
         """Remember in the map if there is one; express what is known in it when it appears."""

@@ -405,3 +405,15 @@ def test_what_nobody_knows_in_a_hand_is_no_thing() -> None:
         view = world.view(around(MIDDLE, 1.3, 0.02 * number), MIDDLE)
         memory.look(view, world.sightings(view), held_m={'something': np.array(MIDDLE)})
     assert memory.things == []
+
+
+def test_own_hands_are_no_things() -> None:
+    """What is detected there is left out, and what was there before stays."""
+    memory, world = ObjectMemory(), World([TABLE, WALL, mug()])
+    watch(memory, world, 10)
+    for number in range(100):
+        view = world.view(around(MIDDLE, 1.3, 0.002 * number), MIDDLE)
+        hand = Sighting('cube', 0.9, np.array([0.05, 0.05, 0.8]), np.full(3, 0.05), colour='black')
+        memory.look(view, [hand], hands_m=[np.array([0.02, 0.02, 0.8])])
+    assert [each.object_id for each in memory.things] == ['red_mug_1']
+    assert memory.tentative_count == 0
