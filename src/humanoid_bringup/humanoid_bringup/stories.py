@@ -17,7 +17,7 @@ __all__ = [
 ]  # fmt: skip
 
 AS_ASKED, EXPLAINED, WRONG = 'as asked', 'explained', 'WRONG'
-_END_S, _ANSWER_S = 600.0, 60.0
+_END_S, _ANSWER_S, _PLAN_S = 600.0, 60.0, 3.0
 
 
 @dataclass
@@ -57,7 +57,6 @@ class Story:
     command: str
     check: Check
     wav: Path | None = None
-    has_plan: bool = True
     play: Play = lambda told: None
     """What happens after the command."""
 
@@ -104,11 +103,10 @@ def _tell(told: ToldRobot, story: Story) -> str:
         else:
             told.tell(story.command)
         story.play(told)
-        if story.has_plan:
+        told.wait_until(lambda: bool(told.said or told.plan), _ANSWER_S, 'an answer')
+        told.robot.wait(_PLAN_S)  # what is only said has no plan
+        if told.plan is not None:
             told.wait_for_the_end(_END_S)
-        else:
-            told.wait_until(lambda: bool(told.said), _ANSWER_S, 'an answer')
-            told.robot.wait(1.0)
     except WaitedInVainError:
         told.tell('stop')
         told.wait_for('I have stopped.', _ANSWER_S)

@@ -130,19 +130,16 @@ STORIES = (
         'refusing',
         'put it down',
         stays('I would hold nothing by then.'),
-        has_plan=False,
     ),
     Story(
         'refusing',
         'fly to the moon',
         stays('I did not understand "fly to the moon".'),
-        has_plan=False,
     ),
     Story(
         'refusing',
         'turn left by 9999 degrees',
         stays('9999 degrees is out of my range'),
-        has_plan=False,
     ),
     Story(
         'refusing',

@@ -10,6 +10,7 @@ from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Duration
 from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import JointTolerance
+from humanoid_common.goal_result import GoalResult
 from humanoid_common.single_goal import GoalAborted
 from rclpy.action import ActionClient
 from rclpy.node import Node
@@ -65,7 +66,7 @@ class JointMover:
         self._client = ActionClient(node, FollowJointTrajectory, self.action)
         self._sent: Any = None
         self._handle: Any = None
-        self._end: Any = None
+        self._end: GoalResult | None = None
 
     @property
     def is_ready(self) -> bool:
@@ -107,7 +108,7 @@ class JointMover:
             if sent is self._sent:
                 self._handle = handle
                 if handle.accepted:
-                    self._end = handle.get_result_async()
+                    self._end = GoalResult(handle)
             elif handle.accepted:
                 handle.cancel_goal_async()
 
@@ -142,6 +143,6 @@ class JointMover:
 
     def stop(self) -> None:
         """End a motion that goes on; the joints stay where they are."""
-        if self._handle is not None and self._handle.accepted and not self._end.done():
+        if self._end is not None and not self._end.done():
             self._handle.cancel_goal_async()
         self._sent = self._handle = self._end = None

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 import traceback
 from typing import Any
 
+from humanoid_common.goal_result import GoalResult
 from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.clock import Clock, ClockType
@@ -125,7 +126,7 @@ class RunningGoal:
             handle = sent.result()
             if not handle.accepted:
                 raise GoalAborted(code, f"'{action}' rejected a goal: its log says why.")
-            end = handle.get_result_async()
+            end = GoalResult(handle)
             while not end.done():
                 await self.tick()
                 check()

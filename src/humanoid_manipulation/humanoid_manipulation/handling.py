@@ -12,7 +12,7 @@ from humanoid_common.single_goal import GoalAborted, GoalCanceled, RunningGoal
 from humanoid_control.dynamics.frames import Frame
 from humanoid_description.drives import SIDES
 from humanoid_description.robot import Array
-from humanoid_manipulation.arm_world import ArmWorld, Obstacle
+from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.arms import Arms
 from humanoid_manipulation.errors import ManipulationError
 from humanoid_manipulation.grasps import Grasp
@@ -191,7 +191,9 @@ class Handling:
             start = arms.reach_of(side)
             if max(abs(a - b) for a, b in zip(start.posture, end.posture)) < _THERE_RAD:
                 continue
-            world = arms.world(await self.obstacles(goal, but), self.node.held.boxes, 0.0)
+            clearance_m = self.node.parameters.current.clearance
+            around = await self.obstacles(goal, but)
+            world = arms.world(around, self.node.held.boxes, clearance_m)
             with self.failing():
                 await self.move(goal, side, plan(world, side, start, end))
 
@@ -308,24 +310,21 @@ class Handling:
             raise trouble
         return best[1:]
 
-    async def go_before(
-        self, goal: RunningGoal, side: str, grasp: Grasp, world: ArmWorld, name: str
-    ) -> None:
+    async def go_before(self, goal: RunningGoal, side: str, grasp: Grasp, name: str) -> None:
         """Bring a hand before a grasp, which is in the map, on a free way."""
         arms = self.node.arms
         start = arms.reach_of(side)
         reached = grasp_reaches(arms.body, side, grasp, self.base, start, TURNS_RAD)
         if reached is None:
             raise GoalAborted('NOT_REACHABLE', f'I do not get to {name} from here.')
-        with self.failing():
-            await self.move(goal, side, plan(world, side, start, reached[0]))
+        await self.bring_arms(goal, {side: reached[0]})
 
-    async def go_to(
-        self, goal: RunningGoal, side: str, grasp: Grasp, world: ArmWorld, but: str
-    ) -> None:
+    async def go_to(self, goal: RunningGoal, side: str, grasp: Grasp, but: str) -> None:
         """Bring a hand to a grasp, straight; only one thing may be touched."""
         # What the feet sway meanwhile is made up for on the last centimetres.
         arms = self.node.arms
+        around = await self.obstacles(goal, (), self.node.parameters.current.clearance, but)
+        world = arms.world(around, self.node.held.boxes, 0.0)
         now = arms.reach_of(side)
         here = arms.body.forward(side, now).position_m
         there = grasp.gripper.seen_from(self.base).position_m

@@ -18,7 +18,8 @@ __all__ = ['BlockedError', 'Motion', 'approach', 'plan', 'timed']
 
 _STEP_RAD = 0.0125
 """So far apart are the postures that are looked at on a way: 8 mm at the fingers."""
-_DEEPER_M = 0.002
+_DEEPER_M, _NEARER_M = 0.002, 0.002
+"""How much deeper, or nearer, than at the ends of a way an arm may come to something."""
 _STRIDE_RAD = 0.4
 """How far a tree grows at once."""
 _MOST_STRIDES = 2000
@@ -83,7 +84,8 @@ def plan(
         Which arm moves.
     start, goal
         Where it is, and where it is to be. What it touches at the start, it may touch on the way,
-        but no more deeply.
+        but no more deeply; what it comes too near to at the goal without touching it, it may come
+        so near to.
     but
         Pairs of names that may touch each other.
     seed
@@ -105,8 +107,10 @@ def plan(
         least_m = min(allowed.get(contact.names, math.inf), contact.distance_m - _DEEPER_M)
         allowed[contact.names] = least_m
     for contact in world.contacts(side, goal):
-        if contact.distance_m < allowed.get(contact.names, math.inf):
+        if contact.distance_m < min(0.0, allowed.get(contact.names, 0.0)):
             raise BlockedError(f'The {side} arm cannot be there: {contact}.')
+        least_m = allowed.get(contact.names, math.inf)
+        allowed[contact.names] = min(least_m, contact.distance_m - _NEARER_M)
     search = _Search(world, side, allowed, np.random.default_rng(seed))
     way = search.way(_array(start), _array(goal))
     if way is None:

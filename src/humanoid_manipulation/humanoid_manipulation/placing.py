@@ -145,22 +145,20 @@ class Placing(Handling):
         spots: Sequence[tuple[float, float]],
     ) -> None:
         """Bend, reach, lower, open, and draw back."""
-        node, arms = self.node, self.node.arms
+        node = self.node
         feet = await self.place_of_feet(goal)
         near = sorted(spots, key=lambda spot: math.dist(spot, feet[:2]))[:_SPOTS]
         grasps = [each for spot in near for each in _ways_down(held, _let_go(surface, spot))]
         grasp, bend = await self.choose(goal, grasps, side, feet, _words(surface), held.box.name)
         self.tell(goal, 'bending')
         await node.feet.bend(goal, bend)
-        around = await self.obstacles(goal, (), node.parameters.current.clearance)
-        world = arms.world(around, node.held.boxes, 0.0)
         self.tell(goal, 'reaching')
-        await self.go_before(goal, side, grasp, world, surface.name)
+        await self.go_before(goal, side, grasp, surface.name)
         if await self.check_held(goal, side, held.width_m) < 0.0:
             del node.held[side]
             raise GoalAborted('SLIPPED', f'{held.object_id} has slipped out of my hand.')
         self.tell(goal, 'lowering')
-        await self.go_to(goal, side, grasp, world, held.box.name)
+        await self.go_to(goal, side, grasp, held.box.name)
         self.tell(goal, 'opening')
         await self.let_go(goal, side, wide=surface.is_container)
         at = grasp.gripper.position_m

@@ -16,6 +16,8 @@ from llm_planner.world import ANYTHING, base_name, in_words, listed, ObjectDescr
 __all__ = ['Clause', 'Reading']
 
 _ASKING = frozenset(('find', 'where', 'describe', 'identify', 'count', 'tell_count'))
+_UNKNOWN = 'something'
+"""What a hand holds of which nobody knows what it is."""
 """Skills that do not mind which of several things is meant."""
 
 
@@ -110,6 +112,8 @@ class Reading:
         if argument.kind == 'target' and 'place_name' in inner:
             return self._place(inner['place_name'])
         bindings = inner['object'] if argument.kind == 'target' else raw
+        if 'pronoun' in dict(bindings) and self._held and self._is_about_held(skill):
+            return self._held_object()
         if 'pronoun' in dict(bindings) and self.last_object is None and self.last_place:
             return self.last_place
         found = self._distinct(self.described_object(bindings), skill)
@@ -172,6 +176,17 @@ class Reading:
             self._held = step.arguments.get('object', 'something')
         elif 'empty_hand' in leaves:
             self._held = ''
+
+    def _is_about_held(self, skill: Skill) -> bool:
+        """Whether a skill does something with what the hand holds, if that is what is meant."""
+        return any(step.unless_holding for step in skill.steps)
+
+    def _held_object(self) -> ObjectDescription:
+        """Return what the hand holds by then."""
+        if isinstance(self._held, ObjectDescription):
+            return self._held
+        colour, _, class_id = self._held.rpartition(' ')
+        return ObjectDescription(ANYTHING if class_id == _UNKNOWN else class_id, colour)
 
     def _holds(self, wanted: Any) -> bool:
         """Whether the hand will hold by then what is wanted."""

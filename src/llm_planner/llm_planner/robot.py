@@ -8,6 +8,7 @@ from itertools import count
 from typing import Any
 
 from action_msgs.msg import GoalStatus
+from humanoid_common.goal_result import GoalResult
 from humanoid_common.qos import EVENT
 from llm_planner.plan_tree import SkillError, SkillRun
 from rclpy.action import ActionClient
@@ -23,6 +24,8 @@ _PATIENCE_S = 5.0
 """How long a server may take to appear, or to accept a goal; by a clock that nobody stops."""
 _WORDS = {'COLLISION_AHEAD': 'Something is in my way, so I have stopped.'}
 """What to say instead of what is meant for engineers, by the names of error codes."""
+_FINAL = ('NOT_REACHABLE', 'OCCUPIED_HAND', 'EMPTY_HAND')
+"""The names of codes after which it makes no sense to try again."""
 _LOOK_TICKS = 20
 """After how many ticks it is looked again for another server of an action."""
 
@@ -93,7 +96,7 @@ class Robot:
         yield from self._patiently(client.server_is_ready, f"'{name}' is not running.")
         servers = self._servers(name)
         sent = yield from self._accepted(client, name, goal)
-        end = sent.result().get_result_async()
+        end = GoalResult(sent.result())
         try:
             yield from self._ended(client, name, end, servers)
             answer = end.result()
@@ -101,8 +104,8 @@ class Robot:
             if not end.done():
                 sent.add_done_callback(_cancel)
         if answer.status != GoalStatus.STATUS_SUCCEEDED:
-            reason = _reason(answer.result) or otherwise
-            raise SkillError(reason or f"'{name}' did not succeed.")
+            reason = _reason(answer.result) or otherwise or f"'{name}' did not succeed."
+            raise SkillError(reason, is_final=_code(answer.result) in _FINAL)
         return answer.result
 
     def _accepted(
@@ -125,7 +128,7 @@ class Robot:
                 yield
 
     def _ended(
-        self, client: ActionClient, name: str, end: Future[Any], servers: set[bytes]
+        self, client: ActionClient, name: str, end: GoalResult, servers: set[bytes]
     ) -> SkillRun:
         """Wait for a result; SkillError if the server that has accepted the goal is gone."""
         for tick in count():
@@ -162,11 +165,15 @@ class Robot:
 
 def _reason(result: Any) -> str:
     """Return why an action did not succeed, in words for people; '' if it does not say."""
+    said = getattr(result, 'error_msg', '') or getattr(result, 'error_string', '')
+    return _WORDS.get(_code(result), str(said))
+
+
+def _code(result: Any) -> str:
+    """Return the name of the error code of a result, of those that matter; '' for others."""
     code = getattr(result, 'error_code', 0)
-    for name, words in _WORDS.items():
-        if code and getattr(result, name, None) == code:
-            return words
-    return str(getattr(result, 'error_msg', '') or getattr(result, 'error_string', ''))
+    known = (name for name in (*_WORDS, *_FINAL) if getattr(result, name, None) == code)
+    return next(known, '') if code else ''
 
 
 def _cancel(sent: Any) -> None:

@@ -147,6 +147,19 @@ def test_the_hand_is_followed_through_the_plan() -> None:
     )
 
 
+def test_it_is_what_the_hand_holds() -> None:
+    """If it is to be put somewhere or brought, whatever was spoken of last."""
+    for holding in ('red mug', 'something'):
+        world, dialogue = replace(WORLD, holding=holding), Dialogue()
+        assert 'would not be empty' in plan('take the green apple', world, dialogue=dialogue).text
+        done = told(plan('put it on the desk', world, dialogue=dialogue))
+        assert done == 'go to the desk; put it down at the desk'
+        assert told(plan('bring it to me', world, dialogue=dialogue)) == (
+            'come back to you; hand it over'
+        )
+        assert told(plan('look at it', world, dialogue=dialogue)) == 'look at the green apple'
+
+
 def test_a_plan_of_too_many_steps_is_refused() -> None:
     """Twelve can be done at once."""
     assert len(plan(' and '.join(['turn left'] * MOST_STEPS)).steps) == MOST_STEPS

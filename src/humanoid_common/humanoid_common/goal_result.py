@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The result of a goal that another node works on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import time
+from typing import Any
+
+from rclpy.action.client import ClientGoalHandle
+
+__all__ = ['GoalResult']
+
+_PERIOD_S = 5.0
+
+
+class GoalResult:
+    """
+    The answer of a goal that was accepted; it is asked for again from time to time.
+
+    In ROS 2 Jazzy an answer can get lost, or stay unread in an executor until another one comes:
+    who waits for one alone then waits for ever.
+
+    Parameters
+    ----------
+    handle
+        That of the goal.
+    now_s
+        A clock that nobody stops.
+
+    """
+
+    def __init__(
+        self, handle: ClientGoalHandle, now_s: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._handle, self._now_s = handle, now_s
+        self._answers = [handle.get_result_async()]
+        self._asked_s = now_s()
+
+    def done(self) -> bool:
+        """Return whether the answer has come; to be called all the time until then."""
+        if any(each.done() for each in self._answers):
+            return True
+        if self._now_s() - self._asked_s > _PERIOD_S:
+            self._asked_s = self._now_s()
+            self._answers.append(self._handle.get_result_async())
+        return False
+
+    def result(self) -> Any:
+        """Return the answer, with status and result, when it has come."""
+        return next(each.result() for each in self._answers if each.done())
