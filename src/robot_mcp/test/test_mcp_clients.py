@@ -106,7 +106,7 @@ def test_looks(world: Any, robot: Any, transport: str, mode: str) -> None:
         'y_m': 0.0,
         'yaw_deg': 0,
     }
-    assert 'go_to' in state['can'] and 'no hands' in state['cannot']['pick']
+    assert 'go_to' in state['can'] and 'manipulation is not running' in state['cannot']['pick']
     assert state['assistants_may_move_it'] is False
     (mug,) = json.loads(words(results['remembered_objects']))
     assert (mug['id'], mug['colour'], mug['place'], mug['room']) == (

@@ -56,8 +56,9 @@ class RosSandbox:
         destroy(node)
 
     def observer(self) -> Node:
-        """Start a plain node, to watch the others with."""
-        return self.start(lambda **options: Node('observer', **options))
+        """Start a plain node of its own name, to watch the others with."""
+        name = f'observer_{len(self._nodes)}'
+        return self.start(lambda **options: Node(name, **options))
 
     def wait_until(
         self,
