@@ -41,6 +41,17 @@ def test_it_goes_looks_and_tells(told: ToldRobot):
     assert 'blue mug' in said
 
 
+def test_it_takes_a_thing(told: ToldRobot):
+    told.forget()
+    told.tell('pick up the red mug')
+    told.wait_for_the_end()
+    assert told.has_succeeded, told.said
+    x, y, z = told.entities.position_m('red_mug')
+    assert z > 0.8 and abs(complex(x, y) - told.robot.pose.position_m) < 0.6
+    told.tell('where is it')
+    told.wait_for('I hold the red mug.')
+
+
 def test_it_stops_at_once(told: ToldRobot):
     robot = told.robot
     begin = robot.pose.position_m
@@ -56,7 +67,7 @@ def test_it_stops_at_once(told: ToldRobot):
 
 
 def test_it_says_what_it_cannot_do(told: ToldRobot):
-    told.tell('put it down')
-    told.wait_for('I would hold nothing by then.')
+    told.tell('pick up the blue mug')
+    told.wait_for('my hand would not be empty.')
     told.tell('fly to the moon')
     told.wait_for('I did not understand "fly to the moon".')

@@ -77,7 +77,6 @@ class Actions:
         """Take note of where the robot is when it is asked, and forget what was found before."""
         self._recall.begin_plan()
         self._walking.begin_plan()
-        self._looking.begin_plan()
 
     def start(self, step: Step) -> SkillRun:
         """Begin a step, with the defaults of what it does not say."""

@@ -21,6 +21,8 @@ __all__ = ['Looking']
 
 _SEEN_FROM_M = 4.0
 _LOOK_S = 2.0
+_LATELY_S = 600.0
+"""A room that was searched in so short a time is searched after the others."""
 
 
 class Looking:
@@ -37,11 +39,7 @@ class Looking:
     def __init__(self, robot: Robot, watch: WorldWatch, recall: Recall, walking: Walking) -> None:
         self._robot, self._watch = robot, watch
         self._recall, self._walking = recall, walking
-        self._searched: set[str] = set()
-
-    def begin_plan(self) -> None:
-        """Forget in which rooms the plan before has looked for something."""
-        self._searched.clear()
+        self._searched_s: dict[str, float] = {}
 
     def look_at(self, target: Any) -> SkillRun:
         """Turn the head towards a thing or a place, and the body too if that is behind."""
@@ -113,7 +111,7 @@ class Looking:
         rooms = [each for each in places.rooms if only in ('', each.name)]
         if pose is not None:
             rooms.sort(key=lambda room: math.dist(room.middle_m, pose[:2]))
-        rooms.sort(key=lambda room: room.name in self._searched)
+        rooms.sort(key=lambda room: self._was_searched(room.name))
         if not rooms:
             looked.append('all directions from here')
             yield self.look_around()
@@ -125,7 +123,12 @@ class Looking:
             for surface in places.surfaces:
                 if places.room_at(*surface.middle_m) == room.name:
                     yield self._visit(surface.name)
-            self._searched.add(room.name)
+            self._searched_s[room.name] = self._robot.now_s()
+
+    def _was_searched(self, room: str) -> bool:
+        """Whether all that is in a room has been looked at not long ago."""
+        passed_s = self._robot.now_s() - self._searched_s.get(room, -math.inf)
+        return 0.0 <= passed_s < _LATELY_S
 
     def _visit(self, name: str) -> SkillRun:
         yield from self._walking.go_to(base_name(name))

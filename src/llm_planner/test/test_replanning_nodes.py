@@ -59,6 +59,20 @@ def test_what_is_gone_is_looked_for_elsewhere(ros: RosSandbox, tell: Any) -> Non
     assert len(robot.walks) == 2 and robot.walks[-1].x < 1.0
 
 
+def test_a_room_that_was_searched_lately_is_searched_last(ros: RosSandbox, tell: Any) -> None:
+    """Also for another thing, and by another command."""
+    robot = tell.robot
+    tell('find the can')
+    ros.wait_until(lambda: robot.scans == 1, 60.0, 'a look around')
+    robot.after_scan = [detection('can_1', 'can', 'red can', at=(3.2, 1.2, 0.75)), *MUGS]
+    ros.wait_until(robot.heard('I see the red can on the desk.'), 60.0, 'words')
+    walks, scans = len(robot.walks), robot.scans
+    assert scans == 2, 'The hall was searched, and the study not wholly.'
+    tell('find the bottle')
+    ros.wait_until(lambda: robot.scans > scans, 60.0, 'a look around')
+    assert len(robot.walks) == walks + 1, 'It looks around in the hall first.'
+
+
 def test_a_place_is_reached_at_the_second_try(ros: RosSandbox, tell: Any) -> None:
     """The robot stands elsewhere when it tries again; the reason is said once."""
     robot = tell.robot
