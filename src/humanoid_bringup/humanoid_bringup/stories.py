@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import math
 from pathlib import Path
+from typing import Any
 
 from humanoid_bringup.testing import ToldRobot
 from humanoid_common.testing.waiting import WaitedInVainError
@@ -68,16 +69,16 @@ def stays(text: str) -> Check:
     )
 
 
-def tell_all(told: ToldRobot, stories: Sequence[Story], show: Callable[[str], None]) -> list[str]:
+def tell_all(told: ToldRobot, stories: Sequence[Story], capsys: Any) -> list[str]:
     """
-    Tell one story after another, and return how each ended.
+    Tell one story after another, print a row of a table for each, and return how each ended.
 
     Parameters
     ----------
     told, stories
         Who is told what.
-    show
-        Is called with a row of a table for each.
+    capsys
+        That of the test, whose output is shown at once.
 
     """
     ends = []
@@ -86,10 +87,13 @@ def tell_all(told: ToldRobot, stories: Sequence[Story], show: Callable[[str], No
         ends.append(_tell(told, story))
         took_s = told.robot.topics.time_s - begin_s
         how = 'spoken' if story.wav else 'typed'
-        show(
-            f'| {number} | {story.kind} | {story.command} ({how}) | {ends[-1]} | '
-            f'{took_s:.0f} s | {" ".join(told.said)} |'
-        )
+        with capsys.disabled():
+            print(
+                f'\n| {number} | {story.kind} | {story.command} ({how}) | {ends[-1]} | '
+                f'{took_s:.0f} s | {" ".join(told.said)} |',
+                end='',
+                flush=True,
+            )
     return ends
 
 

@@ -191,11 +191,6 @@ def told() -> Iterator[ToldRobot]:
 
 def test_twenty_stories(told: ToldRobot, capsys: pytest.CaptureFixture[str]) -> None:
     """Nearly all end as asked, the others with an explanation; the robot never falls."""
-
-    def show(row: str) -> None:
-        with capsys.disabled():
-            print(f'\n{row}', end='', flush=True)
-
-    ends = tell_all(told, STORIES, show)
+    ends = tell_all(told, STORIES, capsys)
     assert {AS_ASKED, EXPLAINED}.issuperset(ends)
     assert ends.count(AS_ASKED) >= LEAST

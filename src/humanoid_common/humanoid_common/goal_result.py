@@ -18,8 +18,8 @@ class GoalResult:
     """
     The answer of a goal that was accepted; it is asked for again from time to time.
 
-    In ROS 2 Jazzy an answer can get lost, or stay unread in an executor until another one comes:
-    who waits for one alone then waits for ever.
+    A client was seen to wait for minutes after its goal had succeeded; why is not known. A further
+    request costs little, and the first answer that comes counts.
 
     Parameters
     ----------

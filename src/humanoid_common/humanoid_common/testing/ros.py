@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 import gc
+from itertools import count
 import os
 from typing import Any, TypeVar
 
@@ -35,6 +36,7 @@ class RosSandbox:
         rclpy.init(args=[], context=self._context, domain_id=domain)
         self._executor = make_executor(self._context)
         self._nodes: list[Node] = []
+        self._observers = count(1)
 
     def start(
         self,
@@ -57,7 +59,7 @@ class RosSandbox:
 
     def observer(self) -> Node:
         """Start a plain node of its own name, to watch the others with."""
-        name = f'observer_{len(self._nodes)}'
+        name = f'observer_{next(self._observers)}'
         return self.start(lambda **options: Node(name, **options))
 
     def wait_until(
