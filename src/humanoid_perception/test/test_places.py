@@ -89,6 +89,10 @@ def test_the_apartment_has_what_people_name() -> None:
         ('surfaces: {a: 1}', 'list'),
         ('surfaces: [{name: a, outline: [[0, 0], [1, 0], [1, 1]]}]', "'height'"),
         ('surfaces: [{name: a, hight: 1}]', "Did you mean 'height'?"),
+        (
+            'surfaces: [{name: a, height: 1, outline: [[0, 0], [1, 0], [1, 1]], container: 1}]',
+            'true or false',
+        ),
         ('rooms: [{name: a, outline: [[0, 0], [1, 0]]}]', 'three or more corners'),
         ('rooms: [{name: a, outline: [[0, 0], [1, 0], [1, .nan]]}]', 'number of metres'),
         ('rooms: [{name: 3, outline: [[0, 0], [1, 0], [1, 1]]}]', 'text'),
@@ -124,3 +128,9 @@ def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
     """As a sentence."""
     with pytest.raises(PlacesError, match='cannot be read'):
         load_places(tmp_path / 'nothing.yaml')
+
+
+def test_the_bin_of_the_apartment_is_a_container() -> None:
+    """It alone: what is put elsewhere stays on top."""
+    found = [each.name for each in load_places(APARTMENT).surfaces if each.is_container]
+    assert found == ['kitchen_bin']
