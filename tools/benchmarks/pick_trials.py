@@ -28,8 +28,8 @@ from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.walking.planar import PlanarPose
 from humanoid_interfaces.action import Drop, Pick, ScanRoom
 from humanoid_perception.places import load_places, places_path, Surface
-from humanoid_simulation.scene import load_scene
-from humanoid_simulation.scene.occupancy import FREE, occupancy_of
+from humanoid_simulation.scene import load_scene, Scene
+from humanoid_simulation.scene.occupancy import FREE, Layer, occupancy_of, OccupancyMap
 from humanoid_simulation.testing.entities import Entities
 from humanoid_simulation.testing.simulated_robot import FellError, SimulatedRobot
 import numpy as np
@@ -40,6 +40,8 @@ KINDS = ('mug', 'bottle', 'can', 'apple', 'orange', 'cube')
 HELD_M = 0.35
 """What is nearer to a gripper than that, and off its surface, is held."""
 _STANDS_M = 0.5
+_SPOT_M, _SPOT_HIGH_M, _CELL_M = 0.06, 0.3, 0.02
+"""What is free of furniture where a thing is put, such as of the foot of a television."""
 TIPPED_M = 0.05
 """A thing that is farther from where it stood was knocked over, or pushed."""
 LEAST = 0.8
@@ -122,6 +124,7 @@ class Kitchen:
         assert path is not None
         self._places, self._scene = load_places(path), load_scene('apartment')
         self._map = occupancy_of(self._scene)
+        self._tops = {each.name: _top_of(self._scene, each) for each in self._places.surfaces}
         self._things = {each.name: each for each in self._scene.objects}
         self._homes = {name: self._entities.position_m(name) for name in self._things}
 
@@ -138,6 +141,8 @@ class Kitchen:
             inset = min(x - min(xs), max(xs) - x, y - min(ys), max(ys) - y)
             others = [at for n, at in self._homes.items() if n != name]
             if inset < 0.07 or any(math.dist((x, y), o[:2]) < 0.18 for o in others):
+                continue
+            if not self._is_clear(x, y, _SPOT_M, self._tops[surface.name]):
                 continue
             if not self._is_near_room(x, y, self._places.room_at(x, y)):
                 continue
@@ -171,11 +176,14 @@ class Kitchen:
                 return True
         return False
 
-    def _is_clear(self, x: float, y: float, radius_m: float = 0.45) -> bool:
-        """Return whether nothing that is fixed is near."""
+    def _is_clear(
+        self, x: float, y: float, radius_m: float = 0.45, where: OccupancyMap | None = None
+    ) -> bool:
+        """Return whether nothing that is fixed is near, seen from above or in a map."""
+        where = where or self._map
         around = [math.tau * number / 24 for number in range(24)]
         return all(
-            self._map.at(x + away * math.cos(angle), y + away * math.sin(angle)) == FREE
+            where.at(x + away * math.cos(angle), y + away * math.sin(angle)) == FREE
             for away in np.linspace(0.0, radius_m, 4).tolist()
             for angle in around
         )
@@ -236,6 +244,12 @@ class Kitchen:
         end = sent.result().get_result_async()
         self.robot.wait_until(end.done, 400.0)
         return end.result()
+
+
+def _top_of(scene: Scene, surface: Surface) -> OccupancyMap:
+    """Return what is fixed and stands on a surface."""
+    low_m = surface.height_m + 0.01
+    return occupancy_of(scene, Layer(low_m, low_m + _SPOT_HIGH_M), _CELL_M)
 
 
 if __name__ == '__main__':

@@ -10,6 +10,7 @@ from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Duration
 from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import JointTolerance
+from humanoid_common.goal_guard import GoalGuard, GuardedActionClient
 from humanoid_common.goal_result import GoalResult
 from humanoid_common.single_goal import GoalAborted
 from rclpy.action import ActionClient
@@ -55,15 +56,27 @@ class JointMover:
     code, blocked
         The names of the error codes of goals that fail because of it: and of those whose joints
         do not come to where they were told to be, if that is another one.
+    guard
+        Ends a motion with this process; without one, it goes on then.
 
     """
 
     def __init__(
-        self, node: Node, joints: Sequence[str], controller: str, code: str, blocked: str = ''
+        self,
+        node: Node,
+        joints: Sequence[str],
+        controller: str,
+        code: str,
+        blocked: str = '',
+        guard: GoalGuard | None = None,
     ) -> None:
         self.joints, self._code, self._blocked = list(joints), code, blocked or code
         self.action = f'{controller}/follow_joint_trajectory'
-        self._client = ActionClient(node, FollowJointTrajectory, self.action)
+        self._client = (
+            ActionClient(node, FollowJointTrajectory, self.action)
+            if guard is None
+            else GuardedActionClient(guard, FollowJointTrajectory, self.action)
+        )
         self._sent: Any = None
         self._handle: Any = None
         self._end: GoalResult | None = None

@@ -198,6 +198,11 @@ class SingleGoal:
         def accept(handle: ServerGoalHandle) -> None:
             self.newest = handle
             handle.execute()
+            self._wake()
+
+        def cancel(_: ServerGoalHandle) -> CancelResponse:
+            self._wake()
+            return CancelResponse.ACCEPT
 
         async def execute(handle: ServerGoalHandle) -> Any:
             return await self._execute(kind, name, work, handle)
@@ -210,7 +215,7 @@ class SingleGoal:
                 execute,
                 goal_callback=consider,
                 handle_accepted_callback=accept,
-                cancel_callback=lambda _: CancelResponse.ACCEPT,
+                cancel_callback=cancel,
             )
         )
 
@@ -224,11 +229,15 @@ class SingleGoal:
         self._waiting.append(done)
         await done
 
+    def _wake(self) -> None:
+        """End the moment for which the work waits: it is to look whether it may go on."""
+        self._node.executor.create_task(self._fire)
+
     def _fire(self) -> None:
         waiting, self._waiting = self._waiting, []
         for each in waiting:
             each.set_result(None)
-        if not waiting and self._running is None:
+        if not waiting and self._running is None and self._timer is not None:
             self._timer.cancel()
 
     async def _execute(self, kind: Any, name: str, work: Work, handle: ServerGoalHandle) -> Any:

@@ -9,6 +9,7 @@ from typing import Any
 
 from action_msgs.msg import GoalStatus
 from control_msgs.action import GripperCommand
+from humanoid_common.goal_guard import GoalGuard
 from humanoid_common.joint_mover import JointMover, trajectory_point
 from humanoid_common.qos import LATCHED, SENSOR
 from humanoid_common.single_goal import GoalAborted, RunningGoal
@@ -47,11 +48,13 @@ class Arms:
     ----------
     node
         The node whose topics count.
+    guard
+        Ends motions of joints with this process. A gripper goes on: it may hold something.
 
     """
 
-    def __init__(self, node: Node) -> None:
-        self._node = node
+    def __init__(self, node: Node, guard: GoalGuard) -> None:
+        self._node, self._guard = node, guard
         self._body: UpperBody | None = None
         self._urdf = self._prefix = ''
         self._reason = 'No robot_description has come. Start robot_state_publisher.'
@@ -234,8 +237,11 @@ class Arms:
                     f'{side}_arm_controller',
                     _CODE,
                     _BLOCKED,
+                    self._guard,
                 )
                 for side in SIDES
             }
-            self._waist = JointMover(self._node, [body.waist], 'waist_controller', _CODE)
+            self._waist = JointMover(
+                self._node, [body.waist], 'waist_controller', _CODE, guard=self._guard
+            )
         self._body = body

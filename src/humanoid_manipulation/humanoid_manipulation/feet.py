@@ -7,6 +7,7 @@ import math
 
 from action_msgs.msg import GoalStatus
 from geometry_msgs.msg import Pose, Twist
+from humanoid_common.goal_guard import GoalGuard, GuardedActionClient
 from humanoid_common.qos import COMMAND
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_control.dynamics.rotations import yaw_of
@@ -15,7 +16,6 @@ from humanoid_manipulation.stances import Bend
 from humanoid_perception.transforms import Transforms
 from nav2_msgs.action import NavigateToPose
 import numpy as np
-from rclpy.action import ActionClient
 from rclpy.node import Node
 
 __all__ = ['Feet']
@@ -47,16 +47,20 @@ class Feet:
         Where frames are.
     base_frame
         That of the pelvis.
+    guard
+        Ends what navigation does for this node with this process.
 
     """
 
-    def __init__(self, node: Node, transforms: Transforms, base_frame: str) -> None:
+    def __init__(
+        self, node: Node, transforms: Transforms, base_frame: str, guard: GoalGuard
+    ) -> None:
         self._node, self._transforms, self._base = node, transforms, base_frame
         prefix = base_frame.removesuffix('base_link')
         self.soles = [prefix + sole for sole in ('l_sole', 'r_sole')]
         self._velocities = node.create_publisher(Twist, 'cmd_vel', COMMAND)
         self._poses = node.create_publisher(Pose, 'body_pose', COMMAND)
-        self._navigate = ActionClient(node, NavigateToPose, 'navigate_to_pose')
+        self._navigate = GuardedActionClient(guard, NavigateToPose, 'navigate_to_pose')
 
     def place(self, frame: str) -> tuple[float, float, float]:
         """

@@ -9,6 +9,7 @@ import sys
 from typing import Any
 
 from geometry_msgs.msg import PoseStamped
+from humanoid_common.goal_guard import GoalGuard
 from humanoid_common.inhibition import Inhibition
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
@@ -78,10 +79,11 @@ class Manipulator(Node):
         self.parameters = NodeParameters(self, ManipulatorParameters)
         told = self.parameters.current
         self._inhibition = Inhibition()
-        self.arms, self.transforms = Arms(self), Transforms(self)
+        self._guard = GoalGuard(self)
+        self.arms, self.transforms = Arms(self, self._guard), Transforms(self)
         self.surroundings = Surroundings(self, self.transforms, told.base_frame, told.places_file)
         self.goals = SingleGoal(self, lambda: self._inhibition.reason)
-        self.feet = Feet(self, self.transforms, told.base_frame)
+        self.feet = Feet(self, self.transforms, told.base_frame, self._guard)
         self._held = self.create_publisher(Detection3DArray, 'held_objects', LATCHED)
         self.held = HeldThings(self._tell_held)
         picking, placing, giving = Picking(self), Placing(self), Giving(self)
@@ -97,6 +99,11 @@ class Manipulator(Node):
             self.create_subscription(
                 String, topic, lambda message, tell=take: tell(message.data), LATCHED
             )
+
+    def destroy_node(self) -> None:
+        """End the node, and what others still do for it."""
+        self._guard.close()
+        super().destroy_node()
 
     def _tell_held(self) -> None:
         """Publish what hands hold."""

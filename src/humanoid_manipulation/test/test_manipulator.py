@@ -5,11 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 import math
+import signal
 from typing import Any
 
 from action_msgs.msg import GoalStatus
 from humanoid_common.qos import LATCHED
 from humanoid_common.testing.actions import ActionCaller
+from humanoid_common.testing.processes import module_command, running_program
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.mock_robot import MockRobot
 from humanoid_description.expansion import humanoid_urdf
@@ -29,17 +31,19 @@ ASIDE = (0.25, 0.30, 0.0)
 class World:
     """A robot, what moves its arms, and a client of that."""
 
-    def __init__(self, ros: RosSandbox) -> None:
-        """Start all."""
+    def __init__(self, ros: RosSandbox, is_launched: bool = False) -> None:
+        """Start all, but for what moves the arms if that was launched already."""
         self.ros, self.node = ros, ros.observer()
         self.joints: dict[str, float] = {}
+        self._heard = 0
         self.feedback: list[Any] = []
         self.node.create_subscription(JointState, 'joint_states', self._hear, 10)
         self._description = self.node.create_publisher(String, 'robot_description', LATCHED)
         self._description.publish(String(data=humanoid_urdf(hands=True)))
         self.objects = self.node.create_publisher(Detection3DArray, 'objects', LATCHED)
         ros.start(MockRobot, {'hands': True})
-        ros.start(Manipulator)
+        if not is_launched:
+            ros.start(Manipulator)
         self.caller = ActionCaller(ros, Reach, 'reach')
 
     def send(self, position_m: tuple[float, float, float], **fields: Any) -> Any:
@@ -66,8 +70,25 @@ class World:
         message.header.frame_id = 'base_link'
         self.objects.publish(message)
 
+    def moved_rad(self, begin: dict[str, float]) -> float:
+        """Return how far the joint has turned that has turned farthest since then."""
+        return max(abs(self.joints[joint] - before) for joint, before in begin.items())
+
+    def wait_for_rest(self) -> None:
+        """Wait until no joint turns."""
+        begin: dict[str, float] = {}
+        while not begin or self.moved_rad(begin) > 1e-3:
+            begin = self.joints
+            self._hear_more()
+
+    def _hear_more(self) -> None:
+        """Let half a second of joints come."""
+        end = self._heard + 25
+        self.ros.wait_until(lambda: self._heard >= end, PATIENCE_S, 'joints')
+
     def _hear(self, message: JointState) -> None:
         self.joints = dict(zip(message.name, message.position))
+        self._heard += 1
 
 
 @pytest.fixture(name='world', scope='module')
@@ -154,3 +175,27 @@ def test_what_is_not_remembered_is_not_seen_wherever_the_robot_is(world: World) 
     caller.close()
     assert end.status == GoalStatus.STATUS_ABORTED
     assert end.result.error_code == Pick.Result.NOT_SEEN
+
+
+def test_an_arm_stops_when_its_node_is_killed() -> None:
+    """It does not go on to the end of its trajectory, which takes seconds."""
+    command = module_command(
+        'humanoid_manipulation.manipulator', '--ros-args', '-p', 'max_velocity:=0.2'
+    )
+    with ros_sandbox() as ros, running_program(command) as program:
+        world = World(ros, is_launched=True)
+        ros.wait_until(lambda: bool(world.joints), PATIENCE_S, 'joints')
+        begin = world.joints
+        assert world.send(ABOVE).accepted
+        ros.wait_until(lambda: world.moved_rad(begin) > 0.1, PATIENCE_S, 'an arm that moves')
+        program.send(signal.SIGKILL)
+        world.wait_for_rest()
+        moved_rad = world.moved_rad(begin)
+        world.caller.close()
+    with ros_sandbox() as ros:
+        world = World(ros)
+        ros.wait_until(lambda: bool(world.joints), PATIENCE_S, 'joints')
+        begin = world.joints
+        assert world.caller.end_of(world.send(ABOVE)).status == GoalStatus.STATUS_SUCCEEDED
+        assert world.moved_rad(begin) > 2.0 * moved_rad
+        world.caller.close()

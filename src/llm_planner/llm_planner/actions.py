@@ -16,6 +16,7 @@ from llm_planner.recall import HEAD_M, Recall
 from llm_planner.robot import Robot
 from llm_planner.skills import Skills
 from llm_planner.telling import Telling
+from llm_planner.tidying import Tidying
 from llm_planner.walking import Walking
 from llm_planner.world import ObjectDescription
 from llm_planner.world_watch import WorldWatch
@@ -48,7 +49,7 @@ class Actions:
     IMPLEMENTED = frozenset(
         (
             *(*_WALKING, *_LOOKING, *_TELLING, *_HANDLING),
-            *('go_to', 'wave', 'point_at', 'say', 'wait', 'stop'),
+            *('go_to', 'tidy', 'wave', 'point_at', 'say', 'wait', 'stop'),
         )
     )
     """The names of the skills that can be done."""
@@ -60,12 +61,14 @@ class Actions:
         self._looking = Looking(robot, watch, self._recall, self._walking)
         handling = Handling(robot, watch, self._recall)
         telling = Telling(robot, watch, self._recall, self._walking, self._looking)
+        tidying = Tidying(robot, watch, self._walking, self._looking, handling)
         self._starts: Mapping[str, Callable[..., SkillRun]] = {
             **{name: getattr(self._walking, name) for name in _WALKING},
             **{name: getattr(self._looking, name) for name in _LOOKING},
             **{name: getattr(telling, name) for name in _TELLING},
             **{name: getattr(handling, name) for name in _HANDLING},
             'go_to': self._go_to,
+            'tidy': tidying.tidy,
             'wave': self._wave,
             'point_at': self._point_at,
             'say': self._say,

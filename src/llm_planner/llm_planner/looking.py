@@ -22,7 +22,7 @@ __all__ = ['Looking']
 _SEEN_FROM_M = 4.0
 _LOOK_S = 2.0
 _LATELY_S = 600.0
-"""A room that was searched in so short a time is searched after the others."""
+"""A room in which it looked around in so short a time is searched after the others."""
 
 
 class Looking:
@@ -72,6 +72,14 @@ class Looking:
         """Look into all directions."""
         yield from self._robot.act(ScanRoom, 'scan_room', ScanRoom.Goal(turn_body=True))
 
+    def look_over(self, place: str) -> SkillRun:
+        """Look at all that is at a place, from where the robot stands."""
+        surfaces = [each for each in self._watch.places.surfaces if base_name(each.name) == place]
+        if surfaces:
+            yield from self._look_upon(surfaces)
+        else:
+            yield from self.look_around()
+
     def find(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
         """Look for a thing, from one place after another."""
         looked: list[str] = []
@@ -96,7 +104,12 @@ class Looking:
         self._robot.say(f'I see the {thing.name}{where_is(thing)}.')
 
     def _searches(self, wanted: ObjectDescription, looked: list[str]) -> Iterator[SkillRun]:
-        """Yield one way to look for a thing after another; take note of the rooms."""
+        """
+        Yield one way to look for a thing after another; take note of the rooms.
+
+        Most things are seen by who looks around in the middle of a room. So all rooms come first,
+        and then what stands in them, one piece of furniture after another.
+        """
         places, pose = self._watch.places, self._watch.pose()
         yield self._robot.sleep(0.0)
         only = wanted.place
@@ -120,13 +133,14 @@ class Looking:
                 yield self._walking.go_to(room.name)
             looked.append(f'the {in_words(room.name)}')
             yield self.look_around()
+            self._searched_s[room.name] = self._robot.now_s()
+        for room in rooms:
             for surface in places.surfaces:
                 if places.room_at(*surface.middle_m) == room.name:
                     yield self._visit(surface.name)
-            self._searched_s[room.name] = self._robot.now_s()
 
     def _was_searched(self, room: str) -> bool:
-        """Whether all that is in a room has been looked at not long ago."""
+        """Whether the robot has looked around in a room not long ago."""
         passed_s = self._robot.now_s() - self._searched_s.get(room, -math.inf)
         return 0.0 <= passed_s < _LATELY_S
 

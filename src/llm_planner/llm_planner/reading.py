@@ -16,9 +16,9 @@ from llm_planner.world import ANYTHING, base_name, in_words, listed, ObjectDescr
 __all__ = ['Clause', 'Reading']
 
 _ASKING = frozenset(('find', 'where', 'describe', 'identify', 'count', 'tell_count'))
+"""Skills that do not mind which of several things is meant."""
 _UNKNOWN = 'something'
 """What a hand holds of which nobody knows what it is."""
-"""Skills that do not mind which of several things is meant."""
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
 from humanoid_common.qos import EVENT, LATCHED, STATE
 from humanoid_common.single_goal import GoalAborted, RunningGoal, SingleGoal
-from humanoid_interfaces.action import ScanRoom
+from humanoid_interfaces.action import Pick, Place, ScanRoom
 from humanoid_interfaces.msg import Plan
 from humanoid_interfaces.srv import FindObjects
 from nav2_msgs.action import ComputePathToPose, NavigateToPose, Spin
@@ -26,6 +26,7 @@ _SEEING_TICKS = 10
 PLACES = """
 surfaces:
   - {name: desk, height: 0.7, outline: [[3.0, 1.0], [4.0, 1.0], [4.0, 1.6], [3.0, 1.6]]}
+  - {name: shelf, height: 0.9, outline: [[-1.8, -1.8], [-0.8, -1.8], [-0.8, -1.5], [-1.8, -1.5]]}
 rooms:
   - {name: hall, outline: [[-2, -2], [2, -2], [2, 2], [-2, 2]]}
   - {name: study, outline: [[2, -2], [6, -2], [6, 2], [2, 2]]}
@@ -121,6 +122,34 @@ class Robot(Node):
         self.move_to(0.0, 0.0)
         self.remember(MUGS)
 
+    def give_hands(self) -> None:
+        """Take things and put them down, from now on; it holds `held`, and has `placed` things."""
+        self.held: list[Detection3D] = []
+        self.placed: list[tuple[str, str]] = []
+        self.too_wide: set[str] = set()
+        self._holding = self.create_publisher(Detection3DArray, 'held_objects', LATCHED)
+        self._hands = SingleGoal(self, lambda: '')
+        self._hands.offer(Pick, 'pick', self._pick)
+        self._hands.offer(Place, 'place', self._place)
+
+    async def _pick(self, goal: RunningGoal) -> None:
+        name = goal.request.object
+        if name in self.too_wide:
+            raise GoalAborted('NOT_REACHABLE', f'{name} is too wide for my hand.')
+        self.held = [each for each in self._remembered if each.id == name]
+        await self._tell_hands(goal)
+
+    async def _place(self, goal: RunningGoal) -> None:
+        self.placed += [(each.id, goal.request.place) for each in self.held]
+        self.held = []
+        await self._tell_hands(goal)
+
+    async def _tell_hands(self, goal: RunningGoal) -> None:
+        """Tell what is held; that is remembered nowhere else."""
+        self._holding.publish(Detection3DArray(detections=self.held))
+        gone = {each.id for each in self.held} | {name for name, _ in self.placed}
+        await self._see(goal, [each for each in self._remembered if each.id not in gone])
+
     def move_to(self, x_m: float, y_m: float) -> None:
         """Be somewhere else in the map."""
         here = TransformStamped(child_frame_id='base_footprint')
@@ -131,6 +160,7 @@ class Robot(Node):
 
     def remember(self, things: Sequence[Detection3D]) -> None:
         """Publish what is remembered."""
+        self._remembered = list(things)
         self.objects.publish(Detection3DArray(detections=things))
 
     def heard(self, *texts: str) -> Callable[[], bool]:

@@ -13,7 +13,7 @@ from humanoid_interfaces.action import ExecutePlan
 from humanoid_interfaces.msg import Plan, PlanStep
 from humanoid_interfaces.srv import MakePlan
 from llm_planner.model_testing import ModelStub, says, serving
-from llm_planner.robot_testing import Robot
+from llm_planner.robot_testing import detection, MUGS, Robot
 from llm_planner.skill_executor import SkillExecutor
 from llm_planner.task_planner import TaskPlanner
 import pytest
@@ -99,6 +99,28 @@ def test_it_turns_to_look_at_what_is_behind(ros: RosSandbox, tell: Any) -> None:
     tell('look at the red mug')
     ros.wait_until(lambda: robot.looks and robot.looks[-1].x == pytest.approx(3.2), 60.0, 'a look')
     assert [abs(each) for each in robot.spins] == [pytest.approx(3.14, abs=0.01)]
+
+
+def test_it_tidies(ros: RosSandbox, tell: Any) -> None:
+    """All that is there is carried away; what is too wide stays, and is named."""
+    robot = tell.robot
+    robot.give_hands()
+    robot.too_wide = {'red_mug_1'}
+    bowl = detection('bowl_1', 'bowl', at=(3.6, 1.2, 0.75))
+    robot.remember([*MUGS, bowl])
+    ros.wait_until(lambda: robot.count_subscribers('held_objects') == 2, 60.0, 'both of them')
+    tell('move everything from the desk to the shelf')
+    ros.wait_until(robot.heard('I have moved the blue mug and the bowl.'), 60.0, 'words')
+    (told,) = [each for each in robot.said if 'I have moved' in each]
+    assert 'The red mug is still there. red_mug_1 is too wide for my hand.' in told
+    assert robot.placed == [('blue_mug_1', 'shelf'), ('bowl_1', 'shelf')]
+    robot.too_wide = set()
+    tell('move everything from the desk to the shelf')
+    ros.wait_until(robot.heard('I have moved the red mug.'), 60.0, 'words')
+    tell('move everything from the desk to the shelf')
+    ros.wait_until(robot.heard('I see nothing at the desk that I could tidy.'), 60.0, 'words')
+    tell('tidy up the desk')
+    ros.wait_until(robot.heard('kitchen counter'), 60.0, 'a place that there is not here')
 
 
 def test_a_fall_ends_it(ros: RosSandbox, tell: Any) -> None:

@@ -19,7 +19,7 @@ def test_the_own_file() -> None:
     assert {
         *('go_to', 'find', 'look_at', 'pick', 'place', 'bring', 'hand_over', 'put_into'),
         *('follow_path', 'turn', 'move', 'wait', 'wave', 'point_at', 'count', 'describe', 'say'),
-        *('come_back', 'stop'),
+        *('come_back', 'stop', 'tidy'),
     } <= {*skills.skills}
     assert skills['pick'].needs == ('standing', 'empty_hand')
     assert skills.simple('bring') == {'find', 'go_to', 'pick', 'come_back', 'hand_over'}

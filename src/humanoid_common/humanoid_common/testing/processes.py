@@ -53,6 +53,11 @@ class RunningProgram:
         return self._stdout.text + self._stderr.text
 
     @property
+    def pid(self) -> int:
+        """Return the id of its process."""
+        return self._process.pid
+
+    @property
     def has_ended(self) -> bool:
         """Tell whether the program has ended."""
         return self._process.poll() is not None

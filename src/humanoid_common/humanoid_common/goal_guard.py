@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: Apache-2.0
+"""
+Cancel the goals that a node has given to others when its process dies, even by `kill -9`.
+
+A robot goes on with what it was told last: an arm to the end of its trajectory, navigation to its
+goal. Who told it to may be gone by then. So a second process learns of each goal through a pipe,
+which the kernel closes at the moment the first one ends, however it ends. It needs no period and
+no timeout that a busy computer could exceed.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+import os
+import signal
+import subprocess
+import sys
+import time
+from typing import Any
+from uuid import uuid4
+
+from action_msgs.srv import CancelGoal
+from humanoid_common.interrupts import STOP_SIGNALS
+import rclpy
+from rclpy.action import ActionClient
+from rclpy.client import Client
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+from unique_identifier_msgs.msg import UUID
+
+__all__ = ['GoalGuard', 'GuardedActionClient', 'main']
+
+_MODULE = 'humanoid_common.goal_guard'
+_APPEAR_S, _ANSWER_S = 0.5, 0.3
+"""How long an action may take to be found, and to answer, when goals are canceled. One that was
+asked gets the request, whether or not its answer is waited for."""
+
+
+class GoalGuard:
+    """
+    Starts the process that cancels the goals of a node when this process ends.
+
+    Of each action it keeps the newest goal, since a controller works on one at a time.
+
+    Parameters
+    ----------
+    node
+        The node that gives goals to others. Its guard is a hidden node beside it.
+
+    """
+
+    def __init__(self, node: Node) -> None:
+        self.node = node
+        self._goals: dict[str, str] = {}
+        self._process = self._start()
+
+    def add(self, action: str, goal_id: UUID) -> None:
+        """
+        Have a goal canceled if this process ends.
+
+        Parameters
+        ----------
+        action, goal_id
+            The action, as the node calls it, and the goal; it need not be accepted yet.
+
+        """
+        service = self.node.resolve_service_name(f'{action}/_action/cancel_goal')
+        self._goals[service] = bytes(goal_id.uuid).hex()
+        try:
+            self._tell(service)
+        except OSError:  # somebody has killed it
+            self.close()
+            self._process = self._start()
+            for each in self._goals:
+                self._tell(each)
+
+    def close(self) -> None:
+        """End the guard, which cancels what still goes on."""
+        assert self._process.stdin is not None
+        with suppress(OSError):
+            self._process.stdin.close()
+        self._process.wait()
+
+    def _tell(self, service: str) -> None:
+        assert self._process.stdin is not None
+        self._process.stdin.write(f'{service} {self._goals[service]}\n'.encode())
+        self._process.stdin.flush()
+
+    def _start(self) -> subprocess.Popen[bytes]:
+        domain = str(self.node.context.get_domain_id())
+        return subprocess.Popen(
+            [sys.executable, '-m', _MODULE, self.node.get_name(), self.node.get_namespace()],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            env={**os.environ, 'ROS_DOMAIN_ID': domain},
+        )
+
+
+class GuardedActionClient(ActionClient):
+    """
+    A client of an action whose goals end with this process.
+
+    Parameters
+    ----------
+    guard
+        Who sees to that.
+    kind, name
+        As for `rclpy.action.ActionClient`.
+
+    """
+
+    def __init__(self, guard: GoalGuard, kind: Any, name: str) -> None:
+        super().__init__(guard.node, kind, name)
+        self._guard, self._name = guard, name
+
+    def send_goal_async(
+        self, goal: Any, feedback_callback: Any = None, goal_uuid: UUID | None = None
+    ) -> Future[Any]:
+        """Send a goal, as `rclpy.action.ActionClient` does."""
+        goal_id = goal_uuid or UUID(uuid=list(uuid4().bytes))
+        self._guard.add(self._name, goal_id)
+        return super().send_goal_async(goal, feedback_callback, goal_id)
+
+
+def main() -> int:
+    """Read goals until the end of the input, and cancel them."""
+    for number in STOP_SIGNALS:  # a Ctrl-C ends the other process, and so this one
+        signal.signal(number, signal.SIG_IGN)
+    name, namespace = sys.argv[1:]
+    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    node = Node(
+        f'_{name}_goal_guard',
+        namespace=namespace,
+        start_parameter_services=False,
+        enable_rosout=False,
+    )
+    clients: dict[str, Client] = {}
+    goals: dict[str, str] = {}
+    for line in sys.stdin:
+        service, goal_id = line.split()
+        if service not in clients:  # made now, as it takes a while to find the other side
+            clients[service] = node.create_client(CancelGoal, service)
+        goals[service] = goal_id
+    _cancel(node, {clients[service]: goal_id for service, goal_id in goals.items()})
+    node.destroy_node()
+    rclpy.try_shutdown()
+    return 0
+
+
+def _cancel(node: Node, goals: dict[Client, str]) -> None:
+    """Cancel goals, each of the action of its client."""
+    left, answers = dict(goals), []
+    end_s = time.monotonic() + _APPEAR_S
+    while time.monotonic() < end_s:
+        for client in [each for each in left if each.service_is_ready()]:
+            request = CancelGoal.Request()
+            request.goal_info.goal_id.uuid = list(bytes.fromhex(left.pop(client)))
+            answers.append(client.call_async(request))
+            if not left:
+                end_s = time.monotonic() + _ANSWER_S
+        if not left and all(each.done() for each in answers):
+            return
+        rclpy.spin_once(node, timeout_sec=0.02)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

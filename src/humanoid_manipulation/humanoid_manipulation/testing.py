@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A robot before a table with a can, in the simulator, for tests."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+import re
+from typing import Any
+
+from humanoid_common.qos import LATCHED, SENSOR
+from humanoid_common.testing.actions import ActionCaller, End
+from humanoid_common.testing.launching import running_launch_file
+from humanoid_common.testing.processes import RunningProgram
+from humanoid_common.testing.ros import RosSandbox
+from humanoid_description.expansion import humanoid_urdf
+from humanoid_interfaces.action import Drop, HandOver, Pick, Place
+from humanoid_manipulation.manipulator import Manipulator
+from humanoid_simulation.testing.entities import Entities
+from humanoid_simulation.testing.simulated_robot import SimulatedRobot
+from humanoid_simulation.testing.simulators import simulation
+from sensor_msgs.msg import JointState
+from vision_msgs.msg import Detection3D, Detection3DArray, ObjectHypothesisWithPose
+
+__all__ = ['CAN_M', 'PATIENCE_S', 'TableWorld', 'table_world']
+
+CAN_M = (0.62, 0.15, 0.76)
+"""Where the can stands at first."""
+PATIENCE_S = 240.0
+_SCENE = """\
+things:
+  - {name: table, shape: box, size: [0.7, 1.2, 0.7], position: [0.85, 0, 0.35]}
+  - {name: can, shape: cylinder, size: [0.033, 0.12], position: [0.62, 0.15, 0.76], mass: 0.35}
+"""
+_PLACES = """\
+frame: odom
+surfaces:
+  - {name: table, height: 0.70, outline: [[0.5, -0.6], [1.2, -0.6], [1.2, 0.6], [0.5, 0.6]]}
+"""
+_LAUNCH = """\
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+from launch.substitutions import PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description():
+    parameters = {'robot_description': open(%r).read(), 'use_sim_time': True}
+    states = Node(
+        package='robot_state_publisher', executable='robot_state_publisher',
+        parameters=[parameters],
+    )
+    path = [FindPackageShare('humanoid_manipulation'), 'launch', 'manipulation.launch.py']
+    manipulation = IncludeLaunchDescription(
+        PathJoinSubstitution(path),
+        launch_arguments={'places_file': %r, 'use_sim_time': 'true'}.items(),
+    )
+    return LaunchDescription([states, manipulation][:%d])
+"""
+_STARTED = re.compile(r'\[manipulator-\d+\]: process started with pid \[(\d+)\]')
+_KINDS = {'pick': Pick, 'place': Place, 'hand_over': HandOver, 'drop': Drop}
+
+
+class TableWorld:
+    """
+    A robot before a table, clients of what moves its arms, and a memory of the can that is right.
+
+    Parameters
+    ----------
+    ros
+        Where the nodes of the test are.
+    program
+        The launch that has started the others.
+
+    """
+
+    def __init__(self, ros: RosSandbox, program: RunningProgram) -> None:
+        self.ros, self.robot, self.program = ros, SimulatedRobot(ros), program
+        self._joints: dict[str, float] = {}
+        self._velocities: dict[str, float] = {}
+        self._node = node = ros.observer()
+        node.create_subscription(JointState, 'joint_states', self._take, SENSOR)
+        self._objects = node.create_publisher(Detection3DArray, 'objects', LATCHED)
+        self.entities = Entities(ros)
+        self._callers = {name: ActionCaller(ros, kind, name) for name, kind in _KINDS.items()}
+
+    @property
+    def arm_speed_rad_s(self) -> float:
+        """Return how fast that joint of the arms turns that turns fastest."""
+        return max(
+            abs(speed)
+            for joint, speed in self._velocities.items()
+            if any(part in joint for part in ('shoulder', 'elbow', 'wrist'))
+        )
+
+    @property
+    def manipulators(self) -> list[int]:
+        """Return the ids of the processes that the launch has started to move arms."""
+        return [int(pid) for pid in _STARTED.findall(self.program.output)]
+
+    @property
+    def endpoints(self) -> frozenset[bytes]:
+        """Return what tells apart the nodes that move arms, also one that was just killed."""
+        found = self._node.get_publishers_info_by_topic('held_objects')
+        return frozenset(bytes(each.endpoint_gid) for each in found)
+
+    def _take(self, message: JointState) -> None:
+        self._joints.update(zip(message.name, message.position))
+        self._velocities.update(zip(message.name, message.velocity))
+
+    @property
+    def can_m(self) -> tuple[float, float, float]:
+        """Return where the can truly is."""
+        return self.entities.position_m('can')
+
+    def remember(self) -> None:
+        """Let the robot remember the can where it is."""
+        can = Detection3D(id='red_can_1')
+        for name in ('can', 'red can'):
+            result = ObjectHypothesisWithPose()
+            result.hypothesis.class_id, result.hypothesis.score = name, 0.9
+            can.results.append(result)
+        at, size = can.bbox.center.position, can.bbox.size
+        at.x, at.y, at.z = self.can_m
+        size.x = size.y = 0.066
+        size.z = 0.12
+        message = Detection3DArray(detections=[can])
+        message.header.frame_id = 'odom'
+        self._objects.publish(message)
+
+    def act(self, name: str, **fields: Any) -> End:
+        """Do a goal, and return its end; the robot stays on its feet."""
+        end = self._callers[name].end_of(self.start(name, **fields), PATIENCE_S)
+        assert self.robot.stands
+        return end
+
+    def start(self, name: str, **fields: Any) -> Any:
+        """Begin a goal, and return its handle."""
+        self._callers[name].feedback.clear()
+        return self._callers[name].send(**fields)
+
+    def end_of(self, name: str, handle: Any) -> End:
+        """Return how a goal ends."""
+        return self._callers[name].end_of(handle, PATIENCE_S)
+
+    def states(self, name: str) -> list[str]:
+        """Return what the newest goal of an action has told of itself."""
+        return [each.state for each in self._callers[name].feedback]
+
+    def joint_rad(self, name: str) -> float:
+        """Return where a joint is."""
+        return self._joints[name]
+
+    def pull(self) -> None:
+        """Pull at the can."""
+        self.entities.pull('can', (12.0, 0.0, 0.0))
+
+    def close(self) -> None:
+        """End."""
+        for caller in self._callers.values():
+            caller.close()
+
+
+@contextmanager
+def table_world(
+    folder: Path, real_time_factor: float, is_launched: bool = False
+) -> Iterator[tuple[TableWorld, Manipulator | None]]:
+    """
+    Give a robot before a table, and the node that moves its arms.
+
+    Parameters
+    ----------
+    folder
+        Where files may be written.
+    real_time_factor
+        How fast time goes.
+    is_launched
+        Whether the node runs in a process of its own; then it is not given.
+
+    """
+    scene, places = folder / 'kitchen.yaml', folder / 'places.yaml'
+    urdf, launched = folder / 'humanoid.urdf', folder / 'table.launch.py'
+    scene.write_text(_SCENE)
+    places.write_text(_PLACES)
+    urdf.write_text(humanoid_urdf(hands=True))
+    launched.write_text(_LAUNCH % (str(urdf), str(places), 2 if is_launched else 1))
+    parameters = {'scene': str(scene), 'hands': 'true', 'real_time_factor': f'{real_time_factor}'}
+    with simulation(**parameters) as ros, running_launch_file(launched) as program:
+        manipulator = None
+        if not is_launched:
+            own = {'places_file': str(places), 'use_sim_time': True}
+            manipulator = ros.start(Manipulator, own)
+        world = TableWorld(ros, program)
+        yield world, manipulator
+        world.close()

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How the robot clears a place: one thing after another is carried to another place."""
+
+from __future__ import annotations
+
+from llm_planner.handling import Handling
+from llm_planner.looking import Looking
+from llm_planner.plan_tree import SkillError, SkillRun
+from llm_planner.robot import Robot
+from llm_planner.walking import Walking
+from llm_planner.wording import capital
+from llm_planner.world import in_words, listed, ObjectDescription, Thing
+from llm_planner.world_watch import WorldWatch
+
+__all__ = ['Tidying']
+
+
+class Tidying:
+    """
+    Carries things away.
+
+    Parameters
+    ----------
+    robot, watch
+        What speaks, and what is known.
+    walking, looking, handling
+        What brings the robot there, sees what is there, and takes it.
+
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        watch: WorldWatch,
+        walking: Walking,
+        looking: Looking,
+        handling: Handling,
+    ) -> None:
+        self._robot, self._watch = robot, watch
+        self._walking, self._looking, self._handling = walking, looking, handling
+
+    def tidy(self, place: str, destination: str) -> SkillRun:
+        """
+        Clear a place.
+
+        What cannot be taken stays there, and the others are taken all the same.
+
+        Parameters
+        ----------
+        place, destination
+            What is cleared, and where all of it is put; names of surfaces or rooms.
+
+        Raises
+        ------
+        SkillError
+            Nothing is there, something was left, or what the hand holds cannot be put down.
+
+        """
+        if place == destination:
+            raise SkillError('That is where I would carry all of it.', is_final=True)
+        yield from self._walking.go_to(place)
+        yield from self._looking.look_over(place)
+        tried: set[str] = set()
+        moved: list[str] = []
+        left: list[str] = []
+        while (thing := self._next(place, tried)) is not None:
+            tried.add(thing.object_id)
+            try:
+                yield from self._handling.pick(
+                    ObjectDescription(thing.class_id, thing.colour, object_id=thing.object_id)
+                )
+            except SkillError as error:
+                if error.code == 'UNAVAILABLE' or self._watch.holding:
+                    raise
+                left.append(f'{capital(f"the {thing.name}")} is still there. {error}')
+                continue
+            yield from self._walking.go_to(destination)
+            yield from self._handling.place(destination)
+            moved.append(f'the {thing.name}')
+        if not tried:
+            where = in_words(place)
+            raise SkillError(f'I see nothing at the {where} that I could tidy.', is_final=True)
+        done = f'I have moved {listed(moved)}. ' if moved else ''
+        if left:
+            raise SkillError(done + ' '.join(left), is_final=True)
+        self._robot.say(done.strip())
+
+    def _next(self, place: str, tried: set[str]) -> Thing | None:
+        """Return a thing at a place that was not tried yet; None if there is none."""
+        everything = ObjectDescription(place=place)
+        return next(
+            (
+                each
+                for each in everything.among(self._watch.things, self._watch.pose())
+                if each.object_id not in tried
+            ),
+            None,
+        )
