@@ -85,7 +85,15 @@ class Arms:
             self._node.destroy_subscription(subscription)
 
     async def wait(self, goal: RunningGoal) -> None:
-        """Wait until the arms can be moved and it is known where they are, or abort."""
+        """
+        Wait until the arms can be moved and it is known where they are.
+
+        Raises
+        ------
+        GoalAborted
+            The description of the robot, a controller, or a joint's state does not come.
+
+        """
         if not await goal.comes(lambda: not self._missing()):
             raise GoalAborted(_CODE, self._missing())
 

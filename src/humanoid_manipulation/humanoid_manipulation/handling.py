@@ -24,7 +24,6 @@ from humanoid_manipulation.stances import (
     BENDS,
     effort,
     grasp_reaches,
-    is_clear_way,
     Stance,
 )
 from humanoid_manipulation.upper_body import OutOfReachError, Reach
@@ -83,11 +82,30 @@ class Handling:
         self.node, self._feedback = node, feedback
 
     def tell(self, goal: RunningGoal, state: str) -> None:
-        """Say how far it is."""
+        """
+        Say how far it is.
+
+        Parameters
+        ----------
+        goal, state
+            What it is done for, and one of the states that the action's feedback knows.
+
+        """
         goal.publish_feedback(self._feedback(state=state))
 
     async def begin(self, goal: RunningGoal) -> None:
-        """Wait until the arms can be moved, and feel what hands hold."""
+        """
+        Wait until the arms can be moved, and feel what hands hold.
+
+        A hand that is closed with a force around something holds that, whoever closed it; one
+        whose fingers have moved since then holds its thing no longer.
+
+        Raises
+        ------
+        GoalAborted
+            The arms cannot be moved.
+
+        """
         node = self.node
         await node.arms.wait(goal)
         for side in HANGING:
@@ -99,7 +117,20 @@ class Handling:
                 del node.held[side]
 
     def holding(self, asked: str) -> tuple[str, Held]:
-        """Return the hand that is meant, and what it holds."""
+        """
+        Return the hand that is meant, and what it holds.
+
+        Parameters
+        ----------
+        asked
+            `left`, `right`, or nothing for any hand that holds something.
+
+        Raises
+        ------
+        GoalAborted
+            It holds nothing.
+
+        """
         for side, held in self.node.held.items():
             if asked in ('', side):
                 return side, held
@@ -143,7 +174,23 @@ class Handling:
         return node.feet.place(node.surroundings.frame)
 
     async def stand(self, goal: RunningGoal, stance: Stance) -> None:
-        """Walk to a stance, unless the robot is there."""
+        """
+        Walk to a stance, unless the robot is there.
+
+        Long ways are for navigation, up to where the robot can still turn; the last half metre it
+        steps by itself, with the elbows back, and exactly.
+
+        Parameters
+        ----------
+        goal, stance
+            What it is done for, and where to stand, in the map.
+
+        Raises
+        ------
+        GoalAborted
+            The robot does not get there, or its arms have no free way.
+
+        """
         self.tell(goal, 'walking')
         node, feet, frame = self.node, self.node.feet, self.node.surroundings.frame
         x_m, y_m, yaw_rad = await self.place_of_feet(goal)
@@ -153,7 +200,7 @@ class Handling:
             await self.bring_arms(goal, self.at_ease())
             # Navigation is for long ways: it turns in wide curves, and ends about there.
             is_near = math.dist((x_m, y_m), before[:2]) < _NEAR_M
-            if is_near and is_clear_way((x_m, y_m), before[:2], node.surroundings.room_m):
+            if is_near and node.surroundings.floor.is_clear_way((x_m, y_m), before[:2]):
                 await feet.step_to(goal, frame, before)
             else:
                 await feet.go(goal, frame, before)
@@ -185,7 +232,24 @@ class Handling:
     async def bring_arms(
         self, goal: RunningGoal, ends: Mapping[str, Reach], but: Sequence[str] = ()
     ) -> None:
-        """Bring arms somewhere, free of all that is around but for some things."""
+        """
+        Bring arms somewhere, free of all that is around but for some things.
+
+        Parameters
+        ----------
+        goal
+            What it is done for.
+        ends
+            Where the arms are to be, by their sides; one after the other is moved.
+        but
+            The names of things that they may touch.
+
+        Raises
+        ------
+        GoalAborted
+            There is no free way, or the arm does not get there.
+
+        """
         arms = self.node.arms
         for side, end in ends.items():
             start = arms.reach_of(side)
@@ -311,7 +375,22 @@ class Handling:
         return best[1:]
 
     async def go_before(self, goal: RunningGoal, side: str, grasp: Grasp, name: str) -> None:
-        """Bring a hand before a grasp, which is in the map, on a free way."""
+        """
+        Bring a hand before a grasp, which is in the map, on a free way.
+
+        Parameters
+        ----------
+        goal, side, grasp
+            What it is done for, whose hand, and the grasp.
+        name
+            What that is called in sentences.
+
+        Raises
+        ------
+        GoalAborted
+            It is out of reach, or there is no free way.
+
+        """
         arms = self.node.arms
         start = arms.reach_of(side)
         reached = grasp_reaches(arms.body, side, grasp, self.base, start, TURNS_RAD)
@@ -320,7 +399,22 @@ class Handling:
         await self.bring_arms(goal, {side: reached[0]})
 
     async def go_to(self, goal: RunningGoal, side: str, grasp: Grasp, but: str) -> None:
-        """Bring a hand to a grasp, straight; only one thing may be touched."""
+        """
+        Bring a hand to a grasp, straight; only one thing may be touched.
+
+        Parameters
+        ----------
+        goal, side, grasp
+            What it is done for, whose hand, which is before the grasp, and the grasp in the map.
+        but
+            The name of what may be touched.
+
+        Raises
+        ------
+        GoalAborted
+            Something is in the way, the arm does not reach so far, or something stops it.
+
+        """
         # What the feet sway meanwhile is made up for on the last centimetres.
         arms = self.node.arms
         around = await self.obstacles(goal, (), self.node.parameters.current.clearance, but)
@@ -339,7 +433,19 @@ class Handling:
     async def shift(
         self, goal: RunningGoal, side: str, step_m: Array, waist: bool = False
     ) -> None:
-        """Move a hand straight by a step (3,) in the map, or as much of it as it can."""
+        """
+        Move a hand straight by a step, or as much of it as it can.
+
+        Parameters
+        ----------
+        goal, side
+            What it is done for, and whose hand.
+        step_m
+            The step (3,) in the map.
+        waist
+            Whether the waist may turn for that.
+
+        """
         arms = self.node.arms
         step_m = self.base.rotation.T @ step_m
         for share in _SHARES:
@@ -374,12 +480,37 @@ class Handling:
             self.node.get_logger().info(f'I do not get back to where I stand at ease: {error}')
 
     async def check_held(self, goal: RunningGoal, side: str, width_m: float) -> float:
-        """Close a hand, and return the gap; -1 if what is that wide is not between its fingers."""
+        """
+        Close a hand, and return the gap between its fingers (m).
+
+        Parameters
+        ----------
+        goal, side
+            What it is done for, and whose hand.
+        width_m
+            Of what should be between the fingers.
+
+        Returns
+        -------
+        float
+            -1 if the fingers have closed too far for that.
+
+        """
         closed = await self.node.arms.grip(goal, side, 0.0, GRIP_N)
         return float(closed.position) if closed.position >= LEAST_SHARE * width_m else -1.0
 
     async def let_go(self, goal: RunningGoal, side: str, *, wide: bool = False) -> None:
-        """Open a hand so far that it holds nothing any more, or as wide as it opens."""
+        """
+        Open a hand, which holds nothing then.
+
+        Parameters
+        ----------
+        goal, side
+            What it is done for, and whose hand.
+        wide
+            Whether it opens as wide as it can, or no more than it has to beside other things.
+
+        """
         gap_m = _WIDEST_M if wide else min(self.node.held[side].width_m + _OPENS_M, _WIDEST_M)
         await self.node.arms.grip(goal, side, gap_m)
         del self.node.held[side]
@@ -387,7 +518,22 @@ class Handling:
     async def move(
         self, goal: RunningGoal, side: str, way: list[Reach], velocity_rad_s: float = 0.0
     ) -> None:
-        """Move an arm along a way."""
+        """
+        Move an arm, and the waist, along a way.
+
+        Parameters
+        ----------
+        goal, side, way
+            What it is done for, which arm, and the postures through which it goes.
+        velocity_rad_s
+            How fast joints turn at most; 0 is the parameter `max_velocity`.
+
+        Raises
+        ------
+        GoalAborted
+            Something stops it, or its controller does.
+
+        """
         speed = velocity_rad_s or self.node.parameters.current.max_velocity
         await self.node.arms.move(goal, side, timed(way, speed))
 

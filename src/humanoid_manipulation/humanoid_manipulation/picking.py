@@ -108,7 +108,7 @@ class Picking(Handling):
             self.node.surroundings.places,
             near_m,
             sides,
-            room_m=self.node.surroundings.room_m,
+            floor=self.node.surroundings.floor,
         )
         if not found:
             raise GoalAborted(

@@ -128,7 +128,7 @@ class Placing(Handling):
                 near_m,
                 (side,),
                 1,
-                self.node.surroundings.room_m,
+                self.node.surroundings.floor,
             )
         if not found:
             raise GoalAborted(

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 import math
 
@@ -11,6 +11,7 @@ from humanoid_control.dynamics.frames import Frame
 from humanoid_control.dynamics.rotations import about_y, about_z
 from humanoid_description.drives import SIDES
 from humanoid_description.robot import Array
+from humanoid_manipulation.free_floor import FreeFloor, NAVIGABLE_M
 from humanoid_manipulation.grasps import Grasp
 from humanoid_manipulation.upper_body import Reach, UpperBody
 from humanoid_perception.places import Places
@@ -24,7 +25,6 @@ __all__ = [
     'base_of',
     'effort',
     'grasp_reaches',
-    'is_clear_way',
     'stances_for',
 ]
 
@@ -43,10 +43,10 @@ _LEAST_ROOM_M = 0.18
 """From the middle of the feet to what is mapped, at least."""
 _BACK_OFF_M = 0.40
 """So far before where the robot is to stand, navigation ends and steps begin."""
-_NAVIGABLE_M, _WIDE_M, _NARROW_COST_1_M = 0.33, 0.55, 2.0
-"""Navigation gets nowhere nearer to what is mapped, and does not well below the second distance;
-and what each metre less costs."""
-_STEP_M = 0.05
+_WIDE_M, _NARROW_COST_1_M = 0.55, 2.0
+"""Navigation does not do well nearer to what is mapped, and what each metre less costs."""
+_SQUEEZE_COST = 3.0
+"""What it costs if there is no way to it that is wide all along."""
 _ARM_M, _ARM_EDGE_M = 0.25, 0.15
 """How far aside an arm hangs, and how far that is from furniture, at least."""
 _LEAST_COSINE = 0.5
@@ -198,7 +198,7 @@ def stances_for(
     near_m: tuple[float, float] | None = None,
     sides: Sequence[str] = SIDES,
     at_most: int = 6,
-    room_m: Callable[[float, float], float] = lambda x_m, y_m: math.inf,
+    floor: FreeFloor | None = None,
 ) -> list[Stance]:
     """
     Return where to stand to take hold of a thing, the best first.
@@ -219,16 +219,17 @@ def stances_for(
         The hands that may take it.
     at_most
         How many are wanted.
-    room_m
-        Returns how far a point of the map is from what is mapped.
+    floor
+        What one can walk on; without it, all that is clear of the places.
 
     """
     found: list[Stance] = []
     for x_m, y_m, yaw_rad, side in _stands(position_m, places):
-        if side not in sides or room_m(x_m, y_m) < _LEAST_ROOM_M:
+        if side not in sides or (floor and floor.room_m((x_m, y_m)) < _LEAST_ROOM_M):
             continue
-        before_m = room_m(*_before(x_m, y_m, yaw_rad))
-        if before_m < _NAVIGABLE_M:
+        before = _before(x_m, y_m, yaw_rad)
+        before_m = floor.room_m(before) if floor else math.inf
+        if before_m < NAVIGABLE_M:
             continue
         for bend in BENDS:
             best = _best(body, side, grasps, base_of(x_m, y_m, yaw_rad, bend), bend)
@@ -238,6 +239,8 @@ def stances_for(
             cost += _NARROW_COST_1_M * max(0.0, _WIDE_M - before_m)
             if near_m is not None:
                 cost += 0.6 * math.dist(near_m, (x_m, y_m))
+                if floor and not floor.is_wide_way(near_m, before):
+                    cost += _SQUEEZE_COST
             found.append(Stance(x_m, y_m, yaw_rad, bend, side, grasp, cost))
             break
     return _apart(sorted(found, key=lambda stance: stance.cost), at_most)
@@ -246,33 +249,6 @@ def stances_for(
 def _before(x_m: float, y_m: float, yaw_rad: float) -> tuple[float, float]:
     """Return a point behind where the robot stands, clear of what it faces."""
     return x_m - _BACK_OFF_M * math.cos(yaw_rad), y_m - _BACK_OFF_M * math.sin(yaw_rad)
-
-
-def is_clear_way(
-    begin_m: tuple[float, float],
-    end_m: tuple[float, float],
-    room_m: Callable[[float, float], float],
-) -> bool:
-    """
-    Return whether the robot can step straight from one place to another, facing anywhere.
-
-    Parameters
-    ----------
-    begin_m, end_m
-        Where the robot is, and where it is to be: x and y in the map.
-    room_m
-        Returns how far a point of the map is from what is mapped.
-
-    """
-    count = max(1, math.ceil(math.dist(begin_m, end_m) / _STEP_M))
-    on_the_way = (
-        room_m(
-            begin_m[0] + share * (end_m[0] - begin_m[0]),
-            begin_m[1] + share * (end_m[1] - begin_m[1]),
-        )
-        for share in np.linspace(0.0, 1.0, count + 1).tolist()
-    )
-    return min(on_the_way) >= _NAVIGABLE_M
 
 
 def _stands(position_m: Array, places: Places) -> Iterator[tuple[float, float, float, str]]:

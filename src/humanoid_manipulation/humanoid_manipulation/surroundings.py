@@ -15,13 +15,13 @@ from humanoid_control.dynamics.frames import Frame
 from humanoid_control.dynamics.rotations import about_z, from_quaternion, yaw_of
 from humanoid_description.robot import Array
 from humanoid_manipulation.arm_world import Obstacle
+from humanoid_manipulation.free_floor import FreeFloor
 from humanoid_manipulation.grasps import Graspable
 from humanoid_perception.places import load_places, Places, places_path, PlacesError, Surface
 from humanoid_perception.transforms import Transforms
 from nav_msgs.msg import OccupancyGrid
 import numpy as np
 from rclpy.node import Node
-from scipy.ndimage import distance_transform_edt
 from vision_msgs.msg import Detection3D, Detection3DArray
 
 __all__ = ['Remembered', 'Surroundings', 'surface_boxes']
@@ -30,8 +30,8 @@ _FAR_M = 1.5
 """What is farther from the robot is in nobody's way."""
 _MOVED_M = 0.12
 """A detection that is farther from a thing is another one."""
-_OCCUPIED = 50
-"""Cells of a map that are at least so surely occupied are."""
+_PERSON, _PERSON_M = 'person', 0.25
+"""Who stands on the floor, and how far around."""
 _BOARD_M = 0.03
 """No surface is thinner."""
 
@@ -99,7 +99,7 @@ class Surroundings:
         except PlacesError as error:
             raise NodeStartError(str(error)) from error
         self._map = OccupancyGrid()
-        self._room_m: Array | None = None
+        self._floor: FreeFloor | None = None
         node.create_subscription(Detection3DArray, 'objects', self._take, LATCHED)
         node.create_subscription(OccupancyGrid, 'map', self._take_map, LATCHED)
 
@@ -153,23 +153,17 @@ class Surroundings:
             if not asked or each.object_id == asked or wanted in (each.name, *each.names)
         ]
 
-    def room_m(self, x_m: float, y_m: float) -> float:
-        """
-        Return how far a point of the map is from what is mapped.
-
-        It is infinite without a map, and zero where the map says nothing.
-        """
-        grid = self._map.info
-        if grid.width == 0 or grid.height == 0 or self._map.header.frame_id != self.frame:
-            return math.inf
-        if self._room_m is None:
-            cells = np.asarray(self._map.data, dtype=np.int8).reshape(grid.height, grid.width)
-            free = (cells >= 0) & (cells < _OCCUPIED)
-            self._room_m = grid.resolution * distance_transform_edt(free)
-        column = math.floor((x_m - grid.origin.position.x) / grid.resolution)
-        row = math.floor((y_m - grid.origin.position.y) / grid.resolution)
-        inside = 0 <= row < grid.height and 0 <= column < grid.width
-        return float(self._room_m[row, column]) if inside else 0.0
+    @property
+    def floor(self) -> FreeFloor:
+        """Return the floor as far as it is mapped, without the people who are remembered."""
+        if self._floor is None:
+            known = self._map.header.frame_id == self.frame
+            people = (each for each in self.things(_PERSON) if known)
+            self._floor = FreeFloor(
+                self._map if known else OccupancyGrid(),
+                [(*each.graspable.position_m[:2].tolist(), _PERSON_M) for each in people],
+            )
+        return self._floor
 
     @contextmanager
     def watching(self) -> Iterator[None]:
@@ -208,10 +202,10 @@ class Surroundings:
         return replace(thing, graspable=replace(thing.graspable, position_m=position))
 
     def _take(self, message: Detection3DArray) -> None:
-        self._objects = message
+        self._objects, self._floor = message, None
 
     def _take_map(self, message: OccupancyGrid) -> None:
-        self._map, self._room_m = message, None
+        self._map, self._floor = message, None
 
 
 def _widened(thing: Remembered, wider_m: float) -> tuple[float, float, float]:

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How much room there is on the floor, and between where the robot is and where it could stand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import math
+
+from humanoid_description.robot import Array
+from nav_msgs.msg import OccupancyGrid
+import numpy as np
+from scipy.ndimage import distance_transform_edt, label
+
+__all__ = ['NAVIGABLE_M', 'FreeFloor']
+
+NAVIGABLE_M = 0.33
+"""Navigation gets nowhere nearer to what is mapped."""
+_WIDE_M = 0.42
+"""The robot walks well where nothing is nearer: a way between two things that is as wide as a
+door."""
+_BESIDE_M = 0.8
+"""So far a robot that stands at furniture may be from where the floor is wide."""
+_OCCUPIED = 50
+"""Cells of a map that are at least so surely occupied are."""
+_STEP_M = 0.05
+
+Point = tuple[float, float]
+
+
+class FreeFloor:
+    """
+    The floor, but for what is mapped and what stands on it.
+
+    Parameters
+    ----------
+    grid
+        The map, turned by nothing; without cells, the floor is free everywhere.
+    standing
+        What stands on the floor besides, such as people: x, y and the radius of each, in m.
+
+    """
+
+    def __init__(
+        self, grid: OccupancyGrid, standing: Iterable[tuple[float, float, float]]
+    ) -> None:
+        info = grid.info
+        self._resolution_m = float(info.resolution)
+        self._origin_m = np.array([info.origin.position.x, info.origin.position.y])
+        cells = np.asarray(grid.data, dtype=np.int8).reshape(info.height, info.width)
+        free = (cells >= 0) & (cells < _OCCUPIED)
+        rows, columns = np.indices(free.shape)
+        xs = self._origin_m[0] + (columns + 0.5) * self._resolution_m
+        ys = self._origin_m[1] + (rows + 0.5) * self._resolution_m
+        for x_m, y_m, radius_m in standing:
+            free &= np.hypot(xs - x_m, ys - y_m) > radius_m
+        self._is_mapped = free.size > 0
+        self._room_m: Array = self._resolution_m * distance_transform_edt(free)
+        self._regions, _ = label(self._room_m >= _WIDE_M)
+
+    def room_m(self, at_m: Point) -> float:
+        """
+        Return how far a point is from what is mapped, or stands there.
+
+        It is infinite without a map, and zero where the map says nothing.
+        """
+        if not self._is_mapped:
+            return math.inf
+        row, column = self._cell(at_m)
+        rows, columns = self._room_m.shape
+        inside = 0 <= row < rows and 0 <= column < columns
+        return float(self._room_m[row, column]) if inside else 0.0
+
+    def is_clear_way(self, begin_m: Point, end_m: Point) -> bool:
+        """
+        Return whether the robot can step straight from one point to another, facing anywhere.
+
+        Parameters
+        ----------
+        begin_m, end_m
+            Where the robot is, and where it is to be.
+
+        """
+        count = max(1, math.ceil(math.dist(begin_m, end_m) / _STEP_M))
+        return all(
+            self.room_m(
+                (
+                    begin_m[0] + share * (end_m[0] - begin_m[0]),
+                    begin_m[1] + share * (end_m[1] - begin_m[1]),
+                )
+            )
+            >= NAVIGABLE_M
+            for share in np.linspace(0.0, 1.0, count + 1).tolist()
+        )
+
+    def is_wide_way(self, begin_m: Point, end_m: Point) -> bool:
+        """
+        Return whether a way, however long, leads from one point to another that is wide all along.
+
+        Where the floor is not wide at one of them, as before furniture, the way counts from where
+        it is wide near that.
+
+        Parameters
+        ----------
+        begin_m, end_m
+            Where the robot is, and where it is to be.
+
+        """
+        if not self._is_mapped:
+            return True
+        return bool(self._regions_near(begin_m) & self._regions_near(end_m))
+
+    def _regions_near(self, at_m: Point) -> set[int]:
+        """Return the wide regions in which a point is, or which are near it."""
+        row, column = self._cell(at_m)
+        rows, columns = self._regions.shape
+        if 0 <= row < rows and 0 <= column < columns and self._regions[row, column]:
+            return {int(self._regions[row, column])}
+        reach = math.ceil(_BESIDE_M / self._resolution_m)
+        near = self._regions[
+            max(0, row - reach) : max(0, row + reach + 1),
+            max(0, column - reach) : max(0, column + reach + 1),
+        ]
+        return {int(each) for each in np.unique(near) if each}
+
+    def _cell(self, at_m: Point) -> tuple[int, int]:
+        """Return the row and the column in which a point is."""
+        column, row = np.floor((np.array(at_m) - self._origin_m) / self._resolution_m).tolist()
+        return int(row), int(column)
