@@ -21,8 +21,8 @@ JAZZY = set(
     'geographic_msgs geometry_msgs launch launch_pytest launch_ros launch_testing '
     'launch_testing_ros lifecycle_msgs map_msgs nav2_common nav2_msgs nav2_simple_commander '
     'nav_msgs py_trees rcl_interfaces rclpy rosgraph_msgs sensor_msgs simulation_interfaces '
-    'slam_toolbox std_msgs std_srvs tf2_msgs tf2_ros trajectory_msgs vision_msgs '
-    'visualization_msgs xacro'.split()
+    'slam_toolbox std_msgs std_srvs tf2_msgs tf2_ros trajectory_msgs unique_identifier_msgs '
+    'vision_msgs visualization_msgs xacro'.split()
 )
 LIBRARIES = set(
     'OpenGL cv2 faster_whisper httpx httpx2 jsonschema lxml matplotlib mcp mujoco numpy '

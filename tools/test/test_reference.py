@@ -75,7 +75,8 @@ def test_the_sentences_of_the_reference_are_understood(root: Path) -> None:
 
     planner = import_module('llm_planner.rules').RulePlanner(skills.load(root))
     world_of = import_module('llm_planner.world').World
-    world = world_of({'desk': 'study'}, ('kitchen', 'hall', 'study'))
+    places = {'desk': 'study', 'kitchen_table': 'kitchen'}
+    world = world_of(places, ('kitchen', 'hall', 'study'))
     dialogue_of = import_module('llm_planner.dialogue').Dialogue
     said = skills.all_sentences(root)
     assert len(said) > 40

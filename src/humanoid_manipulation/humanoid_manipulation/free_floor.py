@@ -9,6 +9,7 @@ import math
 from humanoid_description.robot import Array
 from nav_msgs.msg import OccupancyGrid
 import numpy as np
+from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt, label
 
 __all__ = ['NAVIGABLE_M', 'FreeFloor']
@@ -54,8 +55,10 @@ class FreeFloor:
         for x_m, y_m, radius_m in standing:
             free &= np.hypot(xs - x_m, ys - y_m) > radius_m
         self._is_mapped = free.size > 0
+        if not self._is_mapped:
+            return
         self._room_m: Array = self._resolution_m * distance_transform_edt(free)
-        self._regions, _ = label(self._room_m >= _WIDE_M)
+        self._regions = _regions(self._room_m >= _WIDE_M, _BESIDE_M / self._resolution_m)
 
     def room_m(self, at_m: Point) -> float:
         """
@@ -107,22 +110,26 @@ class FreeFloor:
         """
         if not self._is_mapped:
             return True
-        return bool(self._regions_near(begin_m) & self._regions_near(end_m))
+        begin, end = self._region(begin_m), self._region(end_m)
+        return 0 < begin == end
 
-    def _regions_near(self, at_m: Point) -> set[int]:
-        """Return the wide regions in which a point is, or which are near it."""
+    def _region(self, at_m: Point) -> int:
+        """Return the number of the wide region of a point; 0 if none is near."""
         row, column = self._cell(at_m)
         rows, columns = self._regions.shape
-        if 0 <= row < rows and 0 <= column < columns and self._regions[row, column]:
-            return {int(self._regions[row, column])}
-        reach = math.ceil(_BESIDE_M / self._resolution_m)
-        near = self._regions[
-            max(0, row - reach) : max(0, row + reach + 1),
-            max(0, column - reach) : max(0, column + reach + 1),
-        ]
-        return {int(each) for each in np.unique(near) if each}
+        inside = 0 <= row < rows and 0 <= column < columns
+        return int(self._regions[row, column]) if inside else 0
 
     def _cell(self, at_m: Point) -> tuple[int, int]:
         """Return the row and the column in which a point is."""
         column, row = np.floor((np.array(at_m) - self._origin_m) / self._resolution_m).tolist()
         return int(row), int(column)
+
+
+def _regions(wide: NDArray[np.bool_], reach: float) -> Array:
+    """Return the number of each cell's connected wide region, or of the nearest within reach."""
+    numbers, count = label(wide)
+    if not count:
+        return np.asarray(numbers)
+    away, nearest = distance_transform_edt(~wide, return_indices=True)
+    return np.where(away <= reach, numbers[tuple(nearest)], 0)
