@@ -35,6 +35,8 @@ _MODULE = 'humanoid_common.goal_guard'
 _APPEAR_S, _ANSWER_S = 0.5, 0.3
 """How long an action may take to be found, and to answer, when goals are canceled. One that was
 asked gets the request, whether or not its answer is waited for."""
+_START_S = 5.0
+"""How long after its start a guard may take to find actions."""
 
 
 class GoalGuard:
@@ -135,6 +137,7 @@ def main() -> int:
         start_parameter_services=False,
         enable_rosout=False,
     )
+    begin_s = time.monotonic()
     clients: dict[str, Client] = {}
     goals: dict[str, str] = {}
     for line in sys.stdin:
@@ -142,16 +145,16 @@ def main() -> int:
         if service not in clients:  # made now, as it takes a while to find the other side
             clients[service] = node.create_client(CancelGoal, service)
         goals[service] = goal_id
-    _cancel(node, {clients[service]: goal_id for service, goal_id in goals.items()})
+    end_s = max(time.monotonic() + _APPEAR_S, begin_s + _START_S)
+    _cancel(node, {clients[service]: goal_id for service, goal_id in goals.items()}, end_s)
     node.destroy_node()
     rclpy.try_shutdown()
     return 0
 
 
-def _cancel(node: Node, goals: dict[Client, str]) -> None:
-    """Cancel goals, each of the action of its client."""
+def _cancel(node: Node, goals: dict[Client, str], end_s: float) -> None:
+    """Cancel goals, each of the action of its client; those are looked for until some time."""
     left, answers = dict(goals), []
-    end_s = time.monotonic() + _APPEAR_S
     while time.monotonic() < end_s:
         for client in [each for each in left if each.service_is_ready()]:
             request = CancelGoal.Request()

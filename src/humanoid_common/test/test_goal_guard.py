@@ -75,12 +75,17 @@ def _hands() -> Iterator[Hands]:
         yield Hands(ros)
 
 
-def children(pid: int, name: str) -> list[int]:
-    """Return the processes that a process has started, by a part of their command."""
-    listed = Path(f'/proc/{pid}/task/{pid}/children').read_text().split()
-    return [
-        int(each) for each in listed if name in Path(f'/proc/{each}/cmdline').read_text('latin-1')
-    ]
+def guard_of(ros: RosSandbox, pid: int) -> int:
+    """Wait until a process has a guard, and return which one that is."""
+
+    def guards() -> list[int]:
+        # A process that has just been started has no command for a moment.
+        listed = Path(f'/proc/{pid}/task/{pid}/children').read_text().split()
+        commands = {int(each): Path(f'/proc/{each}/cmdline').read_bytes() for each in listed}
+        return [each for each, command in commands.items() if b'goal_guard' in command]
+
+    ros.wait_until(lambda: len(guards()) == 1, PATIENCE_S, f'a guard of {pid}')
+    return guards()[0]
 
 
 @pytest.mark.parametrize('number', [signal.SIGKILL, signal.SIGINT, signal.SIGTERM])
@@ -92,7 +97,7 @@ def test_goals_end_with_who_gave_them(
     script.write_text(CLIENT)
     with running_program([sys.executable, str(script)]) as program:
         hands.ros.wait_until(lambda: 'both' in program.output, PATIENCE_S, program.output)
-        (guard,) = children(program.pid, 'goal_guard')
+        guard = guard_of(hands.ros, program.pid)
         given = hands.newest()
         other = ActionCaller(hands.ros, GripperCommand, 'another')
         assert other.send().accepted
@@ -112,12 +117,12 @@ def test_a_guard_that_was_killed_is_started_anew(hands: Hands) -> None:
         hands.ros.wait_until(client.server_is_ready, PATIENCE_S, 'a server')
     first = one.send_goal_async(GripperCommand.Goal())
     hands.ros.wait_until(first.done, PATIENCE_S, 'an answer')
-    (before,) = children(os.getpid(), 'goal_guard')
+    before = guard_of(hands.ros, os.getpid())
     os.kill(before, signal.SIGKILL)
     hands.ros.wait_until(lambda: not is_alive(before), PATIENCE_S, 'the end of the guard')
     second = another.send_goal_async(GripperCommand.Goal())
     hands.ros.wait_until(second.done, PATIENCE_S, 'an answer')
-    (after,) = children(os.getpid(), 'goal_guard')
+    after = guard_of(hands.ros, os.getpid())
     guard.close()
     assert not is_alive(after)
     hands.ros.wait_until(

@@ -19,8 +19,8 @@ def two_rooms(door_m: float) -> OccupancyGrid:
     cells = np.full((60, 120), 0, dtype=np.int8)
     cells[[0, -1], :] = cells[:, [0, -1]] = 100
     cells[:, 59:61] = 100
-    half = round(0.5 * door_m / CELL_M)
-    cells[30 - half : 30 + half, 59:61] = 0
+    begin = 30 - round(0.5 * door_m / CELL_M)
+    cells[begin:-begin, 59:61] = 0
     grid = OccupancyGrid(data=cells.ravel().tolist())
     grid.info.resolution, grid.info.width, grid.info.height = CELL_M, 120, 60
     return grid
