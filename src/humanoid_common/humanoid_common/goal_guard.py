@@ -10,6 +10,7 @@ no timeout that a busy computer could exceed.
 
 from __future__ import annotations
 
+import argparse
 from contextlib import suppress
 import os
 import signal
@@ -119,7 +120,15 @@ class GuardedActionClient(ActionClient):
     def send_goal_async(
         self, goal: Any, feedback_callback: Any = None, goal_uuid: UUID | None = None
     ) -> Future[Any]:
-        """Send a goal, as `rclpy.action.ActionClient` does."""
+        """
+        Send a goal, as `rclpy.action.ActionClient` does.
+
+        Parameters
+        ----------
+        goal, feedback_callback, goal_uuid
+            As there; the guard knows of the goal before it is sent.
+
+        """
         goal_id = goal_uuid or UUID(uuid=list(uuid4().bytes))
         self._guard.add(self._name, goal_id)
         return super().send_goal_async(goal, feedback_callback, goal_id)
@@ -127,13 +136,18 @@ class GuardedActionClient(ActionClient):
 
 def main() -> int:
     """Read goals until the end of the input, and cancel them."""
+    parser = argparse.ArgumentParser(
+        description='Cancel goals at the end of the input. Nodes start this beside them.'
+    )
+    parser.add_argument('node', help='its name')
+    parser.add_argument('namespace', help='that of the node')
+    told = parser.parse_args()
     for number in STOP_SIGNALS:  # a Ctrl-C ends the other process, and so this one
         signal.signal(number, signal.SIG_IGN)
-    name, namespace = sys.argv[1:]
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     node = Node(
-        f'_{name}_goal_guard',
-        namespace=namespace,
+        f'_{told.node}_goal_guard',
+        namespace=told.namespace,
         start_parameter_services=False,
         enable_rosout=False,
     )

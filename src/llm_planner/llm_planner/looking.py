@@ -118,7 +118,7 @@ class Looking:
         if surfaces:
             yield self._walking.go_to(only)
             looked.append(f'front of the {in_words(only)}')
-            yield self._look_upon(surfaces)
+            yield self.look_over(only)
             yield self.look_around()
             return
         rooms = [each for each in places.rooms if only in ('', each.name)]
