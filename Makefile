@@ -50,6 +50,8 @@ test: build ## Run every test: all packages, then the tools
 check: setup ## Check format, lint and types
 	@tools/in_environment --underlay ruff format --check . || { echo 'make fix formats them.'; exit 1; }
 	@tools/in_environment --underlay ruff check .
+	@for linter in ament_flake8 ament_pep257; do \
+	  found=$$(tools/in_environment --underlay $$linter src 2>&1) || { echo "$$found"; exit 1; }; done
 	@tools/in_environment --underlay mypy
 
 fix: setup ## Format the code and mend what ruff can

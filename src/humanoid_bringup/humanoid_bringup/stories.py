@@ -18,7 +18,7 @@ __all__ = [
 ]  # fmt: skip
 
 AS_ASKED, EXPLAINED, WRONG = 'as asked', 'explained', 'WRONG'
-_END_S, _ANSWER_S, _PLAN_S = 600.0, 60.0, 3.0
+_ANSWER_S, _PLAN_S = 60.0, 3.0
 
 
 @dataclass
@@ -60,6 +60,9 @@ class Story:
     wav: Path | None = None
     play: Play = lambda told: None
     """What happens after the command."""
+
+    within_s: float = 600.0
+    """The simulated time within which it is over."""
 
 
 def stays(text: str) -> Check:
@@ -110,7 +113,7 @@ def _tell(told: ToldRobot, story: Story) -> str:
         told.wait_until(lambda: bool(told.said or told.plan), _ANSWER_S, 'an answer')
         told.robot.wait(_PLAN_S)  # what is only said has no plan
         if told.plan is not None:
-            told.wait_for_the_end(_END_S)
+            told.wait_for_the_end(story.within_s)
     except WaitedInVainError:
         told.tell('stop')
         told.wait_for('I have stopped.', _ANSWER_S)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 import math
 from pathlib import Path
 
@@ -39,6 +39,16 @@ def is_held(told: ToldRobot, name: str) -> bool:
     return z > 0.6 and abs(complex(x, y) - told.robot.pose.position_m) < 0.8
 
 
+def is_upright_on(scene: Scene, name: str, surface: str) -> bool:
+    """Whether a thing truly stands on a surface, upright."""
+    x, y, z = scene.told.entities.position_m(name)
+    bottom_m = z - 0.5 * THINGS[name].box_m[2]
+    places = scene.told.places
+    top_m = next(each.height_m for each in places.surfaces if each.name == surface)
+    # what lies has its middle lower
+    return places.surface_at(x, y, bottom_m) == surface and abs(bottom_m - top_m) < 0.02
+
+
 def held(name: str) -> Check:
     """Check that the robot holds a thing."""
     return lambda scene: scene.told.has_succeeded and is_held(scene.told, name)
@@ -46,17 +56,15 @@ def held(name: str) -> Check:
 
 def stands_on(name: str, surface: str) -> Check:
     """Check that a thing truly stands somewhere, upright."""
+    return lambda scene: scene.told.has_succeeded and is_upright_on(scene, name, surface)
 
-    def check(scene: Scene) -> bool:
-        x, y, z = scene.told.entities.position_m(name)
-        bottom_m = z - 0.5 * THINGS[name].box_m[2]
-        found = scene.told.places.surface_at(x, y, bottom_m)
-        places = scene.told.places.surfaces
-        top_m = next(each.height_m for each in places if each.name == surface)
-        is_upright = abs(bottom_m - top_m) < 0.02  # what lies has its middle lower
-        return scene.told.has_succeeded and found == surface and is_upright
 
-    return check
+def tidied(surface: str, moved: Sequence[str], left: str) -> Check:
+    """Check that things truly stand where they were carried, and that it is told what is left."""
+    return lambda scene: (
+        all(is_upright_on(scene, name, surface) for name in moved)
+        and f'The {left} is still there.' in scene.said
+    )
 
 
 def lies_in(name: str, container: str) -> Check:
@@ -147,6 +155,12 @@ STORIES = (
     ),
     Story('putting', 'put it on the coffee table', stands_on('blue_bottle', 'coffee_table')),
     Story(
+        'tidying',
+        'tidy up the coffee table',
+        tidied('kitchen_counter', moved=('blue_bottle', 'red_apple'), left='blue book'),
+        within_s=1800.0,
+    ),
+    Story(
         'together',
         'go to the bedroom and bring me the yellow cube',
         handed('yellow_cube'),
@@ -165,7 +179,6 @@ STORIES = (
         handed('pink_mug'),
         play=take('pink_mug'),
     ),
-    Story('putting', 'put the orange on the kitchen table', stands_on('orange', 'kitchen_table')),
     Story(
         'refusing',
         'bring me the unicorn',

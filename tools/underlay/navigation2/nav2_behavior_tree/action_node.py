@@ -24,7 +24,7 @@ ERROR_PORTS: dict[str, Port] = {
     'error_msg': out_port('text', 'The error message of the result.'),
 }
 _LEAST_TIMEOUT_S = 2.0
-_LOOK_AGAIN_S = 1.0
+_LOOK_AGAIN_S, _ASK_AGAIN_S = 1.0, 5.0
 
 
 def count_recovery(node: TreeNode) -> None:
@@ -41,7 +41,7 @@ class _Call:
         self.is_rejected = self._is_abandoned = False
         self.answer: Any = None
         self.feedback: Any = None
-        self.sent_s = now_s
+        self.sent_s = self._asked_s = now_s
         self._sending = client.send_goal_async(goal, self._keep)
         self._sending.add_done_callback(self._begin)
 
@@ -61,6 +61,12 @@ class _Call:
 
     def _end(self, future: Any) -> None:
         self.answer = future.result()
+
+    def ask_again(self, now_s: float) -> None:
+        """Ask for the result from time to time, for an answer can get lost on its way."""
+        if self.handle is not None and now_s - self._asked_s > _ASK_AGAIN_S:
+            self._asked_s = now_s
+            self.handle.get_result_async().add_done_callback(self._end)
 
     def cancel(self) -> None:
         """End the goal, also if it is not accepted yet."""
@@ -160,6 +166,8 @@ class ActionNode(TreeNode):
         """Look whether the server is still there."""
         if self._client.server_is_ready():
             self._looked_s = now_s
+            if self._call is not None:
+                self._call.ask_again(now_s)
         elif now_s - self._looked_s > _LOOK_AGAIN_S + self.ros.wait_for_service_timeout_s:
             return self._failed(f"The server of '{self.server_name}' has gone while it worked.")
         return RUNNING

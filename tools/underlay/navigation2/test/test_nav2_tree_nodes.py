@@ -9,13 +9,15 @@ import sys
 from typing import Any
 
 from geometry_msgs.msg import PoseStamped
-from nav2_behavior_tree import BehaviorTree, NodeStatus
+from nav2_behavior_tree import action_node, BehaviorTree, NodeStatus
 from nav2_behavior_tree.odometry import OdometrySmoother
 from nav2_behavior_tree.ros_interface import LATCHED, RosInterface
 from nav2_msgs.srv import GetCost
 from nav2_util import LifecycleNode, Pose2D
 from nav2_util.geometry import make_path
 import pytest
+from rclpy.action.client import ClientGoalHandle
+from rclpy.task import Future
 from sensor_msgs.msg import BatteryState
 from std_msgs.msg import String
 
@@ -260,6 +262,23 @@ def test_a_goal_that_is_halted_before_it_is_accepted_is_canceled(lab: Lab) -> No
     assert tree.tick() is RUNNING
     tree.halt()
     lab.ros.wait_until(lambda: 'spin' in lab.servers.canceled)
+
+
+def test_a_result_that_is_lost_is_asked_for_again(
+    lab: Lab, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """From time to time, until an answer comes."""
+    requests: list[Any] = []
+    ask = ClientGoalHandle.get_result_async
+
+    def lose_the_first(handle: Any) -> Any:
+        requests.append(handle)
+        return Future() if len(requests) == 1 else ask(handle)
+
+    monkeypatch.setattr(ClientGoalHandle, 'get_result_async', lose_the_first)
+    monkeypatch.setattr(action_node, '_ASK_AGAIN_S', 0.1)
+    assert lab.run(lab.tree('<Spin/>')) is SUCCESS
+    assert len(requests) == 2
 
 
 def test_missing_services_are_named(lab: Lab) -> None:
