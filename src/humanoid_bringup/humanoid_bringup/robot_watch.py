@@ -31,7 +31,17 @@ def watch_robot(argument: str) -> OnProcessExit:
 
 
 def obituary(process: str, status: int, ends_all: bool, argument: str) -> str:
-    """Return what is said of a robot that has ended."""
+    """
+    Return what is said of a robot that has ended.
+
+    Parameters
+    ----------
+    process, status
+        Its name, and its exit status; negative for a signal.
+    ends_all, argument
+        Whether all else ends with it, and the launch argument that decides that.
+
+    """
     cause = f'was killed by signal {-status}' if status < 0 else f'has ended with status {status}'
     follows = (
         f"everything else ends, too. To let it go on, pass '{argument}:=stay'."

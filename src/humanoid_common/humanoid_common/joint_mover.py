@@ -29,7 +29,17 @@ _OFF = (
 def trajectory_point(
     time_s: float, positions: Sequence[float], velocities: Sequence[float] = ()
 ) -> JointTrajectoryPoint:
-    """Return the point of a trajectory, at a time since its start."""
+    """
+    Return the point of a trajectory.
+
+    Parameters
+    ----------
+    time_s
+        When it is to be reached, since the start of the trajectory.
+    positions, velocities
+        Of each joint in rad and rad/s, or m and m/s; velocities may be left out.
+
+    """
     return JointTrajectoryPoint(
         positions=[float(each) for each in positions],
         velocities=[float(each) for each in velocities],

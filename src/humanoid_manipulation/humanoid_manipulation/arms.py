@@ -119,7 +119,19 @@ class Arms:
         held: Mapping[str, Obstacle],
         clearance_m: float,
     ) -> ArmWorld:
-        """Return what the arms must keep clear of, as the robot stands now."""
+        """
+        Return what the arms must keep clear of, as the robot stands now.
+
+        Parameters
+        ----------
+        obstacles
+            What is around, in the frame of the pelvis.
+        held
+            What hands hold, each in the frame of its gripper, by side.
+        clearance_m
+            How near the arms may come to anything.
+
+        """
         world = ArmWorld(self._urdf, self.body, obstacles, held, clearance_m)
         world.stand(self._positions)
         return world

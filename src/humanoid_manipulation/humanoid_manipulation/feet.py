@@ -76,7 +76,24 @@ class Feet:
         return float(middle[0]), float(middle[1]), right_rad + turn_rad / 2.0
 
     async def go(self, goal: RunningGoal, frame: str, at: tuple[float, float, float]) -> None:
-        """Walk to a pose (x, y in m, yaw in rad) by navigation, about; or abort."""
+        """
+        Walk to a pose by navigation, which ends near it.
+
+        Parameters
+        ----------
+        goal
+            What it is done for.
+        frame, at
+            The pose: x and y in m, yaw in rad, in a frame.
+
+        Raises
+        ------
+        GoalAborted
+            Navigation is not there, or does not get there: WALK_FAILED.
+        GoalCanceled
+            The goal is canceled; navigation is, too.
+
+        """
         wanted = NavigateToPose.Goal()
         wanted.pose.header.frame_id = frame
         pose = wanted.pose.pose
@@ -88,7 +105,24 @@ class Feet:
             raise GoalAborted(_CODE, f'I could not get there: {reason}')
 
     async def step_to(self, goal: RunningGoal, frame: str, at: tuple[float, float, float]) -> None:
-        """Walk some steps to a pose (x, y in m, yaw in rad), exactly; or abort."""
+        """
+        Walk some steps straight to a pose, to within centimetres.
+
+        Parameters
+        ----------
+        goal
+            What it is done for.
+        frame, at
+            The pose: x and y in m, yaw in rad, in a frame.
+
+        Raises
+        ------
+        GoalAborted
+            The robot comes no nearer any more: WALK_FAILED.
+        GoalCanceled
+            The goal is canceled.
+
+        """
         # The odometry does not jump meanwhile, as the place in the map may.
         shift = await self._transforms.known(goal, 'odom', frame)
         place = shift[:3, :3] @ np.array([at[0], at[1], 0.0]) + shift[:3, 3]

@@ -199,7 +199,17 @@ class Picking(Handling):
 
 
 def held_by(thing: Remembered, grasp: Grasp, gap_m: float) -> Held:
-    """Return a thing that has just been taken."""
+    """
+    Return a thing that has just been taken.
+
+    Parameters
+    ----------
+    thing, grasp
+        Which, and where the gripper is; both in the frame of the memory.
+    gap_m
+        How far the fingers are apart.
+
+    """
     box = Frame(thing.graspable.position_m, thing.rotation).seen_from(grasp.gripper)
     length, width, height = thing.graspable.size_m.tolist()
     back = grasp.gripper.rotation[:, 2]

@@ -186,7 +186,7 @@ def free_spots(
     Parameters
     ----------
     surface, others
-        The surface, and what is on it: x, y and the radius of each thing, in m.
+        The surface, and what is on it besides its fixtures: x, y and the radius of each, in m.
     radius_m
         Of what is put down.
     near_m
@@ -199,9 +199,9 @@ def free_spots(
         for y in np.arange(min(ys), max(ys), _GRID_M).tolist():
             if not _is_inside(surface, (x, y), radius_m + _MARGIN_M):
                 continue
-            if all(
-                math.dist((x, y), other[:2]) > radius_m + other[2] + _MARGIN_M for other in others
-            ):
+            away_m = [math.dist((x, y), other[:2]) - other[2] for other in others]
+            away_m += [each.distance_m((x, y)) for each in surface.fixtures]
+            if min(away_m, default=math.inf) > radius_m + _MARGIN_M:
                 spots.append((x, y))
     yield from sorted(spots, key=lambda spot: math.dist(spot, near_m))
 

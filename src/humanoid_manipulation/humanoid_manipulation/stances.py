@@ -112,7 +112,17 @@ class Stance:
 
 
 def base_of(x_m: float, y_m: float, yaw_rad: float, bend: Bend) -> Frame:
-    """Return where the pelvis is in the map, about, of a robot that stands and bends."""
+    """
+    Return where the pelvis is in the map, to within a centimetre or two.
+
+    Parameters
+    ----------
+    x_m, y_m, yaw_rad
+        Where the robot stands: the middle between its feet, and where it faces.
+    bend
+        How it bends.
+
+    """
     heading = about_z(yaw_rad)
     back = -_BACK_M - _BACK_M_RAD * bend.pitch_rad
     height = _HEIGHT_M + bend.height_m + _RISE_M_RAD2 * bend.pitch_rad**2

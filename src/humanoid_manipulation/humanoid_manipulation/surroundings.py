@@ -17,7 +17,14 @@ from humanoid_description.robot import Array
 from humanoid_manipulation.arm_world import Obstacle
 from humanoid_manipulation.free_floor import FreeFloor
 from humanoid_manipulation.grasps import Graspable
-from humanoid_perception.places import load_places, Places, places_path, PlacesError, Surface
+from humanoid_perception.places import (
+    load_places,
+    Outline,
+    Places,
+    places_path,
+    PlacesError,
+    Surface,
+)
 from humanoid_perception.transforms import Transforms
 from nav_msgs.msg import OccupancyGrid
 import numpy as np
@@ -216,12 +223,21 @@ def _widened(thing: Remembered, wider_m: float) -> tuple[float, float, float]:
 
 def surface_boxes(surface: Surface) -> list[Obstacle]:
     """
-    Return a surface as boxes in the map: a board, or a block down to the floor.
+    Return a surface as boxes in the map: a board, or a block down to the floor, and its fixtures.
 
     The legs of a table are not known. An arm that comes from above does not get there.
     """
-    depth_m = surface.depth_m or max(surface.height_m, _BOARD_M)
-    outline = np.array(surface.outline_m)
+    name, top_m = surface.name.replace('_', ' '), surface.height_m
+    boxes = [_block(name, surface.outline_m, top_m, surface.depth_m or max(top_m, _BOARD_M))]
+    return boxes + [
+        _block(f'what stands on {name}', each.outline_m, top_m + each.height_m, each.height_m)
+        for each in surface.fixtures
+    ]
+
+
+def _block(name: str, outline_m: Outline, top_m: float, depth_m: float) -> Obstacle:
+    """Return the box around what has an outline."""
+    outline = np.array(outline_m)
     edges = np.roll(outline, -1, axis=0) - outline
     longest = edges[int(np.argmax((edges**2).sum(axis=1)))]
     yaw_rad = math.atan2(longest[1], longest[0])
@@ -230,8 +246,8 @@ def surface_boxes(surface: Surface) -> list[Obstacle]:
     lower, upper = across.min(axis=0), across.max(axis=0)
     middle = turn[:2, :2] @ ((lower + upper) / 2.0)
     size = (float(upper[0] - lower[0]), float(upper[1] - lower[1]), depth_m)
-    position = np.array([*middle, surface.height_m - depth_m / 2.0])
-    return [Obstacle(surface.name.replace('_', ' '), Frame(position, turn), size)]
+    position = np.array([*middle, top_m - depth_m / 2.0])
+    return Obstacle(name, Frame(position, turn), size)
 
 
 def _remembered(detection: Detection3D) -> Remembered:

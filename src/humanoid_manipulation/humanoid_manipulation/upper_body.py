@@ -142,7 +142,15 @@ class UpperBody:
         return found
 
     def find(self, side: str, gripper: Frame, near: Reach | None = None) -> Reach | None:
-        """Return what `reach` does, but None for what is out of reach: without the reason."""
+        """
+        Return how the gripper of a side is brought to a pose; None if that is out of reach.
+
+        Parameters
+        ----------
+        side, gripper, near
+            As for `reach`, which costs more, as it also finds the reason.
+
+        """
         arm, start = self.arms[side], near.waist_rad if near else 0.0
         posture = near.posture if near else None
         misfits: dict[float, float] = {}
@@ -181,7 +189,26 @@ class UpperBody:
     def find_with_arm(
         self, side: str, gripper: Frame, waist_rad: float, near: Posture | None = None
     ) -> Reach | None:
-        """Return the reach of an arm for a turn of the waist, or None; see `Arm.postures`."""
+        """
+        Return how an arm brings its gripper to a pose while the waist is turned by an angle.
+
+        Parameters
+        ----------
+        side
+            Which arm: `left` or `right`.
+        gripper
+            The pose, in the frame of the pelvis.
+        waist_rad
+            How the waist is turned.
+        near
+            The posture (rad) to which the chosen one is to be near, as for `Arm.postures`.
+
+        Returns
+        -------
+        Reach or None
+            None if the arm does not get there.
+
+        """
         postures = self.arms[side].postures(self._in_torso(gripper, waist_rad), near)
         return Reach(waist_rad, postures[0]) if postures else None
 

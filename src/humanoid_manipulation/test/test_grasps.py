@@ -11,6 +11,7 @@ from humanoid_description.loading import load_robot
 from humanoid_manipulation.grasps import Grasp, Graspable, grasps_of, Hand
 from humanoid_manipulation.placing import free_spots
 from humanoid_manipulation.stances import base_of, Bend, BENDS, grasp_reaches, stances_for
+from humanoid_manipulation.surroundings import surface_boxes
 from humanoid_manipulation.upper_body import UpperBody
 from humanoid_perception.places import load_places, Places, places_path, Surface
 import numpy as np
@@ -165,3 +166,18 @@ def test_free_spots_are_on_the_surface_and_clear_of_things() -> None:
     away = [math.dist(spot, (-0.3, 0.0)) for spot in spots]
     assert away == sorted(away)
     assert list(free_spots(surface, [(0.35, 0.0, 2.0)], 0.04, (0.0, 0.0))) == []
+
+
+def test_free_spots_are_clear_of_what_stands_there_for_good() -> None:
+    """Beside the television, not in it, which is in the way of arms, too."""
+    path = places_path('apartment')
+    assert path is not None
+    surfaces = {each.name: each for each in load_places(path).surfaces}
+    cabinet = surfaces['tv_cabinet']
+    (television,) = cabinet.fixtures
+    spots = list(free_spots(cabinet, [], 0.04, (5.2, -3.0)))
+    assert spots and all(television.distance_m(spot) > 0.08 for spot in spots)
+    block, screen = surface_boxes(cabinet)
+    assert screen.size_m == pytest.approx((1.1, 0.2, 0.72))
+    assert screen.middle.position_m == pytest.approx([5.95, -3.1, 0.5 + 0.36])
+    assert block.middle.position_m[2] == pytest.approx(0.25)

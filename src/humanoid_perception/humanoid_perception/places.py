@@ -14,8 +14,8 @@ from humanoid_common.naming import did_you_mean
 import yaml
 
 __all__ = [
-    'Outline', 'Places', 'PlacesError', 'Point', 'Room', 'Surface', 'load_places', 'places_path',
-    'sides',
+    'Fixture', 'Outline', 'Places', 'PlacesError', 'Point', 'Room', 'Surface', 'load_places',
+    'places_path', 'sides',
 ]  # fmt: skip
 
 Point = tuple[float, float]
@@ -28,6 +28,41 @@ _MOST_SIGMA_M = 0.1
 
 class PlacesError(Exception):
     """A file of named places cannot be used; the text says why."""
+
+
+@dataclass(frozen=True)
+class Fixture:
+    """
+    What stands on a surface for good, such as a television.
+
+    Attributes
+    ----------
+    outline_m
+        Its outline in the map.
+    height_m
+        How high it is, from the surface up.
+
+    """
+
+    outline_m: Outline
+    height_m: float
+
+    def distance_m(self, point_m: Point) -> float:
+        """
+        Return how far a point is from the outline, seen from above.
+
+        Parameters
+        ----------
+        point_m
+            x and y in the map.
+
+        Returns
+        -------
+        float
+            In m; 0 within the outline.
+
+        """
+        return _away_m(self.outline_m, point_m)
 
 
 @dataclass(frozen=True)
@@ -47,6 +82,8 @@ class Surface:
         How thick it is: a table top, or a cabinet down to the floor, which is meant by zero.
     is_container
         Whether it is the opening of a container, such as a bin: what is put there falls in.
+    fixtures
+        What stands on it for good.
 
     """
 
@@ -56,6 +93,7 @@ class Surface:
     tolerance_m: float = _TOLERANCE_M
     depth_m: float = 0.0
     is_container: bool = False
+    fixtures: tuple[Fixture, ...] = ()
 
     @property
     def middle_m(self) -> Point:
@@ -100,9 +138,7 @@ class Surface:
             In m; 0 within the outline.
 
         """
-        if _contains(self.outline_m, point_m):
-            return 0.0
-        return min(_to_side_m(a, b, point_m) for a, b in sides(self.outline_m))
+        return _away_m(self.outline_m, point_m)
 
 
 @dataclass(frozen=True)
@@ -226,7 +262,7 @@ def _places(table: Any) -> Places:
 
 
 def _surface(entry: Any) -> Surface:
-    keys = ('name', 'outline', 'height', 'tolerance', 'depth', 'container')
+    keys = ('name', 'outline', 'height', 'tolerance', 'depth', 'container', 'fixtures')
     known = _checked(entry, 'a surface', keys, ('name', 'outline', 'height'))
     name, is_container = _name(known), known.get('container', False)
     if not isinstance(is_container, bool):
@@ -238,7 +274,15 @@ def _surface(entry: Any) -> Surface:
         abs(_number(known.get('tolerance', _TOLERANCE_M), f'the tolerance of {name}')),
         abs(_number(known.get('depth', 0.0), f'the depth of {name}')),
         is_container,
+        tuple(_fixture(each, name) for each in _list(known, 'fixtures')),
     )
+
+
+def _fixture(entry: Any, surface: str) -> Fixture:
+    what, keys = f'what stands on {surface}', ('outline', 'height')
+    known = _checked(entry, what, keys, keys)
+    height_m = abs(_number(known['height'], f'the height of {what}'))
+    return Fixture(_outline(known['outline'], what), height_m)
 
 
 def _room(entry: Any) -> Room:
@@ -309,6 +353,13 @@ def _contains(outline: Outline, point: Point) -> bool:
         % 2
         == 1
     )
+
+
+def _away_m(outline: Outline, point: Point) -> float:
+    """Return how far a point is from a polygon; 0 inside."""
+    if _contains(outline, point):
+        return 0.0
+    return min(_to_side_m(a, b, point) for a, b in sides(outline))
 
 
 def _to_side_m(a: Point, b: Point, point: Point) -> float:

@@ -93,6 +93,16 @@ def test_the_apartment_has_what_people_name() -> None:
             'surfaces: [{name: a, height: 1, outline: [[0, 0], [1, 0], [1, 1]], container: 1}]',
             'true or false',
         ),
+        (
+            'surfaces: [{name: a, height: 1, outline: [[0, 0], [1, 0], [1, 1]], '
+            'fixtures: [{outline: [[0, 0], [1, 0]], height: 1}]}]',
+            'the outline of what stands on a is [[0, 0], [1, 0]]',
+        ),
+        (
+            'surfaces: [{name: a, height: 1, outline: [[0, 0], [1, 0], [1, 1]], '
+            'fixtures: [{outline: [[0, 0], [1, 0], [1, 1]]}]}]',
+            "what stands on a needs 'height'",
+        ),
         ('rooms: [{name: a, outline: [[0, 0], [1, 0]]}]', 'three or more corners'),
         ('rooms: [{name: a, outline: [[0, 0], [1, 0], [1, .nan]]}]', 'number of metres'),
         ('rooms: [{name: 3, outline: [[0, 0], [1, 0], [1, 1]]}]', 'text'),
@@ -134,3 +144,12 @@ def test_the_bin_of_the_apartment_is_a_container() -> None:
     """It alone: what is put elsewhere stays on top."""
     found = [each.name for each in load_places(APARTMENT).surfaces if each.is_container]
     assert found == ['kitchen_bin']
+
+
+def test_the_television_stands_on_its_cabinet_for_good() -> None:
+    """Where it is, and how high."""
+    surfaces = {each.name: each for each in load_places(APARTMENT).surfaces}
+    (television,) = surfaces['tv_cabinet'].fixtures
+    assert television.distance_m((5.95, -3.1)) == 0.0
+    assert television.distance_m((5.9, -2.3)) == pytest.approx(0.25, abs=0.02)
+    assert television.height_m == pytest.approx(0.72)

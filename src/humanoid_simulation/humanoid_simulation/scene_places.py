@@ -10,15 +10,18 @@ import sys
 
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.scene import load_scene
-from humanoid_simulation.scene.scene import Scene, Surface
+from humanoid_simulation.scene.outlines import rectangle
+from humanoid_simulation.scene.scene import COMPOSED, Scene, Surface
 
-_OPEN_BELOW = ('table',)
-_BOARD_M = 0.04
+_OPEN_BELOW, _CONTAINERS = ('table',), ('bin',)
+_BOARD_M, _STANDS_M = 0.04, 0.01
 _HEAD = """\
 # SPDX-License-Identifier: Apache-2.0
 # Named places of a home, in the frame of its map: what a user measured there.
 #   surfaces: outline [[x, y], ...] and height in m; tolerance: how exact these are, in m;
 #             depth: how thick the top is, in m; without it, it is solid down to the floor
+#             container: true for the opening of a bin, into which things fall
+#             fixtures: outline and height of what stands on it for good, in m
 #   rooms:    outline [[x, y], ...]
 """
 
@@ -52,7 +55,8 @@ def places_text(scene: Scene) -> str:
     """Return the text of the file, with centimetres as a tape measure gives them."""
     surfaces = [
         f'  - {{name: {surface.name}, height: {surface.height_m:.2f}, '
-        f'outline: {_corners(surface.outline_m)}{_depth(scene, surface)}}}'
+        f'outline: {_corners(surface.outline_m)}{_depth(scene, surface)}'
+        f'{_container(scene, surface)}{_fixtures(scene, surface)}}}'
         for surface in scene.surfaces
     ]
     rooms = [
@@ -68,6 +72,26 @@ def _depth(scene: Scene, surface: Surface) -> str:
     boards = sum(each.name.partition('/')[0] == base for each in scene.surfaces)
     is_board = boards > 1 or scene.thing(base).kind in _OPEN_BELOW
     return f', depth: {_BOARD_M:.2f}' if is_board else ''
+
+
+def _container(scene: Scene, surface: Surface) -> str:
+    """Return that a surface is an opening, if it is one."""
+    is_one = scene.thing(surface.name.partition('/')[0]).kind in _CONTAINERS
+    return ', container: true' if is_one else ''
+
+
+def _fixtures(scene: Scene, surface: Surface) -> str:
+    """Return what stands on a surface for good, if anything does."""
+    found = []
+    for thing in scene.things:
+        x_m, y_m, foot_m = thing.position_m
+        is_piece = thing.is_fixed and thing.shape == COMPOSED
+        is_there = surface.contains(x_m, y_m) and abs(foot_m - surface.height_m) < _STANDS_M
+        if is_piece and is_there:
+            length_m, width_m, height_m = thing.size_m
+            around = rectangle((x_m, y_m), length_m, width_m, thing.orientation_rpy_rad[2])
+            found.append(f'{{outline: {_corners(around)}, height: {height_m:.2f}}}')
+    return f', fixtures: [{", ".join(found)}]' if found else ''
 
 
 def _corners(outline_m: Iterable[tuple[float, float]]) -> str:

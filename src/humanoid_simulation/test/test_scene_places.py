@@ -33,3 +33,21 @@ def test_a_scene_that_is_not_there_is_named(
     assert main(['apartmant', '--output', str(path)]) == 1
     assert 'apartment' in capsys.readouterr().err
     assert not path.exists()
+
+
+def test_bins_are_containers_and_fixtures_are_named(tmp_path: Path) -> None:
+    """What stands on a surface for good, with its outline and height; nothing that can move."""
+    path = tmp_path / 'places.yaml'
+    assert main(['apartment', '--output', str(path)]) == 0
+    surfaces = {each['name']: each for each in yaml.safe_load(path.read_text())['surfaces']}
+    assert [name for name, each in surfaces.items() if 'container' in each] == ['kitchen_bin']
+    counts = {name: len(each.get('fixtures', [])) for name, each in surfaces.items()}
+    assert {name: count for name, count in counts.items() if count} == {
+        'kitchen_counter': 2,  # sink and hob
+        'tv_cabinet': 1,
+        'nightstand': 1,
+    }
+    (television,) = surfaces['tv_cabinet']['fixtures']
+    assert television['height'] == 0.72
+    xs, ys = zip(*television['outline'])
+    assert (max(xs) - min(xs), max(ys) - min(ys)) == pytest.approx((0.2, 1.1))

@@ -115,7 +115,11 @@ class Actions:
         yield from self._robot.sleep(duration)
 
     def _wave(self, arm: str) -> SkillRun:
-        yield from self._move_arm(arm, [_UP, _OUT, _UP, _OUT, _UP, _DOWN])
+        side = self._free_arm('right') if arm == 'free' else arm
+        held = self._watch.held_by(side)
+        if held:
+            raise SkillError(f'My {side} hand holds the {held}: I do not wave it.', is_final=True)
+        yield from self._move_arm(side, [_UP, _OUT, _UP, _OUT, _UP, _DOWN])
 
     def _point_at(self, target: Any) -> SkillRun:
         position_m = self._recall.position(target)
@@ -124,7 +128,8 @@ class Actions:
         if point is None:
             raise SkillError('I do not know where I am, so I cannot point at anything.')
         x, y, z = point
-        side, sign = ('left', 1.0) if y >= 0.0 else ('right', -1.0)
+        side = self._free_arm('left' if y >= 0.0 else 'right')
+        sign = 1.0 if side == 'left' else -1.0
         yield from self._looking.glance_at(position_m)
         y, z = y - sign * 0.2, z - HEAD_M
         length = math.sqrt(x * x + y * y + z * z) or 1.0
@@ -132,6 +137,14 @@ class Actions:
         pitch, roll = math.atan2(-x, -z), sign * math.asin(max(-1.0, min(1.0, y / length)))
         pointing = (max(-2.6, min(0.5, pitch)), max(-0.2, min(1.5, roll)), 0.0, 0.0)
         yield from self._move_arm(side, [pointing, pointing, pointing, _DOWN])
+
+    def _free_arm(self, preferred: str) -> str:
+        """Return the side of an arm whose hand holds nothing."""
+        other = 'left' if preferred == 'right' else 'right'
+        free = [side for side in (preferred, other) if not self._watch.held_by(side)]
+        if not free:
+            raise SkillError('Both my hands hold something.', is_final=True)
+        return free[0]
 
     def _move_arm(self, side: str, postures: Sequence[Sequence[float]]) -> SkillRun:
         """Move an arm through postures of the left one, mirrored for the right one."""

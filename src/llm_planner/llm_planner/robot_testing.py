@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from control_msgs.action import PointHead
+from control_msgs.action import FollowJointTrajectory, PointHead
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
 from humanoid_common.qos import EVENT, LATCHED, STATE
@@ -123,21 +123,36 @@ class Robot(Node):
         self.remember(MUGS)
 
     def give_hands(self) -> None:
-        """Take things and put them down, from now on; it holds `held`, and has `placed` things."""
+        """
+        Take things and put them down, and move the arms, from now on.
+
+        It holds `held` in its right hand, has `placed` things, and has `moved` the arms of sides.
+        """
         self.held: list[Detection3D] = []
         self.placed: list[tuple[str, str]] = []
         self.too_wide: set[str] = set()
+        self._arms: list[SingleGoal] = []
         self._holding = self.create_publisher(Detection3DArray, 'held_objects', LATCHED)
         self._hands = SingleGoal(self, lambda: '')
         self._hands.offer(Pick, 'pick', self._pick)
         self._hands.offer(Place, 'place', self._place)
+        self.moved: list[str] = []
+        for side in ('left', 'right'):
+            self._arms.append(SingleGoal(self, lambda: ''))
+            action = f'{side}_arm_controller/follow_joint_trajectory'
+            self._arms[-1].offer(FollowJointTrajectory, action, self._move_arm)
 
     async def _pick(self, goal: RunningGoal) -> None:
         name = goal.request.object
         if name in self.too_wide:
             raise GoalAborted('NOT_REACHABLE', f'{name} is too wide for my hand.')
         self.held = [each for each in self._remembered if each.id == name]
+        for each in self.held:
+            each.header.frame_id = 'r_gripper'
         await self._tell_hands(goal)
+
+    async def _move_arm(self, goal: RunningGoal) -> None:
+        self.moved.append(goal.request.trajectory.joint_names[0].partition('_')[0])
 
     async def _place(self, goal: RunningGoal) -> None:
         self.placed += [(each.id, goal.request.place) for each in self.held]

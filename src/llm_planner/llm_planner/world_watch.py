@@ -48,7 +48,7 @@ class WorldWatch:
         self._node, self._skills, self._implemented = node, skills, implemented
         self.places = places
         self._things: tuple[Thing, ...] = ()
-        self._holding = ''
+        self._held: dict[str, str] = {}
         self._inhibition = Inhibition()
         self._buffer = Buffer()
         self._listener = TransformListener(self._buffer, node)
@@ -77,7 +77,11 @@ class WorldWatch:
     @property
     def holding(self) -> str:
         """Return the name of what a hand holds; empty if nothing."""
-        return self._holding
+        return next(iter(self._held.values()), '')
+
+    def held_by(self, side: str) -> str:
+        """Return the name of what the left or the right hand holds; empty if nothing."""
+        return self._held.get(side, '')
 
     @property
     def inhibition(self) -> str:
@@ -103,7 +107,7 @@ class WorldWatch:
             self._things,
             {name: reason for name, reason in lacks.items() if reason},
             self.inhibition,
-            self._holding,
+            self.holding,
             self.pose(),
             tuple(base_name(each.name) for each in self.places.surfaces if each.is_container),
         )
@@ -171,17 +175,21 @@ class WorldWatch:
         self._model = message.data
 
     def _take_held(self, message: Detection3DArray) -> None:
-        names = [
-            Thing(each.id, *_class_and_colour(each)).name
+        self._held = {
+            _side_of(each.header.frame_id): Thing(each.id, *_class_and_colour(each)).name
             for each in message.detections
             if each.results
-        ]
-        self._holding = names[0] if names else ''
+        }
 
     def _take(self, message: Detection3DArray) -> None:
         self._things = tuple(
             _thing(each, self.places) for each in message.detections if each.results
         )
+
+
+def _side_of(gripper_frame: str) -> str:
+    """Return whose gripper has a frame, such as `l_gripper` or `robot2/l_gripper`."""
+    return 'left' if gripper_frame.rpartition('/')[2].startswith('l_') else 'right'
 
 
 def _thing(detection: Any, places: Places) -> Thing:

@@ -123,6 +123,25 @@ def test_it_tidies(ros: RosSandbox, tell: Any) -> None:
     ros.wait_until(robot.heard('kitchen counter'), 60.0, 'a place that there is not here')
 
 
+def test_it_waves_and_points_with_a_hand_that_is_free(ros: RosSandbox, tell: Any) -> None:
+    """Whichever that is; it does not wave what it holds, even if it is told to."""
+    robot = tell.robot
+    robot.give_hands()
+    ros.wait_until(lambda: robot.count_subscribers('held_objects') == 2, 60.0, 'both of them')
+    tell('wave')
+    ros.wait_until(lambda: robot.moved == ['right'], 60.0, 'a wave')
+    tell('take the blue mug')
+    ros.wait_until(lambda: robot.held, 60.0, 'a mug in its hand')
+    tell('wave your right arm')
+    ros.wait_until(robot.heard('My right hand holds the blue mug'), 60.0, 'words')
+    tell('wave')
+    ros.wait_until(lambda: robot.moved == ['right', 'left'], 60.0, 'a wave of the other')
+    robot.move_to(3.2, 2.0)
+    tell('point at the red mug')
+    ros.wait_until(lambda: len(robot.moved) == 3, 60.0, 'an arm that points')
+    assert robot.moved[-1] == 'left'
+
+
 def test_a_fall_ends_it(ros: RosSandbox, tell: Any) -> None:
     """The walk is given up at once, and the reason is said."""
     robot = tell.robot

@@ -34,7 +34,15 @@ def parameter(
     """
     Declare one parameter as a field of a frozen dataclass.
 
-    Limits and choices of a list apply to each of its elements.
+    Parameters
+    ----------
+    default, description
+        The value, whose type is that of the parameter, and a sentence for `ros2 param describe`.
+    at_least, at_most, choices
+        Which values are accepted; those of a list apply to each of its elements.
+    read_only
+        Whether it cannot be changed while the node runs.
+
     """
     rules = ParameterRules(description, at_least, at_most, tuple(choices), read_only)
     return field(default=default, metadata={_RULES: rules})
