@@ -286,3 +286,13 @@ def test_waiting_coroutine(ros: RosSandbox) -> None:
     ros.wait_until(lambda: bool(ends), 30.0, 'the coroutine did not end')
     assert ends == [42]
     assert future.asked < 10
+
+
+def test_a_node_ends_when_what_was_about_to_run_has_run(ros: RosSandbox) -> None:
+    """Such as what a response has set off: it does not meet a node without its parts."""
+    node = ros.observer()
+    client, calls = node.create_client(Trigger, 'nothing'), []
+    assert node.executor is not None
+    node.executor.create_task(lambda: calls.append(client.call_async(Trigger.Request())))
+    ros.end(node)
+    ros.wait_until(lambda: bool(calls), 10.0, 'a call')

@@ -55,6 +55,7 @@ class RosSandbox:
         """End a node that was started here, as if its process were killed."""
         self._nodes.remove(node)
         self._executor.remove_node(node)
+        self._handle()  # what a response has set off would meet a node without its parts
         destroy(node)
 
     def observer(self) -> Node:
