@@ -30,22 +30,15 @@ class PlacesError(Exception):
     """A file of named places cannot be used; the text says why."""
 
 
-@dataclass(frozen=True)
-class Fixture:
-    """
-    What stands on a surface for good, such as a television.
-
-    Attributes
-    ----------
-    outline_m
-        Its outline in the map.
-    height_m
-        How high it is, from the surface up.
-
-    """
+class _Area:
+    """What has an outline in the map."""
 
     outline_m: Outline
-    height_m: float
+
+    @property
+    def middle_m(self) -> Point:
+        """Return the mean of its corners in the map."""
+        return _mean(self.outline_m)
 
     def distance_m(self, point_m: Point) -> float:
         """
@@ -62,11 +55,31 @@ class Fixture:
             In m; 0 within the outline.
 
         """
-        return _away_m(self.outline_m, point_m)
+        if _contains(self.outline_m, point_m):
+            return 0.0
+        return min(_to_side_m(a, b, point_m) for a, b in sides(self.outline_m))
 
 
 @dataclass(frozen=True)
-class Surface:
+class Fixture(_Area):
+    """
+    What stands on a surface for good, such as a television.
+
+    Attributes
+    ----------
+    outline_m
+        Its outline in the map.
+    height_m
+        How high it is, from the surface up.
+
+    """
+
+    outline_m: Outline
+    height_m: float
+
+
+@dataclass(frozen=True)
+class Surface(_Area):
     """
     A level surface with a name.
 
@@ -95,11 +108,6 @@ class Surface:
     is_container: bool = False
     fixtures: tuple[Fixture, ...] = ()
 
-    @property
-    def middle_m(self) -> Point:
-        """Return the mean of its corners in the map."""
-        return _mean(self.outline_m)
-
     def misfit_m(self, x_m: float, y_m: float, bottom_m: float, sigma_m: float = 0.0) -> float:
         """
         Return how far the underside of a thing is from the surface.
@@ -123,35 +131,13 @@ class Surface:
         is_on = above_m <= reach_m and self.distance_m((x_m, y_m)) <= reach_m
         return above_m if is_on else math.inf
 
-    def distance_m(self, point_m: Point) -> float:
-        """
-        Return how far a point is from the outline, seen from above.
-
-        Parameters
-        ----------
-        point_m
-            x and y in the map.
-
-        Returns
-        -------
-        float
-            In m; 0 within the outline.
-
-        """
-        return _away_m(self.outline_m, point_m)
-
 
 @dataclass(frozen=True)
-class Room:
+class Room(_Area):
     """A part of the ground that has a name: its outline in the map."""
 
     name: str
     outline_m: Outline
-
-    @property
-    def middle_m(self) -> Point:
-        """Return the mean of its corners in the map."""
-        return _mean(self.outline_m)
 
 
 @dataclass(frozen=True)
@@ -353,13 +339,6 @@ def _contains(outline: Outline, point: Point) -> bool:
         % 2
         == 1
     )
-
-
-def _away_m(outline: Outline, point: Point) -> float:
-    """Return how far a point is from a polygon; 0 inside."""
-    if _contains(outline, point):
-        return 0.0
-    return min(_to_side_m(a, b, point) for a, b in sides(outline))
 
 
 def _to_side_m(a: Point, b: Point, point: Point) -> float:

@@ -132,7 +132,7 @@ class Robot(Node):
         self.placed: list[tuple[str, str]] = []
         self.too_wide: set[str] = set()
         self._arms: list[SingleGoal] = []
-        self._holding = self.create_publisher(Detection3DArray, 'held_objects', LATCHED)
+        self.holding = self.create_publisher(Detection3DArray, 'held_objects', LATCHED)
         self._hands = SingleGoal(self, lambda: '')
         self._hands.offer(Pick, 'pick', self._pick)
         self._hands.offer(Place, 'place', self._place)
@@ -161,7 +161,7 @@ class Robot(Node):
 
     async def _tell_hands(self, goal: RunningGoal) -> None:
         """Tell what is held; that is remembered nowhere else."""
-        self._holding.publish(Detection3DArray(detections=self.held))
+        self.holding.publish(Detection3DArray(detections=self.held))
         gone = {each.id for each in self.held} | {name for name, _ in self.placed}
         await self._see(goal, [each for each in self._remembered if each.id not in gone])
 

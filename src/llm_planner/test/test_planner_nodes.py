@@ -21,6 +21,7 @@ from rclpy.action import ActionClient, ActionServer, GoalResponse
 from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import String
+from vision_msgs.msg import Detection3DArray
 
 
 def test_what_is_typed_is_done(ros: RosSandbox, tell: Any) -> None:
@@ -140,6 +141,12 @@ def test_it_waves_and_points_with_a_hand_that_is_free(ros: RosSandbox, tell: Any
     tell('point at the red mug')
     ros.wait_until(lambda: len(robot.moved) == 3, 60.0, 'an arm that points')
     assert robot.moved[-1] == 'left'
+    bowl = detection('bowl_1', 'bowl', at=(3.6, 1.2, 0.75))
+    bowl.header.frame_id = 'l_gripper'
+    robot.holding.publish(Detection3DArray(detections=[*robot.held, bowl]))
+    tell('wave')
+    ros.wait_until(robot.heard('Both my hands hold something.'), 60.0, 'words')
+    assert len(robot.moved) == 3
 
 
 def test_a_fall_ends_it(ros: RosSandbox, tell: Any) -> None:
