@@ -10,8 +10,8 @@ from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Duration
 from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import JointTolerance
+from humanoid_common.client_goals import cancel_goal, GoalResult
 from humanoid_common.goal_guard import GoalGuard, GuardedActionClient
-from humanoid_common.goal_result import GoalResult
 from humanoid_common.single_goal import GoalAborted
 from rclpy.action import ActionClient
 from rclpy.node import Node
@@ -132,8 +132,8 @@ class JointMover:
                 self._handle = handle
                 if handle.accepted:
                     self._end = GoalResult(handle)
-            elif handle.accepted:
-                handle.cancel_goal_async()
+            else:
+                cancel_goal(sent)
 
         sent.add_done_callback(take)
 
@@ -167,5 +167,5 @@ class JointMover:
     def stop(self) -> None:
         """End a motion that goes on; the joints stay where they are."""
         if self._end is not None and not self._end.done():
-            self._handle.cancel_goal_async()
+            cancel_goal(self._sent)
         self._sent = self._handle = self._end = None

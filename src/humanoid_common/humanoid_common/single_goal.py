@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import traceback
 from typing import Any
 
-from humanoid_common.goal_result import GoalResult
+from humanoid_common.client_goals import cancel_goal, GoalResult
 from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.clock import Clock, ClockType
@@ -133,16 +133,9 @@ class RunningGoal:
                 if not client.server_is_ready() and not await self.comes(end.done):
                     raise GoalAborted(code, f"'{action}' ended in the middle of its work.")
         except BaseException:
-            sent.add_done_callback(_cancel)
+            cancel_goal(sent)
             raise
         return end.result()
-
-
-def _cancel(sent: Future[Any]) -> None:
-    """Cancel a goal as soon as its handle is there."""
-    handle = sent.result() if not sent.cancelled() else None
-    if handle is not None and handle.accepted:
-        handle.cancel_goal_async()
 
 
 Work = Callable[[RunningGoal], Awaitable[None]]

@@ -8,6 +8,7 @@ from typing import Any
 
 from action_msgs.msg import GoalStatus
 from control_msgs.action import PointHead
+from humanoid_common.client_goals import cancel_goal
 from humanoid_common.single_goal import GoalAborted, GoalCanceled, RunningGoal, SingleGoal
 from humanoid_common.testing.actions import ActionCaller
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
@@ -117,3 +118,19 @@ def test_an_action_that_is_of_no_use_aborts_the_goal(
     assert end.status == GoalStatus.STATUS_ABORTED
     assert world.worker.trouble.name == 'BODY_FAILED'
     assert sentence in str(world.worker.trouble)
+
+
+def test_a_goal_whose_client_is_gone_cannot_be_canceled(world: World) -> None:
+    """Work that was waiting ends like that when the garbage collector comes."""
+    helper = world.ros.start(Helper)
+    client = ActionClient(world.ros.observer(), PointHead, 'look')
+    world.ros.wait_until(client.server_is_ready, PATIENCE_S, 'the helper')
+    first, second = (client.send_goal_async(PointHead.Goal()) for _ in range(2))
+    world.ros.wait_until(lambda: first.done() and second.done(), PATIENCE_S, 'two handles')
+    cancel_goal(second)
+    world.ros.wait_until(lambda: helper.was_canceled, PATIENCE_S, 'a goal that is canceled')
+    client.destroy()
+    after: list[Any] = []
+    cancel_goal(first)
+    first.add_done_callback(after.append)
+    world.ros.wait_until(lambda: bool(after), PATIENCE_S, 'what follows the cancel')

@@ -8,7 +8,7 @@ from itertools import count
 from typing import Any
 
 from action_msgs.msg import GoalStatus
-from humanoid_common.goal_result import GoalResult
+from humanoid_common.client_goals import cancel_goal, GoalResult
 from humanoid_common.qos import EVENT
 from llm_planner.plan_tree import SkillError, SkillRun
 from rclpy.action import ActionClient
@@ -102,7 +102,7 @@ class Robot:
             answer = end.result()
         finally:
             if not end.done():
-                sent.add_done_callback(_cancel)
+                cancel_goal(sent)
         if answer.status != GoalStatus.STATUS_SUCCEEDED:
             reason = _reason(answer.result) or otherwise or f"'{name}' did not succeed."
             raise SkillError(reason, is_final=_code(answer.result) in _FINAL)
@@ -118,7 +118,7 @@ class Robot:
             try:
                 yield from self._patiently(sent.done, f"'{name}' does not answer.")
             except (GeneratorExit, SkillError):
-                sent.add_done_callback(_cancel)
+                cancel_goal(sent)
                 raise
             if sent.result().accepted:
                 return sent
@@ -174,10 +174,3 @@ def _code(result: Any) -> str:
     code = getattr(result, 'error_code', 0)
     known = (name for name in (*_WORDS, *_FINAL) if getattr(result, name, None) == code)
     return next(known, '') if code else ''
-
-
-def _cancel(sent: Any) -> None:
-    """Cancel a goal as soon as its handle is there."""
-    handle = sent.result() if not sent.cancelled() else None
-    if handle is not None and handle.accepted:
-        handle.cancel_goal_async()

@@ -14,6 +14,7 @@ import traceback
 from typing import Any
 
 from action_msgs.msg import GoalStatus
+from humanoid_common.client_goals import cancel_goal
 from humanoid_common.diagnostics import Diagnostics, PartStatus
 from humanoid_common.executing import create_async_service
 from humanoid_common.node_parameters import NodeParameters
@@ -247,7 +248,7 @@ class TaskPlanner(Node):
                 return None
             if is_answered:
                 return sent
-            sent.add_done_callback(_cancel)
+            cancel_goal(sent)
         self._say('I cannot do anything, as the skill executor does not answer.')
         return None
 
@@ -366,7 +367,7 @@ class TaskPlanner(Node):
         self._health.command = ''
         sent, self._sent = self._sent, None
         if sent is not None:
-            sent.add_done_callback(_cancel)
+            cancel_goal(sent)
 
     def _status(self) -> list[PartStatus]:
         """Return how the node is, for diagnostics."""
@@ -388,12 +389,6 @@ class TaskPlanner(Node):
 
     def _say(self, text: str) -> None:
         self._speech.publish(String(data=text))
-
-
-def _cancel(sent: Any) -> None:
-    handle = sent.result()
-    if handle is not None and handle.accepted:
-        handle.cancel_goal_async()
 
 
 def main(args: list[str] | None = None) -> int:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The result of a goal that another node works on."""
+"""Goals that another node works on: what comes of them, and how to end them."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ import time
 from typing import Any
 
 from rclpy.action.client import ClientGoalHandle
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.task import Future
 
-__all__ = ['GoalResult']
+__all__ = ['GoalResult', 'cancel_goal']
 
 _PERIOD_S = 5.0
 
@@ -49,3 +51,30 @@ class GoalResult:
     def result(self) -> Any:
         """Return the answer, with status and result, when it has come."""
         return next(each.result() for each in self._answers if each.done())
+
+
+def cancel_goal(sent: Future[Any]) -> None:
+    """
+    Cancel a goal that was sent, as soon as its handle is there.
+
+    Work that waits is ended by the garbage collector if its node is destroyed before; with the
+    client gone, nothing can be canceled any more, and that is no error.
+
+    Parameters
+    ----------
+    sent
+        What `ActionClient.send_goal_async` returned.
+
+    """
+    sent.add_done_callback(_cancel)
+
+
+def _cancel(sent: Future[Any]) -> None:
+    """Cancel a goal whose handle is there."""
+    handle = sent.result() if not sent.cancelled() else None
+    if handle is None or not handle.accepted:
+        return
+    try:
+        handle.cancel_goal_async()
+    except (_rclpy.InvalidHandle, _rclpy.RCLError):
+        pass

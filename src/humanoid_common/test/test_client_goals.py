@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from humanoid_common.goal_result import GoalResult
+from humanoid_common.client_goals import GoalResult
 import pytest
 from rclpy.task import Future
 
