@@ -16,6 +16,8 @@ __all__ = ['Grasp', 'Graspable', 'Hand', 'grasps_of']
 
 ROUND = frozenset(('apple', 'ball', 'bottle', 'bowl', 'can', 'cup', 'mug', 'orange'))
 """Classes of things that look the same from all sides: any side of them can be grasped."""
+BALLS = frozenset(('apple', 'ball', 'orange'))
+"""Of these, classes that are as round from above: the corners of their boxes are empty."""
 HANDLED = frozenset(('cup', 'mug'))
 """Classes of things with a handle, which is seen as a part of their width."""
 _BODY = 0.85
@@ -31,6 +33,8 @@ _ABOVE_M = 0.010
 """How high above what a thing stands on the fingers stay."""
 _PALM_M = 0.005
 """Between the palm and the thing."""
+_ROLLS_M = 0.005
+"""How much more for what rolls away when it is touched."""
 _TILTS_RAD = (0.0, 0.4, 0.8)
 """How far a hand from the side points down: a level arm does not get to what is low."""
 _INSIDE_M, _HANGS_M = 0.03, 0.05
@@ -153,7 +157,11 @@ def grasps_of(thing: Graspable, hand: Hand = Hand()) -> Iterator[Grasp]:
             height_m = max(float(thing.position_m[2]), thing.bottom_m + below_m)
             above_m = thing.bottom_m + float(thing.size_m[2]) - height_m
             # The hand stays so far back that the palm does not touch the near edge of the top.
-            back_m = 0.5 * depth_m * cosine + above_m * sine - hand.palm_m + _PALM_M
+            if thing.class_id in BALLS:
+                near_m = 0.5 * depth_m + _ROLLS_M
+            else:
+                near_m = 0.5 * depth_m * cosine + above_m * sine
+            back_m = near_m - hand.palm_m + _PALM_M
             if above_m > 0.0 and not (thing.is_round and back_m > hand.tip_m - _PALM_M):
                 ahead = cosine * level - np.array([0.0, 0.0, sine])
                 position = np.array([*thing.position_m[:2], height_m])

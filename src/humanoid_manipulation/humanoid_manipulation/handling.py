@@ -49,6 +49,8 @@ _NEAR_M = 1.5
 """A robot that is no farther from before that, and has nothing in its way, steps there."""
 _THERE_RAD = 0.05
 _SLOW_RAD_S = 0.5
+_APPROACHES, _EXACT_M = 3, 0.004
+"""How often a hand is brought to where it closes, until it is that near."""
 _SHARES = (1.0, 0.75, 0.5, 0.25)
 LEAST_SHARE = 0.5
 """Of its width, by which the gripper must stay open if it holds the thing."""
@@ -402,6 +404,8 @@ class Handling:
         """
         Bring a hand to a grasp, straight; only one thing may be touched.
 
+        The body sways with the arm; what the hand is off after that is made up for.
+
         Parameters
         ----------
         goal, side, grasp
@@ -415,20 +419,33 @@ class Handling:
             Something is in the way, the arm does not reach so far, or something stops it.
 
         """
-        # What the feet sway meanwhile is made up for on the last centimetres.
         arms = self.node.arms
         around = await self.obstacles(goal, (), self.node.parameters.current.clearance, but)
-        world = arms.world(around, self.node.held.boxes, 0.0)
-        now = arms.reach_of(side)
-        here = arms.body.forward(side, now).position_m
-        there = grasp.gripper.seen_from(self.base).position_m
-        with self.failing():
-            way = approach(arms.body, side, now, there - here)
-            for reach in way:
-                for contact in world.contacts(side, reach):
-                    if but not in contact.names:
-                        raise BlockedError(f'The {side} arm cannot go there: {contact}.')
+        for number in range(_APPROACHES):
+            now = arms.reach_of(side)
+            here = arms.body.forward(side, now).position_m
+            there = grasp.gripper.seen_from(self.base).position_m
+            if np.linalg.norm(there - here) < _EXACT_M:
+                return
+            try:
+                with self.failing():
+                    way = approach(arms.body, side, now, there - here)
+                    self._check_clear(side, way, around, but)
+            except GoalAborted:
+                if number == 0:
+                    raise
+                return
             await self.move(goal, side, way, _SLOW_RAD_S)
+
+    def _check_clear(
+        self, side: str, way: list[Reach], around: Sequence[Obstacle], but: str
+    ) -> None:
+        """Raise if an arm would touch something on its way, but for one thing."""
+        world = self.node.arms.world(around, self.node.held.boxes, 0.0)
+        for reach in way:
+            for contact in world.contacts(side, reach):
+                if but not in contact.names:
+                    raise BlockedError(f'The {side} arm cannot go there: {contact}.')
 
     async def shift(
         self, goal: RunningGoal, side: str, step_m: Array, waist: bool = False

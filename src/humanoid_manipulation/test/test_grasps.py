@@ -78,6 +78,18 @@ def test_the_palm_does_not_touch_what_is_deep(kind: str) -> None:
         assert float((edge - palm) @ ahead) > 0.004
 
 
+def test_a_ball_is_held_by_its_middle_and_not_touched_by_the_palm() -> None:
+    """However the hand is tilted: the corners of its box are empty, and it would roll away."""
+    ball = thing('apple')
+    tilted = [each for each in grasps_of(ball) if not each.from_above]
+    assert len({round(each.gripper.rotation[2, 2], 3) for each in tilted}) == 3
+    for grasp in tilted:
+        beside = ball.position_m - grasp.gripper.position_m
+        deep_m = float(beside @ -grasp.gripper.rotation[:, 2])
+        assert HAND.palm_m + deep_m - 0.5 * ball.size_m[0] >= 0.01 - 1e-9
+        assert 0.0 <= deep_m < 0.5 * HAND.tip_m
+
+
 def test_a_round_thing_is_grasped_from_all_sides_and_a_box_from_four() -> None:
     """And both from above."""
     mug, cube = list(grasps_of(thing('mug'))), list(grasps_of(thing('cube')))
