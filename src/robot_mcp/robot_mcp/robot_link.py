@@ -12,6 +12,7 @@ import uuid
 
 from action_msgs.msg import GoalInfo
 from action_msgs.srv import CancelGoal
+from humanoid_common.goal_guard import GoalGuard, GuardedActionClient
 from humanoid_common.qos import LATCHED
 from humanoid_interfaces.action import ExecutePlan
 from humanoid_interfaces.msg import Plan as PlanMessage
@@ -58,13 +59,20 @@ class RobotLink:
     ----------
     node
         The node that listens and sends.
+    may_move
+        Whether plans are sent. What is done of them then ends with this process.
 
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, *, may_move: bool) -> None:
         self._node = node
         self.thread = NodeThread(node)
-        self._client = ActionClient(node, ExecutePlan, 'execute_plan')
+        self._guard = GoalGuard(node) if may_move else None
+        self._client = (
+            ActionClient(node, ExecutePlan, 'execute_plan')
+            if self._guard is None
+            else GuardedActionClient(self._guard, ExecutePlan, 'execute_plan')
+        )
         # Not with the goals of the client: it has to work when that is destroyed, and for all.
         self._canceling = node.create_client(CancelGoal, 'execute_plan/_action/cancel_goal')
         self._planner = node.create_client(MakePlan, 'task_planner/plan')
@@ -185,6 +193,8 @@ class RobotLink:
         runs = [run for run in self._runs.values() if run.is_sent and not run.is_over]
         for run in runs:
             self._cancel(run)
+        if self._guard is not None:
+            self._guard.close()
         return bool(runs)
 
     def _send(self, plan: PlanMessage, run: PlanRun, tell: Callable[[Any], None]) -> None:

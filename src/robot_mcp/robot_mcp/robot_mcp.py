@@ -88,7 +88,7 @@ class RobotMcp(Node):
         require_sdk()
         planner, watch = begin_watch(self, told)
         path = Path(told.audit_log).expanduser() if told.audit_log else default_path(os.environ)
-        self._link = RobotLink(self)
+        self._link = RobotLink(self, may_move=told.allow_motion)
         logger = self.get_logger()
         calls = Calls(
             self._link,

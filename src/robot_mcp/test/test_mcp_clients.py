@@ -569,11 +569,13 @@ def test_signals_end_it(world: Any, number: signal.Signals) -> None:
     assert report.status == 0 and 'Traceback' not in report.stderr, report.stderr
 
 
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    'number, status', [(signal.SIGINT, 0), (signal.SIGTERM, 0), (signal.SIGKILL, -signal.SIGKILL)]
+)
 def test_a_signal_ends_the_walk(
-    world: Any, robot: Any, until: Any, number: signal.Signals
+    world: Any, robot: Any, until: Any, number: signal.Signals, status: int
 ) -> None:
-    """Whoever ends the server ends what it had begun."""
+    """Whoever ends the server ends what it had begun, even by `kill -9`."""
     robot.is_slow = True
 
     async def script() -> Any:
@@ -588,7 +590,7 @@ def test_a_signal_ends_the_walk(
             assert robot.canceled == 1
             return await asyncio.to_thread(program.wait_for_exit)
 
-    assert world.play(script).status == 0
+    assert world.play(script).status == status
 
 
 @pytest.mark.parametrize(
