@@ -44,7 +44,15 @@ class Once(Substitution):
         return f'Once({", ".join(each.describe() for each in self._wrapped)})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the text of the first time."""
+        """
+        Resolve the substitutions at the first call, and return the same text ever after.
+
+        Parameters
+        ----------
+        context
+            The context of the launch; only that of the first call counts.
+
+        """
         if self._text is None:
             self._text = perform_substitutions(context, self._wrapped)
         return self._text

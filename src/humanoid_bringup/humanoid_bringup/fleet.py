@@ -7,7 +7,20 @@ MOST_ROBOTS = 50
 
 
 def robot_namespaces(count: str) -> list[str]:
-    """Return robot1, robot2, ... for a count given as text; ValueError tells what is wrong."""
+    """
+    List the namespaces of a fleet: robot1, robot2 and so on.
+
+    Parameters
+    ----------
+    count
+        How many robots, as the text of the launch argument: 1 to 50.
+
+    Raises
+    ------
+    ValueError
+        The text is no whole number within that range.
+
+    """
     is_number = count.isascii() and count.isdigit()
     if not is_number or not 1 <= int(count) <= MOST_ROBOTS:
         raise ValueError(_refusal(count))

@@ -28,7 +28,14 @@ class Startup:
 
     def hear(self, process: str, text: str) -> Optional[str]:
         """
-        Take what a process has written, in pieces of any size.
+        Process the output of a process, in pieces of any size.
+
+        Parameters
+        ----------
+        process
+            The name of the process.
+        text
+            What it has written since the last call.
 
         Returns
         -------
@@ -60,7 +67,15 @@ def announce_page() -> OnProcessIO:
 
 
 def announcement(url: str) -> str:
-    """Return the lines that one is to see."""
+    """
+    Format the lines that show where the page is.
+
+    Parameters
+    ----------
+    url
+        The address of the page.
+
+    """
     sentence = f'Open {url} to see and drive the robot.'
     line = '-' * len(sentence)
     return f'\n{line}\n{sentence}\n{line}'

@@ -17,7 +17,15 @@ ROBOTS = ('simulator', 'mock_robot')
 
 
 def watch_robot(argument: str) -> OnProcessExit:
-    """Say when the robot ends; if the launch argument is `shutdown`, end all else as well."""
+    """
+    Build the event handler that reports the end of the robot's process.
+
+    Parameters
+    ----------
+    argument
+        The name of a launch argument; if its value is `shutdown`, everything else ends as well.
+
+    """
 
     def react(event: ProcessExited, context: LaunchContext) -> Optional[list[Action]]:
         if context.is_shutdown:

@@ -45,7 +45,25 @@ class RvizFile(Substitution):
         return 'RvizFile()'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path; SubstitutionFailure says which file cannot be read or written."""
+        """
+        Resolve the path; if the condition holds, write the file that has the displays of both.
+
+        Parameters
+        ----------
+        context
+            The context of the launch.
+
+        Returns
+        -------
+        str
+            The path of a temporary file, or of the first file itself.
+
+        Raises
+        ------
+        SubstitutionFailure
+            A file cannot be read or written.
+
+        """
         base = perform_substitutions(context, self._base)
         if perform_substitutions(context, self._condition).lower() != 'true':
             return base

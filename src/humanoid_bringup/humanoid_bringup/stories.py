@@ -66,7 +66,20 @@ class Story:
 
 
 def stays(text: str) -> Check:
-    """Check that the robot says something, and does nothing."""
+    """
+    Build the check that the robot says something and does nothing.
+
+    Parameters
+    ----------
+    text
+        A part of what it is to say.
+
+    Returns
+    -------
+    Check
+        Holds if the robot has also walked less than 0.1 m and turned by less than 5 degrees.
+
+    """
     return lambda scene: (
         text in scene.said and abs(scene.moved_m) < 0.1 and abs(scene.turned_deg) < 5.0
     )

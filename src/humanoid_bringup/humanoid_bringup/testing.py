@@ -96,7 +96,15 @@ class ToldRobot:
         self.plan = None
 
     def tell(self, text: str) -> None:
-        """Type what the robot is to do."""
+        """
+        Type a command: publish it on `user_command`.
+
+        Parameters
+        ----------
+        text
+            The command.
+
+        """
         self._commands.publish(String(data=text))
 
     def speak(self, path: Path) -> None:
@@ -115,7 +123,26 @@ class ToldRobot:
         self._player.reset()
 
     def wait_until(self, condition: Callable[[], bool], timeout_s: float, what: str) -> None:
-        """Wait, in real time, until something holds; the robot is to stay on its feet."""
+        """
+        Wait, in real time, until a condition holds; the robot has to stay on its feet.
+
+        Parameters
+        ----------
+        condition
+            Called between callbacks.
+        timeout_s
+            How long to wait.
+        what
+            What is waited for, for the error message.
+
+        Raises
+        ------
+        WaitedInVainError
+            The condition does not hold in time.
+        AssertionError
+            The robot fell.
+
+        """
 
         def holds() -> bool:
             assert self.robot.stands, f'The robot fell. It has said {self.said}'
@@ -124,11 +151,29 @@ class ToldRobot:
         self.ros.wait_until(holds, timeout_s, f'{what}; the robot has said {self.said}')
 
     def wait_for(self, text: str, timeout_s: float = PATIENCE_S) -> None:
-        """Wait until the robot says something."""
+        """
+        Wait until the robot has said something since `forget`.
+
+        Parameters
+        ----------
+        text
+            A part of it.
+        timeout_s
+            As for `wait_until`, which also tells what is raised.
+
+        """
         self.wait_until(lambda: any(text in each for each in self.said), timeout_s, repr(text))
 
     def wait_for_the_end(self, timeout_s: float = PATIENCE_S) -> None:
-        """Wait until a plan is over, no other one follows, and what is said of it is heard."""
+        """
+        Wait until a plan is over, no other one follows, and the robot has said something about it.
+
+        Parameters
+        ----------
+        timeout_s
+            How long each plan may take, in real time; see `wait_until` for what is raised.
+
+        """
         while True:
             self.wait_until(lambda: self.is_over, timeout_s, f'the end of a plan, {self.plan}')
             self.wait_until(lambda: bool(self.said), 5.0, 'a word about it')

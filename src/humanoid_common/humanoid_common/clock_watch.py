@@ -11,7 +11,15 @@ TOPIC = '/clock'
 
 
 def watch_clock(node: Node) -> None:
-    """Log after a while that no time has come, if the node takes it from /clock."""
+    """
+    Warn once if a node with `use_sim_time` receives no time from /clock.
+
+    Parameters
+    ----------
+    node
+        The node; it is checked once, `PATIENCE_S` of real time from now.
+
+    """
     if not node.get_clock().ros_time_is_active:
         return
 
@@ -24,7 +32,15 @@ def watch_clock(node: Node) -> None:
 
 
 def complaint(publishers: int) -> str:
-    """Return what is missing, and what to do."""
+    """
+    Build the warning about missing simulated time.
+
+    Parameters
+    ----------
+    publishers
+        How many publishers /clock has.
+
+    """
     why = f'no time has come on {TOPIC} so far' if publishers else f'nobody publishes {TOPIC}'
     return (
         f'use_sim_time is true, but {why}: the time of this node stands still. Start the '

@@ -12,7 +12,15 @@ _LARGEST_INTEGER = 2**63 - 1
 
 
 def descriptor_of(spec: ParameterSpec) -> ParameterDescriptor:
-    """Translate the rules of a parameter into its ROS descriptor."""
+    """
+    Convert the rules of a parameter to its ROS parameter descriptor.
+
+    Parameters
+    ----------
+    spec
+        The parameter: its description, limits and choices, and whether it is read-only.
+
+    """
     descriptor = ParameterDescriptor(
         name=spec.name, description=spec.rules.description, read_only=spec.rules.read_only
     )

@@ -110,9 +110,16 @@ def make_executor(context: Context | None = None) -> Executor:
 
 def spin_until(executor: Executor, stop: Future[None], context: Context | None = None) -> None:
     """
-    Run callbacks until a future is done, or the context is shut down.
+    Spin an executor until a future is done, or the context is shut down.
 
-    The future may be set from any thread, and between two callbacks the executor returns.
+    Parameters
+    ----------
+    executor
+        The executor, which returns between two callbacks.
+    stop
+        Ends the spinning when it is done; it may be set from any thread.
+    context
+        The ROS context; by default that of the process.
 
     Raises
     ------
@@ -161,11 +168,17 @@ def create_async_service(
 
 def destroy(node: Node) -> None:
     """
-    Destroy a node with all that it has.
+    Destroy a node together with its action servers and clients.
 
     `Node.destroy_node` leaves action servers and clients to the garbage collector. Until it comes,
     others see the node; and when it comes, the log of a node of the same name, which may have been
     made meanwhile, is no longer published on /rosout.
+
+    Parameters
+    ----------
+    node
+        The node, which no executor spins any more.
+
     """
     for waitable in list(node.waitables):
         destroy_waitable = getattr(waitable, 'destroy', None)

@@ -24,9 +24,25 @@ class Inhibition:
         return {'fallen': FALLEN, 'stand_up': STANDING_UP}.get(self._walking, '')
 
     def tell_walking_state(self, state: str) -> None:
-        """Take the state of the walk: `fallen`, `stand_up`, or one in which it stands or walks."""
+        """
+        Update the walking state.
+
+        Parameters
+        ----------
+        state
+            What the topic `walking_state` says; `fallen` and `stand_up` inhibit motion.
+
+        """
         self._walking = state
 
     def tell_stop_state(self, reason: str) -> None:
-        """Take why the robot has been stopped; empty if it has not."""
+        """
+        Update the reason for a stop.
+
+        Parameters
+        ----------
+        reason
+            What the topic `stop_state` says: why the robot holds still; empty if it may move.
+
+        """
         self._stopped = reason

@@ -45,7 +45,15 @@ class PeriodicTimer:
         return self._ticks.passed_s(self._clock.now().nanoseconds)
 
     def set_rate(self, rate_hz: float) -> None:
-        """Change the rate, in Hz, at once; the time goes on without a jump."""
+        """
+        Change the rate of the calls at once; their time goes on without a jump.
+
+        Parameters
+        ----------
+        rate_hz
+            Calls in a second of the clock of the timer.
+
+        """
         period_ns = int(_NANOSECONDS / rate_hz)
         if period_ns != self._timer.timer_period_ns:
             self._ticks.set_rate(rate_hz, self._clock.now().nanoseconds)

@@ -28,10 +28,18 @@ _ends: dict[Context, Future[None]] = {}
 
 def run_node(factory: NodeFactory, args: Sequence[str] | None = None) -> int:
     """
-    Run the node that the factory makes, and return the exit status.
+    Run a node until it is told to stop, and return the exit status of the process.
 
     SIGINT and SIGTERM end the node between two callbacks, or while it starts, with status 0. A
     node that cannot start ends with status 1 and one message on stderr.
+
+    Parameters
+    ----------
+    factory
+        Makes the node, once ROS is initialised.
+    args
+        Command line arguments, including those for ROS; by default `sys.argv`.
+
     """
     with stop_on_signals() as stop:
         try:
@@ -49,10 +57,18 @@ def run_node(factory: NodeFactory, args: Sequence[str] | None = None) -> int:
 
 def ending(node: Node, callback: Callable[P, None]) -> Callable[P, None]:
     """
-    Return a callback of a node that ends the node when it raises NodeStartError.
+    Wrap a callback of a node so that it ends the node when it raises NodeStartError.
 
-    `run_node` then shows the sentence, and nothing else. A node that is run otherwise gets the
+    `run_node` then shows the message, and nothing else. A node that is run otherwise gets the
     error.
+
+    Parameters
+    ----------
+    node
+        The node that the callback belongs to.
+    callback
+        The callback, with any arguments.
+
     """
 
     def call(*args: P.args, **kwargs: P.kwargs) -> None:

@@ -43,7 +43,15 @@ class RunningGoal:
         self._is_ending = False
 
     def publish_feedback(self, feedback: Any) -> None:
-        """Tell the client how far it is."""
+        """
+        Publish feedback to the client, unless the goal has ended.
+
+        Parameters
+        ----------
+        feedback
+            The feedback message of the action.
+
+        """
         if self._handle.is_active:
             self._handle.publish_feedback(feedback)
 
@@ -82,7 +90,25 @@ class RunningGoal:
         self.check()
 
     async def comes(self, condition: Callable[[], bool]) -> bool:
-        """Wait until something holds; return whether it does after a while."""
+        """
+        Wait until a condition holds, for 5 s at most.
+
+        Parameters
+        ----------
+        condition
+            Evaluated 20 times a second.
+
+        Returns
+        -------
+        bool
+            Whether the condition holds at the end.
+
+        Raises
+        ------
+        GoalCanceled, GoalAborted
+            As for `check`, which is called meanwhile.
+
+        """
         for _ in range(round(_PATIENCE_S * _TICK_HZ)):
             if condition():
                 break

@@ -31,7 +31,15 @@ class StopRequest:
                 self._wake()
 
     def wake_with(self, wake: Callable[[], None] | None) -> None:
-        """Set what to call when the request is made, which may have happened already."""
+        """
+        Set the callback of the stop request; it is called at once if the request was made already.
+
+        Parameters
+        ----------
+        wake
+            Called when the request is made, from the thread that makes it; None for nothing.
+
+        """
         with self._lock:
             self._wake = wake
             if wake is not None and self._made.is_set():

@@ -55,11 +55,29 @@ class Ticks:
             self._next_ns += self._period_ns
 
     def passed_s(self, clock_ns: int) -> float:
-        """Return the time since the first call of `due`, in seconds; zero before it."""
+        """
+        Compute the time since the first call of `due`, in seconds; zero before it.
+
+        Parameters
+        ----------
+        clock_ns
+            The clock, in nanoseconds.
+
+        """
         return 0.0 if self._origin_ns is None else self._passed_ns(clock_ns) / _NANOSECONDS
 
     def set_rate(self, rate_hz: float, clock_ns: int) -> None:
-        """Change the rate, in Hz: the next moment is one new period from now."""
+        """
+        Change the rate: the next moment is one new period from now.
+
+        Parameters
+        ----------
+        rate_hz
+            How many moments there are in a second of the clock.
+        clock_ns
+            The clock, in nanoseconds.
+
+        """
         self._period_ns = round(_NANOSECONDS / rate_hz)
         if self._origin_ns is not None:
             self._next_ns = self._passed_ns(clock_ns) + self._period_ns

@@ -9,7 +9,17 @@ from sensor_msgs.msg import JointState
 
 
 def command_message(command: JointCommand, stamp: Time) -> JointState:
-    """Return the message of a command: position, velocity, and no additional effort."""
+    """
+    Convert a joint command to a JointState, with efforts of zero.
+
+    Parameters
+    ----------
+    command
+        Positions and velocities of the joints.
+    stamp
+        The stamp of the header.
+
+    """
     message = JointState(
         name=command.joints,
         position=command.positions_rad,

@@ -22,5 +22,15 @@ class JointCommand:
 
 
 def command_of(motion: Motion, now_s: float) -> JointCommand:
-    """Return the command of a moment of a motion."""
+    """
+    Sample the positions and velocities of a motion at a time.
+
+    Parameters
+    ----------
+    motion
+        The motion of the joints.
+    now_s
+        Time in the motion.
+
+    """
     return JointCommand(motion.joints, motion.positions_rad(now_s), motion.velocities_rad_s(now_s))

@@ -20,7 +20,22 @@ class JointReporter:
         positions_rad: Sequence[float],
         now_s: float,
     ) -> str | None:
-        """Return the line, or None when it is too early or there is nothing to report."""
+        """
+        Format the position of the first joint, at most once per period.
+
+        Parameters
+        ----------
+        names, positions_rad
+            The joint state, in the same order.
+        now_s
+            Time of a steady clock.
+
+        Returns
+        -------
+        str or None
+            One line; None if the period has not passed yet, or there is no joint.
+
+        """
         if not names or not positions_rad or not self._is_due(now_s):
             return None
         self._last_s = now_s

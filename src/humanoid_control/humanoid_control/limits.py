@@ -24,7 +24,17 @@ class JointLimits:
 
     @classmethod
     def of(cls, drives: Mapping[str, Drive], joints: Sequence[str]) -> JointLimits:
-        """Return the limits of the joints, in their order."""
+        """
+        Collect the limits of joints from their drives.
+
+        Parameters
+        ----------
+        drives
+            The drive of each joint, by name.
+        joints
+            Names of the n joints, in the order of the limits.
+
+        """
         columns = [
             (drive.lower, drive.upper, drive.velocity, drive.effort, drive.kp)
             for drive in (drives[joint] for joint in joints)
@@ -33,9 +43,19 @@ class JointLimits:
 
     def limited(self, targets: JointTargets, last_rad: Array, elapsed_s: float) -> JointTargets:
         """
-        Return targets within the range, the speed and the strength of the joints.
+        Clip joint targets to the range, the speed and the strength of the joints.
 
-        A position changes by no more than the joint turns at full speed in the elapsed time.
+        A position changes by no more than the joint moves at full speed in the elapsed time.
+
+        Parameters
+        ----------
+        targets
+            Targets of the n joints.
+        last_rad
+            Target positions of the period before (n,).
+        elapsed_s
+            Time since then.
+
         """
         way_rad = self.velocity_rad_s * elapsed_s
         position_rad = _between(targets.positions_rad, last_rad - way_rad, last_rad + way_rad)

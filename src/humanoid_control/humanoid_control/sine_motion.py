@@ -24,15 +24,48 @@ class Swing:
     since_s: float = 0.0
 
     def position_rad(self, now_s: float) -> float:
-        """Return where the joint is to be."""
+        """
+        Compute the position of the joint in rad.
+
+        Parameters
+        ----------
+        now_s
+            Time in the motion.
+
+        """
         return self.amplitude_rad * math.sin(self._angle_rad(now_s))
 
     def velocity_rad_s(self, now_s: float) -> float:
-        """Return the derivative of the position."""
+        """
+        Compute the velocity of the joint in rad/s, the derivative of its position.
+
+        Parameters
+        ----------
+        now_s
+            Time in the motion.
+
+        """
         return self.amplitude_rad * self.frequency_rad_s * math.cos(self._angle_rad(now_s))
 
     def followed_by(self, successor: Swing, now_s: float) -> Swing:
-        """Hand over to a swing of another frequency without a jump of the angle."""
+        """
+        Change the frequency of a swing while its angle goes on.
+
+        Amplitude and phase are those of the successor at once: the position jumps if they differ.
+
+        Parameters
+        ----------
+        successor
+            The swing to go over to.
+        now_s
+            Time of the change.
+
+        Returns
+        -------
+        Swing
+            The successor, started at the angle that this swing has reached.
+
+        """
         turned_rad = math.fmod(self._angle_rad(now_s) - self.phase_rad, math.tau)
         return replace(successor, turned_rad=turned_rad, since_s=now_s)
 
@@ -53,15 +86,46 @@ class Motion:
         return [swing.joint for swing in self.swings]
 
     def positions_rad(self, now_s: float) -> list[float]:
-        """Return where the joints are to be."""
+        """
+        Compute the positions of the joints in rad, in their order.
+
+        Parameters
+        ----------
+        now_s
+            Time in the motion.
+
+        """
         return [swing.position_rad(now_s) for swing in self.swings]
 
     def velocities_rad_s(self, now_s: float) -> list[float]:
-        """Return how fast the joints are to move."""
+        """
+        Compute the velocities of the joints in rad/s, in their order.
+
+        Parameters
+        ----------
+        now_s
+            Time in the motion.
+
+        """
         return [swing.velocity_rad_s(now_s) for swing in self.swings]
 
     def followed_by(self, successor: Motion, now_s: float) -> Motion:
-        """Hand over to another motion; joints that are in both turn on without a jump."""
+        """
+        Change to another motion; see `Swing.followed_by` for joints that are in both.
+
+        Parameters
+        ----------
+        successor
+            The motion to go over to.
+        now_s
+            Time of the change.
+
+        Returns
+        -------
+        Motion
+            The motion from then on, of the joints of the successor.
+
+        """
         before = {swing.joint: swing for swing in self.swings}
         return Motion(
             tuple(
@@ -77,7 +141,21 @@ def motion_of(
     frequencies_rad_s: Sequence[float],
     phases_rad: Sequence[float],
 ) -> Motion:
-    """Build a motion from lists of equal length, one element a joint."""
+    """
+    Build a motion from lists with one element a joint.
+
+    Parameters
+    ----------
+    joints
+        Names of the joints.
+    amplitudes_rad
+        How far each joint swings to either side of zero.
+    frequencies_rad_s
+        Angular frequencies.
+    phases_rad
+        Phases at time zero.
+
+    """
     return Motion(
         tuple(
             Swing(*columns)

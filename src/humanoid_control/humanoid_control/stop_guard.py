@@ -28,20 +28,47 @@ class StopGuard:
         return self._reason
 
     def order(self, stop: bool) -> None:
-        """Take what was said on the topic of the emergency stop."""
+        """
+        Handle a message of the emergency stop.
+
+        Parameters
+        ----------
+        stop
+            True stops the robot. False releases it, also after the console was lost.
+
+        """
         self._reason = PRESSED if stop else ''
 
     def heartbeat(self, in_control: bool) -> None:
-        """Take a sign of life of a console, which says whether it is in control."""
+        """
+        Handle a heartbeat of a console, which restarts the timeout.
+
+        Parameters
+        ----------
+        in_control
+            Whether the console controls the robot; only then does it have to go on beating.
+
+        """
         self._in_control = in_control
         self._silent_s = 0.0
 
     def check(self, now_s: float) -> str:
         """
-        Look for a console that is gone, and return the reason to hold still, if there is one.
+        Check the heartbeat timeout of the console in control; call it several times per timeout.
 
         Of the time between two checks no more than half of the timeout counts: after a moment in
         which this computer stood still, what has arrived meanwhile is heard first.
+
+        Parameters
+        ----------
+        now_s
+            Time of a steady clock.
+
+        Returns
+        -------
+        str
+            Why the robot must hold still; empty if it may move.
+
         """
         if self._checked_s is not None:
             elapsed_s = now_s - self._checked_s

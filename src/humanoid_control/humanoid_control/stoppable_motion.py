@@ -28,7 +28,22 @@ class StoppableMotion:
         self._held: dict[str, float] = {}
 
     def command(self, now_s: float, hold: bool) -> JointCommand | None:
-        """Return the command of this moment; None if joints are held that never had one."""
+        """
+        Compute the joint command of this moment, held or moving.
+
+        Parameters
+        ----------
+        now_s
+            Time of the clock by which the motion goes.
+        hold
+            Whether the joints must hold still; when that ends, they blend into the motion again.
+
+        Returns
+        -------
+        JointCommand or None
+            None while joints are held that have had no command yet.
+
+        """
         if hold:
             self._begin_to_hold(now_s)
         else:
@@ -37,7 +52,17 @@ class StoppableMotion:
         return self._last
 
     def change(self, motion: Motion, now_s: float) -> None:
-        """Go over to another motion; while the joints are held, they stay where they are."""
+        """
+        Change to another motion; joints that are held stay where they are.
+
+        Parameters
+        ----------
+        motion
+            The motion to go over to, as in `Motion.followed_by`.
+        now_s
+            Time of the clock by which the motion goes.
+
+        """
         moment_s = now_s if self._held_since_s is None else self._held_since_s
         self._motion = self._motion.followed_by(motion, moment_s - self._behind_s)
 

@@ -28,7 +28,17 @@ PERIOD_S = 0.01
 
 
 def observed(time_s: float, *positions_rad: float) -> Observation:
-    """Return an observation of the robot, at rest."""
+    """
+    Build an observation of the three-joint robot, upright and at rest.
+
+    Parameters
+    ----------
+    time_s
+        Time of the observation.
+    *positions_rad
+        Positions in the order of `JOINTS`; all zero if none are given.
+
+    """
     return Observation(
         time_s=time_s,
         positions_rad=np.array(positions_rad or (0.0, 0.0, 0.0)),
@@ -43,6 +53,16 @@ def observed(time_s: float, *positions_rad: float) -> Observation:
 
 
 def targets(*positions_rad: float, velocity_rad_s: float = 0.0) -> JointTargets:
-    """Return targets of the robot."""
+    """
+    Build joint targets without efforts.
+
+    Parameters
+    ----------
+    *positions_rad
+        Target positions, one a joint.
+    velocity_rad_s
+        Target velocity of each joint.
+
+    """
     count = len(positions_rad)
     return JointTargets(np.array(positions_rad), np.full(count, velocity_rad_s), np.zeros(count))

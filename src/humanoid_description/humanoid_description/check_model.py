@@ -14,7 +14,21 @@ from humanoid_description.errors import DescriptionError
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Print a table and the defects; return 1 if there are any."""
+    """
+    Check a robot model, and print a table of the checks and the defects.
+
+    Parameters
+    ----------
+    argv
+        The command line without the program's name; None for that of the process.
+
+    Returns
+    -------
+    int
+        The exit status: 0 without defects; 1 with some, or if no model can be read or no result
+        written; 128 plus the signal's number after SIGINT or SIGPIPE.
+
+    """
     arguments = _parser().parse_args(argv)
     try:
         text, source = _urdf(arguments)

@@ -81,7 +81,29 @@ def load_drives(
 def drives_of(
     table: Mapping[str, Any], scaling: Scaling, scale: float, limbs: Sequence[str]
 ) -> dict[str, Drive]:
-    """Build the drives of trunk, head and some limbs from the content of the file."""
+    """
+    Build the drives of the trunk, the head and some limbs from the content of joints.yaml.
+
+    Parameters
+    ----------
+    table
+        The content of the file.
+    scaling, scale
+        The scaling rules, and the size of the robot, 1.0 for the values of the file.
+    limbs
+        Which ones: `arm`, `hand`, `leg`; each is on both sides.
+
+    Returns
+    -------
+    dict of Drive
+        The drives by the names of their joints, without a prefix.
+
+    Raises
+    ------
+    DescriptionError
+        There is no model of this scale.
+
+    """
     return {
         name: _drive(entry, table['dynamics'], scaling, scale, mirrored)
         for name, entry, mirrored in _entries(table, limbs)

@@ -41,7 +41,22 @@ def humanoid_urdf(
 
 
 def expand(path: Path, arguments: Mapping[str, str]) -> str:
-    """Return the URDF that a xacro file describes."""
+    """
+    Run xacro on a file, and return the URDF.
+
+    Parameters
+    ----------
+    path
+        The xacro file.
+    arguments
+        The values of its xacro arguments by their names.
+
+    Raises
+    ------
+    DescriptionError
+        xacro is missing, or cannot expand the file.
+
+    """
     given = [f'{name}:={value}' for name, value in arguments.items()]
     try:
         result = subprocess.run(

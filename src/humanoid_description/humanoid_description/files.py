@@ -15,7 +15,15 @@ def share() -> Path:
 
 
 def load_config(name: str) -> dict[str, Any]:
-    """Return what a YAML file of the folder config holds."""
+    """
+    Load a YAML file of this package's installed folder config.
+
+    Parameters
+    ----------
+    name
+        The name of the file with its ending, such as `joints.yaml`.
+
+    """
     import yaml
 
     loaded: dict[str, Any] = yaml.safe_load((share() / 'config' / name).read_text())

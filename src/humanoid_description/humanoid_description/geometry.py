@@ -16,7 +16,22 @@ _SIGNS: Array = np.array(list(product((-1.0, 1.0), repeat=3)))
 
 
 def centre_of_mass(robot: Robot, poses: dict[str, Array]) -> Array:
-    """Return the centre of mass in the root."""
+    """
+    Compute the centre of mass of a robot.
+
+    Parameters
+    ----------
+    robot
+        A model with mass.
+    poses
+        The pose (4, 4) of each link in the root by its name, as of `kinematics.poses`.
+
+    Returns
+    -------
+    Array
+        Position (3,) in m, in the frame of the root.
+
+    """
     total: Array = np.zeros(3)
     for link in robot.links:
         if link.body:
@@ -25,7 +40,25 @@ def centre_of_mass(robot: Robot, poses: dict[str, Array]) -> Array:
 
 
 def outline(shapes: Iterable[Shape], pose: Array) -> Array:
-    """Return the corners of shapes on a link, one a row, in the frame of the link's pose."""
+    """
+    Compute the corners of the shapes of a link.
+
+    A cylinder counts as a prism of 24 edges, a sphere by its six ends on the axes; a mesh has no
+    corners.
+
+    Parameters
+    ----------
+    shapes
+        Visual or collision shapes.
+    pose
+        The pose (4, 4) of their link in any frame.
+
+    Returns
+    -------
+    Array
+        Points (n, 3) in m, in that frame.
+
+    """
     corners = [_placed(_corners(shape), pose @ shape.pose) for shape in shapes]
     return np.vstack([np.zeros((0, 3)), *corners])
 
@@ -59,7 +92,22 @@ def _ring(radius: float, height: float) -> Array:
 
 
 def margin_inside(point: Array, corners: Array) -> float:
-    """Return how deep a point lies in the convex hull of corners; negative outside."""
+    """
+    Compute the stability margin of a point: its distance from the edges of a convex hull.
+
+    Parameters
+    ----------
+    point
+        x and y in m (2,).
+    corners
+        The points (n, 2) in m whose hull it is, in the same frame.
+
+    Returns
+    -------
+    float
+        The distance in m from the nearest edge inside of the hull; negative outside.
+
+    """
     hull = convex_hull(corners)
     edges = np.roll(hull, -1, axis=0) - hull
     lengths = np.linalg.norm(edges, axis=1)
@@ -69,7 +117,20 @@ def margin_inside(point: Array, corners: Array) -> float:
 
 
 def convex_hull(points: Array) -> Array:
-    """Return the corners of the hull of points in a plane, anticlockwise."""
+    """
+    Compute the convex hull of points in a plane (Andrew's monotone chain).
+
+    Parameters
+    ----------
+    points
+        The points (n, 2), in any order.
+
+    Returns
+    -------
+    Array
+        The corners (m, 2) of the hull, anticlockwise.
+
+    """
     ordered = sorted({(float(x), float(y)) for x, y in points})
     lower, upper = _half_hull(ordered), _half_hull(ordered[::-1])
     return np.array(lower[:-1] + upper[:-1])

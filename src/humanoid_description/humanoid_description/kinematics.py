@@ -12,7 +12,19 @@ AT_ZERO: Mapping[str, float] = {}
 
 
 def chain(robot: Robot, link: str, base: str | None = None) -> list[Joint]:
-    """Return the joints that lead from the base, or the root, to a link."""
+    """
+    Return the joints of the kinematic chain from a base link to another link, in this order.
+
+    Parameters
+    ----------
+    robot
+        A model whose links and joints make a tree.
+    link
+        The link at the end of the chain.
+    base
+        The link at which it starts; the root if there is none, or if it is not above the link.
+
+    """
     joints: list[Joint] = []
     while link != base and link in robot.joint_above:
         joints.append(robot.joint_above[link])
@@ -22,9 +34,21 @@ def chain(robot: Robot, link: str, base: str | None = None) -> list[Joint]:
 
 def pose_along(joints: list[Joint], positions: Mapping[str, Array | float]) -> Array:
     """
-    Return the pose at the end of a chain.
+    Compute the forward kinematics of a chain.
 
-    Joints that have no position are at zero; those that mimic another go by that one's position.
+    Parameters
+    ----------
+    joints
+        The chain, from the base on.
+    positions
+        Joint positions by name, in rad or m, one or an array. Joints without one are at zero;
+        those that mimic another follow that one's position.
+
+    Returns
+    -------
+    Array
+        The pose (4, 4) of the last link in the base; (..., 4, 4) for arrays of positions.
+
     """
     pose: Array = np.eye(4)
     for joint in joints:
@@ -35,12 +59,42 @@ def pose_along(joints: list[Joint], positions: Mapping[str, Array | float]) -> A
 
 
 def poses(robot: Robot, positions: Mapping[str, Array | float] = AT_ZERO) -> dict[str, Array]:
-    """Return the pose of every link of a tree in its root."""
+    """
+    Compute the forward kinematics of all links.
+
+    Parameters
+    ----------
+    robot
+        A model whose links and joints make a tree.
+    positions
+        Joint positions by name, as for `pose_along`.
+
+    Returns
+    -------
+    dict of Array
+        The pose (4, 4) of each link in the root by its name; (..., 4, 4) for arrays of positions.
+
+    """
     return {link.name: pose_along(chain(robot, link.name), positions) for link in robot.links}
 
 
 def joint_motion(joint: Joint, position: Array | float) -> Array:
-    """Return how a joint moves its child: a turn about the axis, or a shift along it."""
+    """
+    Compute the motion of a joint: a rotation about its axis, or a translation along it.
+
+    Parameters
+    ----------
+    joint
+        A driven joint; its axis need not be a unit vector.
+    position
+        In rad, or m for a prismatic joint; one or an array (...).
+
+    Returns
+    -------
+    Array
+        The pose (..., 4, 4) of the child, relative to its pose at position zero.
+
+    """
     position = np.asarray(position, dtype=np.float64)
     axis = joint.axis / np.linalg.norm(joint.axis)
     motion = np.zeros((*position.shape, 4, 4)) + np.eye(4)

@@ -17,10 +17,27 @@ FORWARD = (1.0, 0.0, 0.0)
 
 def load_robot(text: str, source: str, folder: Path = Path()) -> Robot:
     """
-    Return the robot that a URDF describes.
+    Parse a URDF.
 
-    :param source: what error messages call it
-    :param folder: where the files are that it names without a folder
+    Parameters
+    ----------
+    text
+        The URDF, as XML.
+    source
+        What error messages call it.
+    folder
+        Where mesh files are that are named without a scheme and by a relative path.
+
+    Returns
+    -------
+    Robot
+        The model, of whose soundness nothing is known: `checks.check_robot` looks at that.
+
+    Raises
+    ------
+    DescriptionError
+        The text is no URDF; the message names the line.
+
     """
     robot = readable(text, source)
     return Robot(

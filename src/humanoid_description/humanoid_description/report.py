@@ -13,7 +13,17 @@ HEAD = ('check', 'found', 'result')
 
 
 def report(source: str, outcomes: Sequence[Outcome]) -> str:
-    """Return a table of the checks, the defects as sentences, and the verdict."""
+    """
+    Format the outcomes of checks: a table, the defects as messages, and the verdict.
+
+    Parameters
+    ----------
+    source
+        What was checked, as the verdict calls it.
+    outcomes
+        What the checks have found, in the order of the table.
+
+    """
     return '\n'.join([*_table(outcomes), '', *_sentences(source, outcomes)])
 
 

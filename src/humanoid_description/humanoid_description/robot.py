@@ -127,15 +127,49 @@ class Robot:
 
 
 def line_of(part: Link | Joint) -> str:
-    """Return what a sentence on a link or joint begins with."""
+    """
+    Format the line of a link or joint in its file, with which messages about it begin.
+
+    Parameters
+    ----------
+    part
+        The link or joint.
+
+    Returns
+    -------
+    str
+        Such as 'line 12: '; empty if the line is not known.
+
+    """
     return '' if part.line is None else f'line {part.line}: '
 
 
 def named(part: Link | Joint) -> str:
-    """Return a link or joint as the subject of a sentence, with its line."""
+    """
+    Format a link or joint as the subject of a message, with its line.
+
+    Parameters
+    ----------
+    part
+        The link or joint.
+
+    Returns
+    -------
+    str
+        Such as "line 12: Link 'torso'".
+
+    """
     return f"{line_of(part)}{type(part).__name__} '{part.name}'"
 
 
 def repeated(names: Iterable[str]) -> list[str]:
-    """Return the names that occur more than once."""
+    """
+    Return the names that occur more than once.
+
+    Parameters
+    ----------
+    names
+        Those of links or joints, in any order.
+
+    """
     return [name for name, times in Counter(names).items() if times > 1]

@@ -21,12 +21,42 @@ class Scaling:
     """By quantity; those of joints by type of joint and quantity."""
 
     def joint_factor(self, kind: str, quantity: str, scale: float) -> float:
-        """Return by what a quantity of a type of joint is multiplied in a robot of this scale."""
+        """
+        Compute the factor of a joint quantity in a robot of another size.
+
+        Parameters
+        ----------
+        kind
+            The type of the joint: `revolute` or `prismatic`.
+        quantity
+            Such as `effort`, `velocity` or `kp`: the names are those in scaling.yaml.
+        scale
+            The size of the robot relative to the model at 1.0.
+
+        Raises
+        ------
+        DescriptionError
+            The scale is out of range.
+
+        """
         self.check(scale)
         return float(scale ** self.exponents[kind][quantity])
 
     def check(self, scale: float) -> None:
-        """Refuse a scale that is out of range."""
+        """
+        Reject a scale that is out of range.
+
+        Parameters
+        ----------
+        scale
+            The size of the robot relative to the model at 1.0.
+
+        Raises
+        ------
+        DescriptionError
+            The scale is less than the smallest or more than the largest.
+
+        """
         if not self.smallest <= scale <= self.largest:
             raise DescriptionError(
                 f'The scale {scale:g} is out of range. '

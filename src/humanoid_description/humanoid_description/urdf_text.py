@@ -55,7 +55,27 @@ SHAPES = ('box', 'cylinder', 'sphere', 'mesh')
 
 
 def readable(text: str, source: str) -> Any:
-    """Return the outermost element; raise an error that names file and line for no URDF."""
+    """
+    Parse the XML of a URDF, and reject what no reader could make sense of.
+
+    Parameters
+    ----------
+    text
+        The URDF.
+    source
+        What error messages call it.
+
+    Returns
+    -------
+    Any
+        The element `robot`, of lxml.
+
+    Raises
+    ------
+    DescriptionError
+        It is no XML, no URDF, or an element lacks something; the message names source and line.
+
+    """
     from lxml import etree
 
     try:

@@ -81,7 +81,14 @@ class Arm:
     @classmethod
     def of(cls, robot: Robot, side: str) -> Arm:
         """
-        Return the left or right arm of a robot.
+        Extract the left or right arm of a robot.
+
+        Parameters
+        ----------
+        robot
+            The description of a robot with hands.
+        side
+            `left` or `right`.
 
         Raises
         ------
@@ -118,7 +125,20 @@ class Arm:
         return self.upper_m + self.fore_m
 
     def forward(self, posture: Sequence[float]) -> Frame:
-        """Return where the gripper is in the base."""
+        """
+        Compute the forward kinematics: the pose of the gripper.
+
+        Parameters
+        ----------
+        posture
+            The positions of the six joints (rad), from the shoulder down.
+
+        Returns
+        -------
+        Frame
+            The pose of the gripper in `base`, the link of the shoulder.
+
+        """
         q1, q2, q3, q4, q5, q6 = posture
         upper = about_y(q1) @ about_x(q2) @ about_z(q3)
         fore = upper @ about_y(q4)
@@ -128,7 +148,20 @@ class Arm:
         return Frame(position, hand)
 
     def points(self, posture: Sequence[float]) -> Array:
-        """Return shoulder, elbow, wrist and gripper (4, 3) in the base."""
+        """
+        Compute the positions of shoulder, elbow, wrist and gripper.
+
+        Parameters
+        ----------
+        posture
+            The positions of the six joints (rad), from the shoulder down.
+
+        Returns
+        -------
+        Array
+            The four positions (4, 3) in m, in `base`.
+
+        """
         q1, q2, q3, q4 = posture[:4]
         upper = about_y(q1) @ about_x(q2) @ about_z(q3)
         elbow = self.shoulder_m - self.upper_m * upper[:, 2]
@@ -136,11 +169,34 @@ class Arm:
         return np.stack((self.shoulder_m, elbow, wrist, self.forward(posture).position_m))
 
     def is_within_limits(self, posture: Sequence[float], margin_rad: float = 0.0) -> bool:
-        """Return whether no joint is beyond its limits, or nearer to them than a margin."""
+        """
+        Check whether all joints are within their limits.
+
+        Parameters
+        ----------
+        posture
+            The positions of the six joints (rad), from the shoulder down.
+        margin_rad
+            How far from its limits each joint has to stay.
+
+        """
         return self.excess_rad(posture) <= -margin_rad
 
     def excess_rad(self, posture: Sequence[float]) -> float:
-        """Return by how much the worst joint is beyond its limits; negative if all are within."""
+        """
+        Compute by how much the worst joint exceeds its limits.
+
+        Parameters
+        ----------
+        posture
+            The positions of the six joints (rad), from the shoulder down.
+
+        Returns
+        -------
+        float
+            The excess in rad; negative if all joints are within their limits.
+
+        """
         return max(
             max(lower - at, at - upper)
             for at, lower, upper in zip(posture, self.lower_rad, self.upper_rad)

@@ -149,7 +149,24 @@ class ArmWorld:
                 )
 
     def contacts(self, side: str, reach: Reach) -> list[Contact]:
-        """Return what the arms touch, or come too near to, when one of them is somewhere."""
+        """
+        Find the contacts of the arms in a posture of one of them.
+
+        The arm and the waist keep that posture; all other joints stay as they are: see `stand`.
+
+        Parameters
+        ----------
+        side
+            `left` or `right`: which arm is moved.
+        reach
+            The waist angle and the posture of that arm.
+
+        Returns
+        -------
+        list of Contact
+            Pairs with an arm in them that are nearer to each other than `clearance_m`.
+
+        """
         data = self._data
         data.qpos[self._places[side]] = (reach.waist_rad, *reach.posture)
         mujoco.mj_kinematics(self._model, data)

@@ -86,30 +86,76 @@ class Arms:
 
     async def wait(self, goal: RunningGoal) -> None:
         """
-        Wait until the arms can be moved and it is known where they are.
+        Wait until the arms can be moved and it is known where they are. Call while `listening`.
+
+        Parameters
+        ----------
+        goal
+            What it is done for.
 
         Raises
         ------
         GoalAborted
             The description of the robot, a controller, or a joint's state does not come.
+        GoalCanceled
+            The goal is canceled meanwhile.
 
         """
         if not await goal.comes(lambda: not self._missing()):
             raise GoalAborted(_CODE, self._missing())
 
     def reach_of(self, side: str) -> Reach:
-        """Return where an arm and the waist are."""
+        """
+        Read the measured posture of an arm and the waist. Call after `wait`.
+
+        Parameters
+        ----------
+        side
+            `left` or `right`.
+
+        Returns
+        -------
+        Reach
+            The positions of the waist and of the six joints (rad).
+
+        """
         at = self._positions
         arm = self.body.arms[side]
         return Reach(at[self.body.waist], tuple(at[joint] for joint in arm.joints))
 
     def grip_of(self, side: str) -> tuple[float, float]:
-        """Return the gap between the fingers (m), and the force that opens them (N)."""
+        """
+        Read the measured gap and force of a gripper. Call while `listening`.
+
+        Parameters
+        ----------
+        side
+            `left` or `right`.
+
+        Returns
+        -------
+        tuple
+            The gap between the fingers (m), and the force (N): positive if it opens them.
+
+        """
         finger = f'{self._prefix}{side}_gripper'
         return 2.0 * self._positions.get(finger, 0.0), self._efforts.get(finger, 0.0)
 
     def efforts_of(self, side: str) -> Array:
-        """Return what the drives of an arm exert (6,), in N m."""
+        """
+        Read the joint torques of an arm. Call while `listening`.
+
+        Parameters
+        ----------
+        side
+            `left` or `right`.
+
+        Returns
+        -------
+        Array
+            The torques (6,) in N m, from the shoulder down; zero for joints that have told none.
+
+        """
         joints = self.body.arms[side].joints
         return np.array([self._efforts.get(joint, 0.0) for joint in joints])
 

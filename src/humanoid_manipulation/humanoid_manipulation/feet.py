@@ -64,10 +64,25 @@ class Feet:
 
     def place(self, frame: str) -> tuple[float, float, float]:
         """
-        Return where the robot stands in a frame: x and y in m, and its heading in rad.
+        Compute where the robot stands: the middle of its soles, and its heading.
 
-        That is the middle of its soles. The pelvis sways while the robot steps, and goes back when
-        it bends.
+        The pelvis sways while the robot steps, and goes back when it bends.
+
+        Parameters
+        ----------
+        frame
+            The frame of the result, such as map or odom.
+
+        Returns
+        -------
+        tuple
+            x and y in m, and the heading in rad, halfway between those of the soles.
+
+        Raises
+        ------
+        TransformException
+            The pose of a sole in the frame is not known.
+
         """
         soles = [self._transforms.pose(frame, sole) for sole in self.soles]
         middle = (soles[0][:3, 3] + soles[1][:3, 3]) / 2.0
@@ -153,7 +168,24 @@ class Feet:
             self._velocities.publish(Twist())
 
     async def bend(self, goal: RunningGoal, bend: Bend) -> None:
-        """Hold the body so, and wait until it is."""
+        """
+        Bend the body, and wait until its pitch has settled; the height is not checked.
+
+        Parameters
+        ----------
+        goal
+            What it is done for.
+        bend
+            The pitch and height that are sent on `body_pose`.
+
+        Raises
+        ------
+        GoalAborted
+            The pitch does not settle within 6 s: WALK_FAILED.
+        GoalCanceled
+            The goal is canceled.
+
+        """
         message = Pose()
         message.position.z = bend.height_m
         message.orientation.w = math.cos(bend.pitch_rad / 2.0)

@@ -62,9 +62,19 @@ class FreeFloor:
 
     def room_m(self, at_m: Point) -> float:
         """
-        Return how far a point is from what is mapped, or stands there.
+        Compute the distance of a point from the nearest obstacle on the floor.
 
-        It is infinite without a map, and zero where the map says nothing.
+        Parameters
+        ----------
+        at_m
+            x and y of the point, in the frame of the map.
+
+        Returns
+        -------
+        float
+            The distance in m from what is mapped or stands there; infinite without a map, and zero
+            where the map says nothing.
+
         """
         if not self._is_mapped:
             return math.inf

@@ -46,11 +46,39 @@ class Giving(Handling):
         super().__init__(node, HandOver.Feedback)
 
     def unsound(self, request: Any) -> str:
-        """Return why a goal makes no sense; nothing if it does."""
+        """
+        Validate a goal before it is accepted.
+
+        Parameters
+        ----------
+        request
+            A goal of `hand_over` or `drop`.
+
+        Returns
+        -------
+        str
+            Why it is rejected, as a sentence; empty if it is accepted.
+
+        """
         return unsound_side(request.side)
 
     async def hand_over(self, goal: RunningGoal) -> None:
-        """Hold out a thing, and let go when it is pulled at."""
+        """
+        Hold out an object, and let go when somebody pulls at it.
+
+        Parameters
+        ----------
+        goal
+            A goal of `hand_over`; its result gets the id of the object.
+
+        Raises
+        ------
+        GoalAborted
+            The hand is empty, nobody takes the object in time, or the arm cannot be moved.
+        GoalCanceled
+            The goal is canceled; the arms are drawn back before.
+
+        """
         with self.node.transforms.listening(), self.node.arms.listening():
             await self.begin(goal)
             side, held = self.holding(goal.request.side)
@@ -93,7 +121,22 @@ class Giving(Handling):
                 await self.move(goal, side, way)
 
     async def drop(self, goal: RunningGoal) -> None:
-        """Open a hand."""
+        """
+        Open a hand as wide as it gets, so that what it holds falls.
+
+        Parameters
+        ----------
+        goal
+            A goal of `drop`; its result gets the id of the object.
+
+        Raises
+        ------
+        GoalAborted
+            The hand is empty, or cannot be opened.
+        GoalCanceled
+            The goal is canceled.
+
+        """
         with self.node.arms.listening():
             await self.begin(goal)
             side, held = self.holding(goal.request.side)

@@ -102,10 +102,17 @@ class Handling:
         A hand that is closed with a force around something holds that, whoever closed it; one
         whose fingers have moved since then holds its thing no longer.
 
+        Parameters
+        ----------
+        goal
+            What it is done for.
+
         Raises
         ------
         GoalAborted
             The arms cannot be moved.
+        GoalCanceled
+            The goal is canceled.
 
         """
         node = self.node
@@ -169,7 +176,27 @@ class Handling:
         return [each for each in found if each.name not in own]
 
     async def place_of_feet(self, goal: RunningGoal) -> tuple[float, float, float]:
-        """Return where the robot stands in the map, as soon as that is known: see `Feet.place`."""
+        """
+        Wait until it is known where the robot stands, and compute that: see `Feet.place`.
+
+        Parameters
+        ----------
+        goal
+            What it is done for.
+
+        Returns
+        -------
+        tuple
+            x and y in m, and the heading in rad, in the frame of the remembered objects.
+
+        Raises
+        ------
+        GoalAborted
+            The pose of a sole does not become known: NO_TRANSFORM.
+        GoalCanceled
+            The goal is canceled.
+
+        """
         node = self.node
         for sole in node.feet.soles:
             await node.transforms.known(goal, node.surroundings.frame, sole)
@@ -218,7 +245,22 @@ class Handling:
             raise
 
     async def step_back(self, goal: RunningGoal) -> None:
-        """Step back from where something was taken, put down, or in the way."""
+        """
+        Step back by 0.35 m from where something was taken, put down, or in the way.
+
+        Parameters
+        ----------
+        goal
+            What it is done for.
+
+        Raises
+        ------
+        GoalAborted
+            The robot does not get there, or it is not known where it stands.
+        GoalCanceled
+            The goal is canceled.
+
+        """
         x_m, y_m, yaw_rad = await self.place_of_feet(goal)
         back = (x_m - _BACK_M * math.cos(yaw_rad), y_m - _BACK_M * math.sin(yaw_rad), yaw_rad)
         await self.node.feet.step_to(goal, self.node.surroundings.frame, back)
@@ -582,7 +624,20 @@ def _something(arms: Arms, side: str, gap_m: float) -> Held:
 
 
 def unsound_side(side: str) -> str:
-    """Return why there is no such side; nothing if there is."""
+    """
+    Validate the side that a goal asks for.
+
+    Parameters
+    ----------
+    side
+        `left`, `right`, or nothing for the one that fits.
+
+    Returns
+    -------
+    str
+        What is wrong with it, as a sentence; empty if nothing is.
+
+    """
     if side in ('', *SIDES):
         return ''
     return f"There is no side '{side}'. Give left, right, or nothing for the one that fits."

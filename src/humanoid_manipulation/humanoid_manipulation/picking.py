@@ -48,13 +48,41 @@ class Picking(Handling):
         self._look = ActionClient(node, PointHead, 'look_at')
 
     def unsound(self, request: Any) -> str:
-        """Return why a goal makes no sense; nothing if it does."""
+        """
+        Validate a goal before it is accepted.
+
+        Parameters
+        ----------
+        request
+            A goal of `pick`.
+
+        Returns
+        -------
+        str
+            Why it is rejected, as a sentence; empty if it is accepted.
+
+        """
         if not request.object:
             return 'It names no object. Give the id of a remembered thing, or a class such as mug.'
         return unsound_side(request.side)
 
     async def work(self, goal: RunningGoal) -> None:
-        """Take a thing; the result says which one, and with which hand."""
+        """
+        Walk to an object, grasp it, and lift it.
+
+        Parameters
+        ----------
+        goal
+            A goal of `pick`; its result gets the id of the object, and the side of the hand.
+
+        Raises
+        ------
+        GoalAborted
+            The object cannot be taken; the name is that of a code of `Pick`'s result.
+        GoalCanceled
+            The goal is canceled.
+
+        """
         node = self.node
         with node.transforms.listening(), node.arms.listening():
             await self.begin(goal)

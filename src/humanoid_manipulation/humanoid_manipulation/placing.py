@@ -51,11 +51,39 @@ class Placing(Handling):
         super().__init__(node, Place.Feedback)
 
     def unsound(self, request: Any) -> str:
-        """Return why a goal makes no sense; nothing if it does."""
+        """
+        Validate a goal before it is accepted.
+
+        Parameters
+        ----------
+        request
+            A goal of `place`.
+
+        Returns
+        -------
+        str
+            Why it is rejected, as a sentence; empty if it is accepted.
+
+        """
         return unsound_side(request.side)
 
     async def work(self, goal: RunningGoal) -> None:
-        """Put a thing down; the result says where."""
+        """
+        Walk to a surface, and put down there what a hand holds.
+
+        Parameters
+        ----------
+        goal
+            A goal of `place`; its result gets the id of the object, the surface, and where on it.
+
+        Raises
+        ------
+        GoalAborted
+            The object cannot be put down; the name is that of a code of `Place`'s result.
+        GoalCanceled
+            The goal is canceled.
+
+        """
         node = self.node
         with node.transforms.listening(), node.arms.listening():
             await self.begin(goal)

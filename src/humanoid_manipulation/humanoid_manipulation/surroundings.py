@@ -151,7 +151,20 @@ class Surroundings:
         return self._objects.header.frame_id or self.places.frame
 
     def things(self, asked: str = '') -> list[Remembered]:
-        """Return what is remembered and has an id, a class, or a colour and class; or all."""
+        """
+        Find the remembered objects with an id, a class, or a colour and class.
+
+        Parameters
+        ----------
+        asked
+            Such as `red_mug_1`, `mug` or `red mug`; empty for all objects.
+
+        Returns
+        -------
+        list of Remembered
+            Those that fit, in the frame `frame`.
+
+        """
         wanted = asked.replace('_', ' ').strip().lower()
         found = [_remembered(each) for each in self._objects.detections]
         return [
@@ -185,7 +198,25 @@ class Surroundings:
             self._node.destroy_subscription(subscription)
 
     def seen(self, thing: Remembered) -> list[Array]:
-        """Return where a thing was detected (3,) since somebody began to watch."""
+        """
+        Collect the positions at which an object was detected since `watching` began.
+
+        Parameters
+        ----------
+        thing
+            The object: detections of its class that are within 0.12 m count.
+
+        Returns
+        -------
+        list of Array
+            Positions (3,) in m in the frame `frame`, at most one of each message.
+
+        Raises
+        ------
+        TransformException
+            The pose of the camera is not known.
+
+        """
         found = []
         for message in self._detections:
             pose = self._transforms.pose(self.frame, message.header.frame_id)
@@ -200,7 +231,26 @@ class Surroundings:
         return found
 
     def corrected(self, thing: Remembered) -> Remembered:
-        """Return a thing where it was detected, if it was; its height is remembered better."""
+        """
+        Correct the position of an object by the median of its detections: see `seen`.
+
+        Parameters
+        ----------
+        thing
+            The object as it is remembered.
+
+        Returns
+        -------
+        Remembered
+            The object at the new x and y, and its old z, which is better; unchanged if it was not
+            seen.
+
+        Raises
+        ------
+        TransformException
+            As for `seen`.
+
+        """
         seen = self.seen(thing)
         if not seen:
             return thing
@@ -223,9 +273,20 @@ def _widened(thing: Remembered, wider_m: float) -> tuple[float, float, float]:
 
 def surface_boxes(surface: Surface) -> list[Obstacle]:
     """
-    Return a surface as boxes in the map: a board, or a block down to the floor, and its fixtures.
+    Approximate a surface by boxes: a board, or a block down to the floor, and its fixtures.
 
     The legs of a table are not known. An arm that comes from above does not get there.
+
+    Parameters
+    ----------
+    surface
+        The surface, in the map.
+
+    Returns
+    -------
+    list of Obstacle
+        The boxes, in the map.
+
     """
     name, top_m = surface.name.replace('_', ' '), surface.height_m
     boxes = [_block(name, surface.outline_m, top_m, surface.depth_m or max(top_m, _BOARD_M))]

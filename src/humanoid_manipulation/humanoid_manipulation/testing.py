@@ -131,26 +131,83 @@ class TableWorld:
         self._objects.publish(message)
 
     def act(self, name: str, **fields: Any) -> End:
-        """Do a goal, and return its end; the robot stays on its feet."""
+        """
+        Send a goal, wait for its end, and check that the robot still stands.
+
+        Parameters
+        ----------
+        name
+            The action: `pick`, `place`, `hand_over` or `drop`.
+        **fields
+            The fields of the goal.
+
+        Returns
+        -------
+        End
+            The status and the result of the goal.
+
+        """
         end = self._callers[name].end_of(self.start(name, **fields), PATIENCE_S)
         assert self.robot.stands
         return end
 
     def start(self, name: str, **fields: Any) -> Any:
-        """Begin a goal, and return its handle."""
+        """
+        Send a goal, and forget the feedback of earlier ones.
+
+        Parameters
+        ----------
+        name, **fields
+            As for `act`.
+
+        Returns
+        -------
+        Any
+            The handle of the goal, for `end_of`.
+
+        """
         self._callers[name].feedback.clear()
         return self._callers[name].send(**fields)
 
     def end_of(self, name: str, handle: Any) -> End:
-        """Return how a goal ends."""
+        """
+        Wait for the end of a goal that was accepted.
+
+        Parameters
+        ----------
+        name, handle
+            The action, and what `start` has returned.
+
+        Returns
+        -------
+        End
+            The status and the result of the goal.
+
+        """
         return self._callers[name].end_of(handle, PATIENCE_S)
 
     def states(self, name: str) -> list[str]:
-        """Return what the newest goal of an action has told of itself."""
+        """
+        List the states that the newest goal of an action has reported so far.
+
+        Parameters
+        ----------
+        name
+            The action.
+
+        """
         return [each.state for each in self._callers[name].feedback]
 
     def joint_rad(self, name: str) -> float:
-        """Return where a joint is."""
+        """
+        Read the newest position of a joint (rad).
+
+        Parameters
+        ----------
+        name
+            The name of the joint.
+
+        """
         return self._joints[name]
 
     def pull(self) -> None:

@@ -85,7 +85,12 @@ class UpperBody:
     @classmethod
     def of(cls, robot: Robot) -> UpperBody:
         """
-        Return the upper body of a robot with hands.
+        Extract the arms and the waist of a robot with hands.
+
+        Parameters
+        ----------
+        robot
+            The description of the robot.
 
         Raises
         ------
@@ -111,7 +116,22 @@ class UpperBody:
         return cls(arms, robot.roots[0], waist.name, turned[:3, 3], lower, upper)
 
     def forward(self, side: str, reach: Reach) -> Frame:
-        """Return where the gripper of a side is in the pelvis."""
+        """
+        Compute the forward kinematics of an arm and the waist: the pose of the gripper.
+
+        Parameters
+        ----------
+        side
+            `left` or `right`.
+        reach
+            The waist angle and the posture of the arm.
+
+        Returns
+        -------
+        Frame
+            The pose of the gripper in the pelvis (base_link).
+
+        """
         in_torso = self.arms[side].forward(reach.posture)
         turn = about_z(reach.waist_rad)
         return Frame(self.waist_m + turn @ in_torso.position_m, turn @ in_torso.rotation)

@@ -39,13 +39,29 @@ class Arrival:
 
 
 def is_zero(velocity: Twist) -> bool:
-    """Tell whether a velocity is none."""
+    """
+    Whether a planar velocity command is zero.
+
+    Parameters
+    ----------
+    velocity
+        The command, of which the linear x and y and the angular z count.
+
+    """
     linear, angular = velocity.linear, velocity.angular
     return not any((linear.x, linear.y, angular.z))
 
 
 def stamped(place: Place) -> PoseStamped:
-    """Return a pose in the map, without a time."""
+    """
+    Build a goal pose in the map frame, with a zero time stamp.
+
+    Parameters
+    ----------
+    place
+        x (m), y (m) and yaw (rad) in the map.
+
+    """
     message = PoseStamped()
     message.header.frame_id = 'map'
     _fill_pose(message.pose, place)

@@ -86,16 +86,59 @@ class LoopbackRobot:
         return bool(self.commands) and not is_zero(self.commands[-1][1])
 
     def wait_until(self, predicate: Any, timeout_s: float = PATIENCE_S, what: str = '') -> None:
-        """Wait for something, as long as so many seconds of the computer's clock."""
+        """
+        Wait until a predicate holds, while spinning the nodes of the test.
+
+        Parameters
+        ----------
+        predicate
+            Called without arguments between callbacks.
+        timeout_s
+            How long to wait (s), on the computer's clock.
+        what
+            What the error says was waited for.
+
+        Raises
+        ------
+        AssertionError
+            The predicate does not hold in time.
+
+        """
         self._ros.wait_until(predicate, timeout_s, what or 'the condition')
 
     def wait(self, duration_s: float) -> None:
-        """Let simulated time pass."""
+        """
+        Let simulated time pass.
+
+        Parameters
+        ----------
+        duration_s
+            How much of it, in s.
+
+        """
         end_s = self.now_s + duration_s
         self.wait_until(lambda: self.now_s >= end_s, PATIENCE_S + duration_s, 'simulated time')
 
     def answer(self, future: Future) -> Any:
-        """Wait for what a server answers."""
+        """
+        Wait for the answer of a server.
+
+        Parameters
+        ----------
+        future
+            That of the request.
+
+        Returns
+        -------
+        Any
+            The result of the future.
+
+        Raises
+        ------
+        AssertionError
+            No answer comes in time.
+
+        """
         self.wait_until(future.done, PATIENCE_S, 'an answer')
         return future.result()
 
@@ -123,12 +166,33 @@ class LoopbackRobot:
         return first.result()
 
     def wait_for_active(self, *names: str) -> None:
-        """Wait until nodes with a lifecycle are active."""
+        """
+        Wait until lifecycle nodes are active.
+
+        Parameters
+        ----------
+        *names
+            Their names; without any, AMCL, the BT navigator and the waypoint follower.
+
+        """
         for name in names or ('amcl', 'bt_navigator', 'waypoint_follower'):
             self.wait_until(lambda name=name: self.state_of(name) == 'active', what=name)
 
     def state_of(self, name: str) -> str:
-        """Return the state of a node with a lifecycle."""
+        """
+        Query the state of a lifecycle node.
+
+        Parameters
+        ----------
+        name
+            The name of the node, whose service `get_state` is waited for.
+
+        Returns
+        -------
+        str
+            The label of the state, such as `active`; `unknown` if there is no answer within 2 s.
+
+        """
         client = self.node.create_client(GetState, f'{name}/get_state')
         self.wait_until(client.service_is_ready, what=f"the node '{name}'")
         future = client.call_async(GetState.Request())
@@ -141,7 +205,22 @@ class LoopbackRobot:
         return str(future.result().current_state.label)
 
     def put(self, place: Place) -> None:
-        """Put the robot somewhere, and tell that to the localisation, as RViz does."""
+        """
+        Set the pose of the robot on `initialpose`, as RViz does, until AMCL has it.
+
+        Both the simulator and AMCL take it. It is sent again while AMCL disagrees.
+
+        Parameters
+        ----------
+        place
+            x (m), y (m) and yaw (rad) in the map.
+
+        Raises
+        ------
+        AssertionError
+            AMCL does not agree after several attempts.
+
+        """
         self.wait_until(lambda: self._initial_pose.get_subscription_count() >= 2)
         self.wait_until(lambda: self._odometry is not None, what='odometry')
         for _ in range(TELLINGS):
@@ -161,12 +240,50 @@ class LoopbackRobot:
         self._initial_pose.publish(initial_pose(place, 0.02, 0.01))
 
     def send(self, goal: Place, client: ActionClient | None = None, **fields: Any) -> Any:
-        """Send a goal in the map; return its handle."""
+        """
+        Send a `NavigateToPose` goal.
+
+        Parameters
+        ----------
+        goal
+            x (m), y (m) and yaw (rad) in the map.
+        client
+            The action client; that of `navigate_to_pose` if none is given.
+        **fields
+            Further fields of the goal message.
+
+        Returns
+        -------
+        Any
+            The handle of the accepted goal, for `finish`.
+
+        """
         message = NavigateToPose.Goal(pose=stamped(goal), **fields)
         return self.send_goal(client or self.navigate, message)
 
     def send_goal(self, client: ActionClient, goal: Any) -> Any:
-        """Send a goal of an action; return its handle."""
+        """
+        Send a goal of any action, and start to count its recoveries.
+
+        Parameters
+        ----------
+        client
+            The client of the action.
+        goal
+            The goal message.
+
+        Returns
+        -------
+        Any
+            The goal handle, with the future of its result as `end`, and as `begin_s` the simulated
+            time at which it was accepted.
+
+        Raises
+        ------
+        AssertionError
+            The server does not come, does not answer, or rejects the goal.
+
+        """
         self.wait_until(client.server_is_ready, what='an action')
         self._recoveries = 0
         handle = self.answer(client.send_goal_async(goal, self._take_feedback))
@@ -175,7 +292,24 @@ class LoopbackRobot:
         return handle
 
     def finish(self, handle: Any, goal: Place, timeout_s: float = 300.0) -> Arrival:
-        """Wait for the end of a goal."""
+        """
+        Wait for the end of a goal, and measure how far the robot is from it.
+
+        Parameters
+        ----------
+        handle
+            The handle that `send` or `send_goal` returned.
+        goal
+            The pose that the arrival is compared with: x (m), y (m), yaw (rad) in the map.
+        timeout_s
+            How long to wait (s), on the computer's clock.
+
+        Raises
+        ------
+        AssertionError
+            The goal does not end in time.
+
+        """
         self.wait_until(handle.end.done, timeout_s, 'the end of the goal')
         answer, place = handle.end.result(), self.place
         return Arrival(
@@ -189,7 +323,22 @@ class LoopbackRobot:
         )
 
     def go(self, goal: Place, timeout_s: float = 300.0) -> Arrival:
-        """Go somewhere, and return how that ended."""
+        """
+        Navigate to a pose, and return how that ended.
+
+        Parameters
+        ----------
+        goal
+            x (m), y (m) and yaw (rad) in the map.
+        timeout_s
+            How long to wait (s), on the computer's clock.
+
+        Raises
+        ------
+        AssertionError
+            The goal is rejected, or does not end in time.
+
+        """
         return self.finish(self.send(goal), goal, timeout_s)
 
     @property
@@ -221,7 +370,20 @@ class LoopbackRobot:
 
 @contextmanager
 def loopback_simulator(speed: float = 1.0) -> Iterator[RunningProgram]:
-    """Run the simulator, whose time passes `speed` times as fast as the computer's."""
+    """
+    Run Nav2's loopback simulator for the length of a block.
+
+    Parameters
+    ----------
+    speed
+        How many times as fast as the computer's clock simulated time passes.
+
+    Yields
+    ------
+    RunningProgram
+        The simulator.
+
+    """
     settings = {
         'speed': speed,
         'update_duration': TICK_S,
@@ -238,7 +400,20 @@ def loopback_simulator(speed: float = 1.0) -> Iterator[RunningProgram]:
 
 @contextmanager
 def running_navigation(*arguments: str) -> Iterator[RunningProgram]:
-    """Launch Nav2 in the apartment, with further arguments in the form `name:=value`."""
+    """
+    Launch Nav2 in the apartment for the length of a block, on simulated time.
+
+    Parameters
+    ----------
+    *arguments
+        Further launch arguments in the form `name:=value`.
+
+    Yields
+    ------
+    RunningProgram
+        The launch, whose output `container_pid` reads.
+
+    """
     with running_launch_file(
         Path(get_package_share_directory('humanoid_navigation')) / 'launch/navigation.launch.py',
         'map:=apartment',
@@ -249,7 +424,20 @@ def running_navigation(*arguments: str) -> Iterator[RunningProgram]:
 
 
 def container_pid(program: RunningProgram) -> int:
-    """Return the number of the newest process that has all nodes of Nav2."""
+    """
+    Find the process id of the component container that has all nodes of Nav2.
+
+    Parameters
+    ----------
+    program
+        The launch of Nav2, which has started the container.
+
+    Returns
+    -------
+    int
+        That of the newest one, if it was respawned.
+
+    """
     return int(CONTAINER.findall(program.output)[-1][1])
 
 

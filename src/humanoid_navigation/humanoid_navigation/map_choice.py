@@ -34,7 +34,25 @@ class MapChoice(Substitution):
         return f'MapChoice({self._given.describe()}, {self._scene.describe()})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path; SubstitutionFailure says which maps there are."""
+        """
+        Resolve the path of the map's YAML file.
+
+        Parameters
+        ----------
+        context
+            The launch context, with the values of the two launch configurations.
+
+        Returns
+        -------
+        str
+            The absolute path.
+
+        Raises
+        ------
+        SubstitutionFailure
+            There is no such map; the message lists those of this package.
+
+        """
         folder = Path(get_package_share_directory('humanoid_navigation')) / 'maps'
         given = perform_substitutions(context, [self._given])
         name = given or perform_substitutions(context, [self._scene])
@@ -51,5 +69,18 @@ class MapChoice(Substitution):
 
 
 def map_choice(**_: Any) -> MapChoice:
-    """Return the map for the arguments `map` and `scene` of a launch."""
+    """
+    Choose the map by the launch arguments `map` and `scene`.
+
+    Parameters
+    ----------
+    **_
+        Ignored.
+
+    Returns
+    -------
+    MapChoice
+        A substitution for the path of the map; `scene` need not be declared.
+
+    """
     return MapChoice(LaunchConfiguration('map'), LaunchConfiguration('scene', default=''))

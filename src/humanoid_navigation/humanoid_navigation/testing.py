@@ -57,12 +57,38 @@ class NavigatingRobot:
         ros.wait_until(self._client.server_is_ready, PATIENCE_S, 'the action navigate_to_pose')
 
     def say_where(self, x_m: float, y_m: float, yaw_rad: float) -> None:
-        """Tell the localisation where the robot is, right or wrong."""
+        """
+        Publish a pose for the localisation on `initialpose`, and wait a second.
+
+        Parameters
+        ----------
+        x_m, y_m, yaw_rad
+            The pose in the map that it is told, right or wrong.
+
+        """
         self._initial_pose.publish(initial_pose((x_m, y_m, yaw_rad), 0.25, 0.07))
         self.robot.wait(1.0)
 
     def start(self, x_m: float, y_m: float, yaw_rad: float) -> Any:
-        """Send a goal in the map; return its handle when it is accepted."""
+        """
+        Send a `NavigateToPose` goal, again for 20 s while it is rejected.
+
+        Parameters
+        ----------
+        x_m, y_m, yaw_rad
+            The goal pose in the map.
+
+        Returns
+        -------
+        Any
+            The handle of the accepted goal, for `finish`, `ended` and `cancel`.
+
+        Raises
+        ------
+        AssertionError
+            The goal is still rejected.
+
+        """
         goal = NavigateToPose.Goal(pose=stamped((x_m, y_m, yaw_rad)))
         self._touched.clear()
         self._recoveries = 0
@@ -85,7 +111,26 @@ class NavigatingRobot:
         at_most_s: float,
         watch: Callable[[], None] = lambda: None,
     ) -> Arrival:
-        """Wait for the end of a goal; call something all the while."""
+        """
+        Wait for the end of a goal, and cancel it when its time is over.
+
+        Parameters
+        ----------
+        handle
+            The handle that `start` returned.
+        x_m, y_m, yaw_rad
+            The goal pose in the map, which the arrival is compared with.
+        at_most_s
+            How long the goal may take, in simulated s.
+        watch
+            Called again and again until the goal ends.
+
+        Raises
+        ------
+        FellError
+            The robot falls.
+
+        """
         begin_s = self.robot.topics.time_s
         result = handle.get_result_async()
 
@@ -99,7 +144,22 @@ class NavigatingRobot:
         return self._arrival(result.result(), x_m, y_m, yaw_rad, begin_s)
 
     def ended(self, handle: Any, x_m: float, y_m: float, yaw_rad: float) -> Arrival:
-        """Return how a goal has ended, also when the robot lies on the ground."""
+        """
+        Wait for the result of a goal without expecting the robot to stay on its feet.
+
+        Parameters
+        ----------
+        handle
+            The handle that `start` returned.
+        x_m, y_m, yaw_rad
+            The goal pose in the map, which the arrival is compared with.
+
+        Returns
+        -------
+        Arrival
+            How the goal ended; its `took_s` is 0.
+
+        """
         answer = self._answer(handle.get_result_async())
         return self._arrival(answer, x_m, y_m, yaw_rad, self.robot.topics.time_s)
 
@@ -120,11 +180,44 @@ class NavigatingRobot:
         )
 
     def go(self, x_m: float, y_m: float, yaw_rad: float, at_most_s: float = 120.0) -> Arrival:
-        """Go somewhere, and return how that ended."""
+        """
+        Navigate to a pose, and return how that ended.
+
+        Parameters
+        ----------
+        x_m, y_m, yaw_rad
+            The goal pose in the map.
+        at_most_s
+            How long it may take, in simulated s, before the goal is canceled.
+
+        Raises
+        ------
+        AssertionError
+            The goal is rejected for 20 s, or the robot falls.
+
+        """
         return self.finish(self.start(x_m, y_m, yaw_rad), x_m, y_m, yaw_rad, at_most_s)
 
     def cancel(self, handle: Any) -> float:
-        """Cancel a goal; return after how many seconds the robot was told to stand still."""
+        """
+        Cancel a goal, and measure how long the robot keeps moving.
+
+        Parameters
+        ----------
+        handle
+            The handle that `start` returned.
+
+        Returns
+        -------
+        float
+            The simulated time in s from the answer to the cancel request to zero velocity.
+
+        Raises
+        ------
+        AssertionError
+            The velocity is not zero after 5 s.
+
+        """
         self._answer(handle.cancel_goal_async())
         begin_s = self.robot.topics.time_s
         assert self.robot.wait_until(lambda: not self.is_moved, 5.0), 'The robot is still moved.'

@@ -48,7 +48,25 @@ class ColourDetector:
         confidence: float = 0.4,
         iou: float = 0.5,
     ) -> list[Detection]:
-        """Find objects as `Detector.detect` says; they never overlap."""
+        """
+        Detect objects by connected regions of one colour; these never share a pixel.
+
+        Parameters
+        ----------
+        color, depth_m, focal_px
+            As for `Detector.detect`. Depth separates what only seems to touch; with the focal
+            length, it rules out regions that are too small or too large for an object.
+        confidence
+            The least score, which is how well an outline fits its class.
+        iou
+            Ignored.
+
+        Returns
+        -------
+        list of Detection
+            Those of the best score first.
+
+        """
         del iou
         size_px = color.shape[1], color.shape[0]
         names = name_pixels(np.asarray(cv2.medianBlur(color, 3), dtype=np.uint8))

@@ -45,7 +45,20 @@ _MOST_EDGE_PX = 48
 
 
 def name_pixels(pixels: Color) -> npt.NDArray[np.uint8]:
-    """Return the number in `COLOURS` of each pixel, for (height, width, 3) red, green, blue."""
+    """
+    Classify the colour of each pixel by its hue, saturation and value (HSV).
+
+    Parameters
+    ----------
+    pixels
+        The picture (height, width, 3): red, green, blue.
+
+    Returns
+    -------
+    Array
+        The index (height, width) of each pixel's name in `COLOURS`.
+
+    """
     hsv = cv2.cvtColor(pixels.astype(np.float32) / np.float32(255.0), cv2.COLOR_RGB2HSV)
     hue, saturation, value = hsv[..., 0], hsv[..., 1], hsv[..., 2]
     ends = [end for end, _ in _HUES]

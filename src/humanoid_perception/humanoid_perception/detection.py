@@ -94,15 +94,41 @@ class Detector(Protocol):
         self, color: Color, depth_m: Depth | None, focal_px: float, confidence: float, iou: float
     ) -> list[Detection]:
         """
-        Find objects, the best ones first.
+        Detect objects in a picture.
 
-        `depth_m` fits the picture if it is given; `focal_px` is the focal length, or 0.0. Scores
-        are at least `confidence`; boxes of a class overlap by at most `iou`.
+        Parameters
+        ----------
+        color
+            The picture (height, width, 3): red, green, blue.
+        depth_m
+            The depth (height, width) in m of the same pixels, along the optical axis; or None.
+        focal_px
+            The focal length in pixels; 0.0 if it is not known.
+        confidence
+            The least score of a detection, 0 to 1.
+        iou
+            The most by which two boxes of a class overlap, as intersection over union.
+
+        Returns
+        -------
+        list of Detection
+            Those of the best score first.
+
         """
 
 
 def is_cut(box_px: Box, width_px: int, height_px: int) -> bool:
-    """Whether a box touches the border of a picture of a size."""
+    """
+    Whether a box touches the border of its picture, so that the object may go on beyond it.
+
+    Parameters
+    ----------
+    box_px
+        The box: left, top, right, bottom, in pixels.
+    width_px, height_px
+        The size of the picture.
+
+    """
     left, top, right, bottom = box_px
     return (
         left <= _BORDER_PX

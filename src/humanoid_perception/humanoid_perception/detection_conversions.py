@@ -33,12 +33,36 @@ _TEXT = (16, 16, 16)
 
 
 def named(detection: Detection) -> str:
-    """Return the name of a detection for people, such as 'red mug'."""
+    """
+    Join the colour and the class of a detection, such as 'red mug'.
+
+    Parameters
+    ----------
+    detection
+        The detection; without a colour, its class alone is returned.
+
+    """
     return f'{detection.colour} {detection.class_id}'.strip()
 
 
 def detections_2d(header: Header, found: Iterable[Detection]) -> Detection2DArray:
-    """Return detections as boxes in the picture; the first result is the class."""
+    """
+    Convert detections to boxes in the picture, in pixels.
+
+    Parameters
+    ----------
+    header
+        That of the picture.
+    found
+        The detections.
+
+    Returns
+    -------
+    Detection2DArray
+        The first result of each is its class, the second the class with its colour if that is
+        known. The id is `CUT` where the border of the picture cuts the object, else empty.
+
+    """
     message = Detection2DArray(header=header)
     for detection in found:
         left, top, right, bottom = detection.box_px
@@ -109,7 +133,24 @@ def _pose(box: Box3, rotation: Array | None) -> Pose:
 
 
 def annotated(header: Header, color: Color, found: Iterable[Detection]) -> Image:
-    """Return a picture with boxes, names and scores."""
+    """
+    Draw detections into a copy of a picture: boxes, names and scores.
+
+    Parameters
+    ----------
+    header
+        That of the picture, which the message gets.
+    color
+        The picture (height, width, 3): red, green, blue.
+    found
+        The detections.
+
+    Returns
+    -------
+    Image
+        The message, in the encoding `rgb8`.
+
+    """
     picture = np.array(color)
     scale = max(0.35, min(picture.shape[:2]) / 800.0)
     for detection in found:
@@ -129,7 +170,17 @@ def annotated(header: Header, color: Color, found: Iterable[Detection]) -> Image
 
 
 def image_of(header: Header, picture: Color) -> Image:
-    """Return a picture (height, width, 3) as a message."""
+    """
+    Convert a picture to an image message in the encoding `rgb8`.
+
+    Parameters
+    ----------
+    header
+        That of the message.
+    picture
+        The picture (height, width, 3): red, green, blue.
+
+    """
     height, width = picture.shape[:2]
     image = Image(header=header, height=height, width=width, encoding='rgb8', step=3 * width)
     image.data = data_of(picture)
@@ -137,5 +188,15 @@ def image_of(header: Header, picture: Color) -> Image:
 
 
 def header_of(source: Any, frame_id: str) -> Header:
-    """Return a header with the stamp of another one, in a frame."""
+    """
+    Return a header with the stamp of another one, in a frame.
+
+    Parameters
+    ----------
+    source
+        The `std_msgs/Header` with the stamp.
+    frame_id
+        The frame.
+
+    """
     return Header(stamp=source.stamp, frame_id=frame_id)

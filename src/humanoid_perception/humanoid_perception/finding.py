@@ -29,7 +29,22 @@ class Question:
 
 
 def place_of(thing: RememberedThing, places: Places) -> tuple[str, str]:
-    """Return the surface on which a thing stands and the room in which it is; empty if none."""
+    """
+    Find the named places at which an object is.
+
+    Parameters
+    ----------
+    thing
+        The object, in the frame of the places.
+    places
+        The named surfaces and rooms.
+
+    Returns
+    -------
+    tuple of str
+        The surface on which the object stands, and the room in which it is; empty if none.
+
+    """
     x, y, z = (float(each) for each in thing.position_m)
     bottom = z - 0.5 * float(thing.size_m[2])
     sigma_m = greatest_sigma_m(thing.map_covariance_m2)

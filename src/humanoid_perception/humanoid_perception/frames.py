@@ -65,7 +65,19 @@ class FramePairs:
         self._newest_s = self._taken_s = self._depth_received_s = -math.inf
 
     def add_color(self, stamp_s: float, data: bytes, now_s: float) -> None:
-        """Take a picture that was received at a time."""
+        """
+        Take a picture as it was received; one that comes too soon after the last is dropped.
+
+        Parameters
+        ----------
+        stamp_s
+            Its stamp in s. If it goes back by more than 0.5 s, all that came before is dropped.
+        data
+            The serialized image.
+        now_s
+            The time of a steady clock at which it was received.
+
+        """
         if stamp_s < self._newest_s - _BACK_S:
             self.clear()
         if self._depth_received_s == -math.inf:
@@ -75,16 +87,49 @@ class FramePairs:
             self._colors.append(_Waiting(stamp_s, now_s, data))
 
     def add_depth(self, stamp_s: float, data: bytes, now_s: float) -> None:
-        """Take depth that was received at a time."""
+        """
+        Take a depth image as it was received.
+
+        Parameters
+        ----------
+        stamp_s
+            Its stamp in s.
+        data
+            The serialized image.
+        now_s
+            The time of a steady clock at which it was received.
+
+        """
         self._depth_received_s = now_s
         self._depths.append(_Waiting(stamp_s, now_s, data))
 
     def has_depth(self, now_s: float) -> bool:
-        """Whether depth has come lately, or may still come for the first time."""
+        """
+        Whether depth came within the last second, or may still come for the first time.
+
+        Parameters
+        ----------
+        now_s
+            The time now, by the same clock as for `add_depth`.
+
+        """
         return now_s - self._depth_received_s < _DEPTH_GONE_S
 
     def take(self, now_s: float) -> Frame | None:
-        """Return the newest picture whose depth is there, or has been waited for long enough."""
+        """
+        Take the newest picture whose depth has come, or has been waited for long enough.
+
+        Parameters
+        ----------
+        now_s
+            The time now, by the same clock as for `add_color`.
+
+        Returns
+        -------
+        Frame
+            The picture, with its depth if that came; None if no picture is due yet.
+
+        """
         for color in reversed(self._colors):
             depth = self._depth_of(color)
             waited_s = now_s - color.received_s
@@ -112,7 +157,20 @@ class FramePairs:
 
 
 def stamp_in(data: bytes) -> float:
-    """Return the time in s of a serialized message that begins with a `std_msgs/Header`."""
+    """
+    Read the stamp of a serialized message (CDR) without deserializing it.
+
+    Parameters
+    ----------
+    data
+        A message that begins with a `std_msgs/Header`, such as an image.
+
+    Returns
+    -------
+    float
+        The stamp in s.
+
+    """
     order = '<' if data[1] & 1 else '>'
     seconds, nanoseconds = struct.unpack_from(f'{order}iI', data, 4)
     return float(seconds) + float(nanoseconds) * 1e-9

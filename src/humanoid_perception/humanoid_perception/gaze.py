@@ -108,7 +108,22 @@ class Gaze(Node):
         return float(self.get_clock().now().nanoseconds) * 1e-9
 
     async def field_of_view(self, goal: RunningGoal) -> FieldOfView:
-        """Return what the camera sees; abort if no camera says it."""
+        """
+        Wait for a `camera/camera_info`, and compute the field of view from it.
+
+        Parameters
+        ----------
+        goal
+            The goal that needs it, and whose end ends the wait.
+
+        Raises
+        ------
+        GoalAborted
+            None comes within 5 s, or it has no size or no focal length; or the goal is to end.
+        GoalCanceled
+            The client has canceled the goal.
+
+        """
         infos: list[CameraInfo] = []
         subscription = self.create_subscription(
             CameraInfo, 'camera/camera_info', infos.append, SENSOR
@@ -207,7 +222,20 @@ def _unsound(request: PointHead.Goal) -> str:
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run the node."""
+    """
+    Run the node `gaze`.
+
+    Parameters
+    ----------
+    args
+        The command line with its ROS arguments; None for that of the process.
+
+    Returns
+    -------
+    int
+        The exit status: 1 if the node cannot start, else 0.
+
+    """
     return run_node(Gaze, args)
 
 

@@ -67,12 +67,19 @@ class HeadChain:
     @classmethod
     def of(cls, description: str, names: Sequence[str]) -> HeadChain:
         """
-        Read the joints from a robot description.
+        Read the joints of the neck from a robot description.
+
+        Parameters
+        ----------
+        description
+            The URDF, as on the topic `robot_description`.
+        names
+            The names of the joints, from the body on: each hangs on what the one before moves.
 
         Raises
         ------
         HeadError
-            It is no URDF, lacks a joint, or these are not one upon the other.
+            It is no URDF, lacks a joint, or these are not revolute, with limits, in one chain.
 
         """
         try:
@@ -106,7 +113,20 @@ class HeadChain:
         return self.joints[-1].child
 
     def pose(self, angles_rad: Sequence[float] | Array) -> Array:
-        """Compute the pose of the last link in the base frame, as a matrix (4, 4)."""
+        """
+        Compute the forward kinematics of the neck.
+
+        Parameters
+        ----------
+        angles_rad
+            Of each joint (n,), from the body on.
+
+        Returns
+        -------
+        Array
+            The pose (4, 4) of the last link in the base frame.
+
+        """
         pose = np.eye(4)
         for joint, angle in zip(self.joints, angles_rad, strict=True):
             turn = np.eye(4)
@@ -115,11 +135,29 @@ class HeadChain:
         return pose
 
     def clamp(self, angles_rad: Sequence[float] | Array) -> Array:
-        """Return angles within the limits."""
+        """
+        Clamp joint angles to their limits.
+
+        Parameters
+        ----------
+        angles_rad
+            Of each joint (n,), from the body on.
+
+        """
         return np.asarray(np.clip(angles_rad, self.lower_rad, self.upper_rad))
 
     def angle_of(self, number: int, rotation: Array) -> float:
-        """Return the angle of a joint whose child link has a rotation (3, 3) in its parent."""
+        """
+        Compute the angle in rad of a joint from the rotation of its child link in its parent link.
+
+        Parameters
+        ----------
+        number
+            Which joint: 0 is the first one, on the body.
+        rotation
+            The rotation matrix (3, 3), as the transforms have it.
+
+        """
         joint = self.joints[number]
         turn = joint.origin[:3, :3].T @ rotation
         skew = np.array(
@@ -128,7 +166,26 @@ class HeadChain:
         return math.atan2(float(skew @ joint.axis) / 2.0, (float(np.trace(turn)) - 1.0) / 2.0)
 
     def error_rad(self, angles_rad: Array, target_m: Array, tip: Array, axis: Array) -> float:
-        """Return the angle between an axis of a frame on the head and the way to a point."""
+        """
+        Compute the pointing error: the angle between an axis on the head and the ray to a target.
+
+        Parameters
+        ----------
+        angles_rad
+            Of each joint (n,).
+        target_m
+            The target (3,), in the base frame.
+        tip
+            Pose (4, 4) of the frame that points, in the last link.
+        axis
+            The direction (3,) in that frame that shall point; of any length.
+
+        Returns
+        -------
+        float
+            The angle in rad, from 0 to pi.
+
+        """
         along, aside = self._aside(angles_rad, target_m, tip, axis)
         return math.atan2(float(np.linalg.norm(aside)), along)
 

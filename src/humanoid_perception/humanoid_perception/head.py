@@ -57,7 +57,23 @@ class Head(Transforms):
             self._known, self._reason = None, str(error)
 
     async def wait(self, goal: RunningGoal) -> None:
-        """Wait until the head can be moved; abort with what is missing."""
+        """
+        Wait until the head can be moved; call it while the transforms are listened to.
+
+        Parameters
+        ----------
+        goal
+            The goal that needs the head, and whose end ends the wait.
+
+        Raises
+        ------
+        GoalAborted
+            The robot description, the controller or the transforms of the neck do not come; the
+            message says which. Or the goal is to end.
+        GoalCanceled
+            The client has canceled the goal.
+
+        """
         if not await goal.comes(lambda: self._mover.is_ready and self._known is not None):
             _ = self.chain
             raise GoalAborted(
@@ -75,14 +91,48 @@ class Head(Transforms):
     def duration_s(
         self, angles_rad: Array, fastest_rad_s: float, at_least_s: float = 0.0
     ) -> float:
-        """Return how long it takes to turn to angles, from where the joints are."""
+        """
+        Compute how long a motion from the present joint angles takes, from rest to rest.
+
+        Parameters
+        ----------
+        angles_rad
+            The joint angles to move to (n,).
+        fastest_rad_s
+            The greatest velocity of a joint, beside its own limit.
+        at_least_s
+            The least duration.
+
+        Returns
+        -------
+        float
+            The duration in s.
+
+        Raises
+        ------
+        GoalAborted
+            No robot description with these joints has come.
+        TransformException
+            It is not known where the joints are.
+
+        """
         speed = np.minimum(self.chain.velocity_rad_s, fastest_rad_s)
         # A trajectory from rest to rest is at most 1.875 times as fast as on average.
         needed = float(np.max(np.abs(angles_rad - self.angles_rad()) * 1.9 / speed))
         return max(needed, at_least_s, _SHORTEST_S)
 
     def send(self, angles_rad: Array, duration_s: float) -> None:
-        """Begin to turn; a motion that still goes on is replaced."""
+        """
+        Send a motion to the trajectory controller; one that still goes on is replaced.
+
+        Parameters
+        ----------
+        angles_rad
+            The joint angles to move to (n,), from the body on.
+        duration_s
+            How long the motion takes.
+
+        """
         self._mover.send([trajectory_point(duration_s, angles_rad.tolist())])
 
     def has_arrived(self) -> bool:

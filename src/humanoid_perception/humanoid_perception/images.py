@@ -34,9 +34,19 @@ class ImageMessage(Protocol):
 
 def color_of(image: ImageMessage) -> Color:
     """
-    Return the picture of a message, (height, width, 3) red, green, blue.
+    Convert an image message to a picture.
 
     Grey pictures get three equal channels. The array may be that of the message: do not write.
+
+    Parameters
+    ----------
+    image
+        The message, in an encoding with 8 bits a channel.
+
+    Returns
+    -------
+    Color
+        The picture (height, width, 3): red, green, blue.
 
     Raises
     ------
@@ -59,10 +69,20 @@ def color_of(image: ImageMessage) -> Color:
 
 def depth_of(image: ImageMessage) -> Depth:
     """
-    Return the depth of a message in m, (height, width).
+    Convert an image message to depth.
 
     As REP 118 has it: `32FC1` in m, `16UC1` in mm, where 0 means nothing. NaN is where nothing was
     measured, infinity where nothing is within the range of the camera.
+
+    Parameters
+    ----------
+    image
+        The message of a depth camera.
+
+    Returns
+    -------
+    Depth
+        The depth (height, width) in m, along the optical axis; a copy.
 
     Raises
     ------
@@ -85,7 +105,20 @@ def depth_of(image: ImageMessage) -> Depth:
 
 
 def data_of(pixels: npt.NDArray[Any]) -> array[int]:
-    """Return an array as the `data` of a message, which takes no other kind as it is."""
+    """
+    Convert pixels to an `array('B')`, which the `data` of an image message takes as it is.
+
+    Parameters
+    ----------
+    pixels
+        The picture, of any shape and type.
+
+    Returns
+    -------
+    array
+        The bytes, row by row without padding.
+
+    """
     data = array('B')
     data.frombytes(np.ascontiguousarray(pixels).view(np.uint8).data.cast('B'))
     return data

@@ -16,9 +16,15 @@ _ABOVE_M, _LETTERS_M = 0.06, 0.07
 
 def markers_of(message: Detection3DArray) -> MarkerArray:
     """
-    Return boxes with labels, which replace all that were shown before.
+    Convert detections to markers: boxes with labels, which replace all that were shown before.
 
     The label of a box is its id if it has one, else its class and score.
+
+    Parameters
+    ----------
+    message
+        The detections, whose header the markers get.
+
     """
     header = message.header
     markers = [Marker(header=header, action=Marker.DELETEALL)]

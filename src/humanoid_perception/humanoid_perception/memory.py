@@ -123,7 +123,15 @@ class ObjectMemory:
         self._time_s, self._anchor = -math.inf, None
 
     def move_all(self, shift: Pose2) -> None:
-        """Express everything in another frame, in which the present one has the pose `shift`."""
+        """
+        Transform all objects into another frame of the memory.
+
+        Parameters
+        ----------
+        shift
+            The pose of the present frame in the new one: x (m), y (m), yaw (rad).
+
+        """
         for thing in self._all:
             thing.move_by(shift)
             thing.anchor = _composed(shift, thing.anchor)
@@ -329,7 +337,20 @@ class ObjectMemory:
 
 
 def shift_between(old: Pose2, new: Pose2) -> Pose2:
-    """Return the motion that takes what hangs on an old pose of a frame to the new one."""
+    """
+    Compute the planar motion that takes a frame, and all that hangs on it, to its new pose.
+
+    Parameters
+    ----------
+    old, new
+        The poses of the frame: x (m), y (m), yaw (rad).
+
+    Returns
+    -------
+    Pose2
+        The motion in the same outer frame: turn about its origin by yaw, then move by x and y.
+
+    """
     yaw = math.remainder(new[2] - old[2], math.tau)
     c, s = math.cos(yaw), math.sin(yaw)
     return new[0] - c * old[0] + s * old[1], new[1] - s * old[0] - c * old[1], yaw

@@ -31,7 +31,20 @@ Array = npt.NDArray[np.float64]
 
 
 def pose_of(transform: Any) -> tuple[Array, Array]:
-    """Return position (3,) and rotation (3, 3) of a geometry_msgs/Transform."""
+    """
+    Convert a transform to matrices.
+
+    Parameters
+    ----------
+    transform
+        A `geometry_msgs/Transform`; its quaternion need not be normalized.
+
+    Returns
+    -------
+    tuple of Array
+        The position (3,) in m, and the rotation (3, 3).
+
+    """
     q, t = transform.rotation, transform.translation
     norm = math.sqrt(q.x**2 + q.y**2 + q.z**2 + q.w**2) or 1.0
     x, y, z, w = q.x / norm, q.y / norm, q.z / norm, q.w / norm
@@ -46,13 +59,29 @@ def pose_of(transform: Any) -> tuple[Array, Array]:
 
 
 def planar_of(transform: Any) -> Pose2:
-    """Return x, y and yaw of a geometry_msgs/Transform."""
+    """
+    Project a transform onto the ground plane: x (m), y (m) and yaw (rad).
+
+    Parameters
+    ----------
+    transform
+        A `geometry_msgs/Transform`.
+
+    """
     position, rotation = pose_of(transform)
     return float(position[0]), float(position[1]), math.atan2(rotation[1, 0], rotation[0, 0])
 
 
 def time_of(time_s: float) -> Time:
-    """Return the message of a time in s; not before zero."""
+    """
+    Convert a time to its message.
+
+    Parameters
+    ----------
+    time_s
+        The time in s; one before zero becomes zero.
+
+    """
     nanoseconds = max(round(time_s * 1e9), 0)
     return Time(sec=nanoseconds // 1_000_000_000, nanosec=nanoseconds % 1_000_000_000)
 
@@ -94,7 +123,17 @@ def sighting_of(detection: Detection3D, position: Array, rotation: Array) -> Sig
 
 
 def remembered_object(thing: RememberedThing, places: Places) -> RememberedObject:
-    """Return the message of a thing."""
+    """
+    Convert an object of the memory to its message, with the names of its place and room.
+
+    Parameters
+    ----------
+    thing
+        The object.
+    places
+        The named places, in the frame of the memory.
+
+    """
     message = RememberedObject(
         id=thing.object_id, class_id=thing.class_id, colour=thing.colour, sightings=thing.sightings
     )
@@ -107,7 +146,17 @@ def remembered_object(thing: RememberedThing, places: Places) -> RememberedObjec
 
 
 def detections_of(header: Header, things: Sequence[RememberedThing]) -> Detection3DArray:
-    """Return things as detections, each with its id."""
+    """
+    Convert objects of the memory to detections, each with its id.
+
+    Parameters
+    ----------
+    header
+        The frame of the memory, and the time for which it holds.
+    things
+        The objects.
+
+    """
     return Detection3DArray(
         header=header, detections=[_detection(header, each) for each in things]
     )

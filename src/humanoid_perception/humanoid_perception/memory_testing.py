@@ -39,7 +39,19 @@ class World:
     time_s: float = 0.0
 
     def view(self, at: Point, towards: Point, depth: bool = True, **options: Any) -> View:
-        """Look from a point towards another."""
+        """
+        Place the camera at a point, looking towards another, 0.2 s after the last view.
+
+        Parameters
+        ----------
+        at, towards
+            The points (3,) in m, in the frame of the boxes; neither straight above the other.
+        depth
+            Whether the view has a depth image.
+        **options
+            Further fields of the view, such as `turn_rad_s`.
+
+        """
         position = np.array(at, dtype=float)
         ahead = np.array(towards, dtype=float) - position
         ahead /= np.linalg.norm(ahead)
@@ -62,7 +74,21 @@ class World:
         return replace(view, depth_m=self.depth(view)) if depth else view
 
     def depth(self, view: View) -> np.ndarray:
-        """Draw the depth image: rays against upright boxes, by slabs."""
+        """
+        Render a depth image by intersecting rays with upright boxes (the slab method).
+
+        Parameters
+        ----------
+        view
+            From where it is seen.
+
+        Returns
+        -------
+        Array
+            The depth (60, 80) in m along the optical axis, infinite where there is no box. It is
+            coarser than the picture.
+
+        """
         u, v = np.meshgrid(np.arange(0.0, WIDTH, COARSE), np.arange(0.0, HEIGHT, COARSE))
         rays = np.stack([(u - view.cx_px) / FOCAL, (v - view.cy_px) / FOCAL, np.ones_like(u)], 2)
         rays = rays @ view.rotation.T
@@ -77,7 +103,19 @@ class World:
         return depth.astype(np.float32)
 
     def sightings(self, view: View, score: float = 0.8, chance: float = 1.0) -> list[Sighting]:
-        """Detect what is in the picture and not hidden."""
+        """
+        Simulate a detector: find the boxes that are in the picture and not hidden, with noise.
+
+        Parameters
+        ----------
+        view
+            From where they are seen; without depth, nothing is hidden.
+        score
+            The score that each detection gets.
+        chance
+            How likely it is that a box is detected, 0 to 1.
+
+        """
         found = []
         for box in self.boxes:
             middle = np.array(box.position, dtype=float)
@@ -106,7 +144,24 @@ class World:
 
 
 def around(middle: Point, radius: float, angle: float, height: float = 1.2) -> Point:
-    """Return a point to look from."""
+    """
+    Compute a viewpoint on a circle.
+
+    Parameters
+    ----------
+    middle
+        The centre of the circle, of which x and y count; in m.
+    radius, angle
+        Of the circle in m, and where on it in rad, from the x axis.
+    height
+        The z of the viewpoint in m.
+
+    Returns
+    -------
+    Point
+        The viewpoint (3,) in m.
+
+    """
     return (
         middle[0] + radius * math.cos(angle),
         middle[1] + radius * math.sin(angle),

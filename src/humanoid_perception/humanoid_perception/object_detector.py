@@ -131,7 +131,20 @@ class DetectorParameters:
 
 
 def make_detector(told: DetectorParameters) -> Detector:
-    """Return the detector that parameters ask for; raise DetectorError if it cannot be used."""
+    """
+    Make the detector that the parameters ask for.
+
+    Parameters
+    ----------
+    told
+        The parameters of the node.
+
+    Raises
+    ------
+    DetectorError
+        It cannot be used, as its model cannot be loaded.
+
+    """
     if told.backend == COLOUR:
         return ColourDetector()
     share = Path(get_package_share_directory('humanoid_perception'))
@@ -407,7 +420,20 @@ def _coloured(detection: Detection, color: Color, surface: Surface | None) -> De
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run the node."""
+    """
+    Run the node `object_detector`.
+
+    Parameters
+    ----------
+    args
+        The command line with its ROS arguments; None for that of the process.
+
+    Returns
+    -------
+    int
+        The exit status: 1 if the node cannot start, else 0.
+
+    """
     return run_node(ObjectDetector, args)
 
 

@@ -394,7 +394,20 @@ def _has_changed(old: dict[str, tuple[Any, ...]], new: dict[str, tuple[Any, ...]
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run the node."""
+    """
+    Run the node `object_memory`.
+
+    Parameters
+    ----------
+    args
+        The command line with its ROS arguments; None for that of the process.
+
+    Returns
+    -------
+    int
+        The exit status: 1 if the node cannot start, else 0.
+
+    """
     return run_node(ObjectMemoryNode, args)
 
 

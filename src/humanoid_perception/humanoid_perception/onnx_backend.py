@@ -120,7 +120,28 @@ class OnnxDetector:
         confidence: float = 0.4,
         iou: float = 0.5,
     ) -> list[Detection]:
-        """Find objects as `Detector.detect` says; without use of the depth."""
+        """
+        Detect objects by the network.
+
+        Parameters
+        ----------
+        color, confidence, iou
+            The picture and the thresholds, as for `Detector.detect`. Networks that are end to end
+            suppress duplicates themselves, without `iou`.
+        depth_m, focal_px
+            Ignored.
+
+        Returns
+        -------
+        list of Detection
+            Those of the best score first.
+
+        Raises
+        ------
+        DetectorError
+            The network cannot be run with a picture of this size.
+
+        """
         del depth_m, focal_px
         picture = color.shape[0], color.shape[1]
         size = self._fixed or letterbox_size(picture, self._longest_px, self._stride_px)
@@ -163,7 +184,18 @@ class OnnxDetector:
 
 def names_in_file(path: str) -> list[str]:
     """
-    Return the names in a file: one a line, or YAML with `names`, as training of YOLO has it.
+    Read class names from a labels file.
+
+    Parameters
+    ----------
+    path
+        One name a line; or, with the ending .yaml or .yml, a list, or a list or table by number
+        under `names`, as training of YOLO has it.
+
+    Returns
+    -------
+    list of str
+        The names in the order of the class numbers.
 
     Raises
     ------

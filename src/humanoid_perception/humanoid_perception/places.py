@@ -170,7 +170,20 @@ class Places:
         return best[1] if best[0] < math.inf else ''
 
     def room_at(self, x_m: float, y_m: float) -> str:
-        """Return the name of the room around a point; empty outside of all."""
+        """
+        Find the room around a point.
+
+        Parameters
+        ----------
+        x_m, y_m
+            The point, in the frame of the places.
+
+        Returns
+        -------
+        str
+            The name of the room; empty outside of all.
+
+        """
         return next(
             (each.name for each in self.rooms if _contains(each.outline_m, (x_m, y_m))), ''
         )
@@ -212,7 +225,12 @@ def places_path(given: str) -> Path | None:
 
 def load_places(path: Path) -> Places:
     """
-    Read a file of named places.
+    Read a YAML file of named places.
+
+    Parameters
+    ----------
+    path
+        The file, as `places_path` finds it.
 
     Raises
     ------
@@ -324,7 +342,15 @@ def _outline(value: Any, name: str) -> Outline:
 
 
 def sides(outline: Outline) -> Iterable[tuple[Point, Point]]:
-    """Return the sides of a polygon, each by its ends."""
+    """
+    Iterate over the sides of a polygon, each by its two ends; the last one closes it.
+
+    Parameters
+    ----------
+    outline
+        The corners of the polygon, in order.
+
+    """
     return zip(outline, (*outline[1:], outline[0]))
 
 

@@ -33,7 +33,25 @@ class PlacesChoice(Substitution):
         return f'PlacesChoice({self._given.describe()}, {self._scene.describe()})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path, or nothing; SubstitutionFailure says which files there are."""
+        """
+        Resolve the path of the file of named places.
+
+        Parameters
+        ----------
+        context
+            The launch context, with the values of the two launch configurations.
+
+        Returns
+        -------
+        str
+            The path; empty if none was asked for and the scene has none.
+
+        Raises
+        ------
+        SubstitutionFailure
+            There is no file as was asked for; the message lists those of this package.
+
+        """
         given = perform_substitutions(context, [self._given])
         if given:
             try:
@@ -48,7 +66,20 @@ class PlacesChoice(Substitution):
 
 
 def places_choice(**_: Any) -> PlacesChoice:
-    """Return the file for the arguments `places_file` and `scene` of a launch."""
+    """
+    Choose the file of named places by the launch arguments `places_file` and `scene`.
+
+    Parameters
+    ----------
+    **_
+        Ignored.
+
+    Returns
+    -------
+    PlacesChoice
+        A substitution for the path of the file; `scene` need not be declared.
+
+    """
     return PlacesChoice(
         LaunchConfiguration('places_file'), LaunchConfiguration('scene', default='')
     )

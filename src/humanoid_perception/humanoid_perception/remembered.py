@@ -72,8 +72,18 @@ def sighting_noise(
     Estimate the covariance (3, 3) in m^2 of the position of a detection.
 
     Along the ray the error of depth grows with the square of the range, as that of stereo and
-    structured light does; across it, that of the direction with the range. The pose of the camera
-    adds `base_m`, and more while it turns.
+    structured light does; across it, that of the direction with the range, and faster while the
+    camera turns.
+
+    Parameters
+    ----------
+    position_m, camera_m
+        Where the detection and the camera are (3,), in the frame of the covariance.
+    turn_rad_s
+        How fast the camera turns.
+    base_m
+        The standard deviation along each axis that the pose of the camera adds.
+
     """
     ray = position_m - camera_m
     range_m = max(float(np.linalg.norm(ray)), 1e-3)
@@ -85,7 +95,15 @@ def sighting_noise(
 
 
 def greatest_sigma_m(covariance_m2: Array) -> float:
-    """Return the root of the greatest variance along an axis, of a covariance (n, n) in m^2."""
+    """
+    Compute the greatest standard deviation in m along an axis of the frame.
+
+    Parameters
+    ----------
+    covariance_m2
+        The covariance (n, n) of a position in m^2.
+
+    """
     return math.sqrt(float(np.max(np.diag(covariance_m2))))
 
 
@@ -96,7 +114,17 @@ class Votes:
         self.weights: dict[str, float] = {}
 
     def add(self, name: str, weight: float) -> None:
-        """Count a vote; the older ones fade once there are many."""
+        """
+        Count a vote; the older ones fade once there are many.
+
+        Parameters
+        ----------
+        name
+            The class or colour that it is for.
+        weight
+            How much it counts, such as the score of a detection.
+
+        """
         total = sum(self.weights.values()) + weight
         if total > _MOST_VOTES:
             scale = _MOST_VOTES / total
@@ -104,7 +132,15 @@ class Votes:
         self.weights[name] = self.weights.get(name, 0.0) + weight
 
     def absorb(self, other: Votes) -> None:
-        """Add the votes of another."""
+        """
+        Add the votes of another.
+
+        Parameters
+        ----------
+        other
+            The votes for an object that turned out to be the same one.
+
+        """
         for name, weight in other.weights.items():
             self.add(name, weight)
 
@@ -114,7 +150,15 @@ class Votes:
         return max(self.weights, key=lambda name: self.weights[name], default='')
 
     def share(self, name: str) -> float:
-        """Return the part of the votes that a name has, from 0 to 1."""
+        """
+        Return the fraction of the votes that a name has, from 0 to 1.
+
+        Parameters
+        ----------
+        name
+            The class or colour; 0 is returned for one without votes.
+
+        """
         total = sum(self.weights.values())
         return self.weights.get(name, 0.0) / total if total else 0.0
 
@@ -156,7 +200,21 @@ class RememberedThing:
     def of(
         cls, sighting: Sighting, noise_m2: Array, time_s: float, log_odds: float
     ) -> RememberedThing:
-        """Begin with a first sighting."""
+        """
+        Initialize an object from its first detection.
+
+        Parameters
+        ----------
+        sighting
+            The detection, not cut by the border of the picture.
+        noise_m2
+            The covariance (3, 3) of its position, as of `sighting_noise`.
+        time_s
+            The stamp of the picture.
+        log_odds
+            How sure it is that the object exists.
+
+        """
         thing = cls(
             sighting.position_m.copy(),
             noise_m2.copy(),
@@ -206,13 +264,37 @@ class RememberedThing:
         return self.covariance_m2 + _LOCALISATION_M**2 * np.diag((1.0, 1.0, 0.0))
 
     def drift(self, passed_s: float, rate_m2_s: float, most_m: float) -> None:
-        """Let the position become less sure while time passes, up to a standard deviation."""
+        """
+        Predict the Kalman filter: let the position become less sure while time passes.
+
+        Parameters
+        ----------
+        passed_s
+            How much time has passed; a negative one counts as none.
+        rate_m2_s
+            By how much the variance along each axis grows, in m^2/s.
+        most_m
+            The standard deviation along an axis beyond which it does not grow.
+
+        """
         grown = self.covariance_m2 + max(passed_s, 0.0) * rate_m2_s * np.eye(3)
         if np.max(np.diag(grown)) <= most_m**2:
             self.covariance_m2 = grown
 
     def take(self, sighting: Sighting, noise_m2: Array, time_s: float) -> None:
-        """Take one more sighting into account."""
+        """
+        Update the object with a detection that was associated with it.
+
+        Parameters
+        ----------
+        sighting
+            The detection; if the border of the picture cuts it, position and size stay.
+        noise_m2
+            The covariance (3, 3) of its position, as of `sighting_noise`.
+        time_s
+            The stamp of the picture.
+
+        """
         if not sighting.is_cut:
             self._move(sighting.position_m, noise_m2)
             self._grow(sighting, noise_m2)
@@ -225,23 +307,59 @@ class RememberedThing:
         self.missed = self.empty = 0
 
     def believe(self, change: float) -> None:
-        """Change how sure it is that the thing is there, by a change of the log odds."""
+        """
+        Change how sure it is that the object is there, within bounds.
+
+        Parameters
+        ----------
+        change
+            What is added to the log odds.
+
+        """
         self.log_odds = max(-_MOST_LOG_ODDS, min(_MOST_LOG_ODDS, self.log_odds + change))
 
     def carry(self, position_m: Array, time_s: float) -> None:
-        """Take note of where a hand has brought it."""
+        """
+        Set the position of an object that a hand holds.
+
+        Parameters
+        ----------
+        position_m
+            Where the hand has brought it (3,), in the frame of the memory.
+        time_s
+            The stamp of the picture that belongs to it.
+
+        """
         self.position_m = position_m.copy()
         self.covariance_m2 = _CARRIED_M**2 * np.eye(3)
         self.last_seen_s = max(self.last_seen_s, time_s)
         self.missed = self.empty = 0
 
     def distance2(self, sighting: Sighting, noise_m2: Array) -> float:
-        """Return the squared Mahalanobis distance of a sighting."""
+        """
+        Compute the squared Mahalanobis distance of a detection from the object.
+
+        Parameters
+        ----------
+        sighting
+            The detection.
+        noise_m2
+            The covariance (3, 3) of its position, which adds to that of the object.
+
+        """
         error = sighting.position_m - self.position_m
         return float(error @ np.linalg.solve(self.covariance_m2 + noise_m2, error))
 
     def absorb(self, other: RememberedThing) -> None:
-        """Take in another thing that turned out to be the same."""
+        """
+        Merge another object that turned out to be the same into this one.
+
+        Parameters
+        ----------
+        other
+            The object that is to be dropped.
+
+        """
         self._move(other.position_m, other.covariance_m2)
         if other.size_weight > self.size_weight:
             self.size_m, self.yaw_rad = other.size_m, other.yaw_rad
@@ -256,7 +374,16 @@ class RememberedThing:
         self.missed, self.empty = min(self.missed, other.missed), min(self.empty, other.empty)
 
     def move_by(self, shift: Pose2) -> None:
-        """Move with a frame that turned out to be elsewhere."""
+        """
+        Move the object with a frame that turned out to be elsewhere.
+
+        Parameters
+        ----------
+        shift
+            The motion in the frame of the memory, as of `memory.shift_between`: turn about its
+            origin by yaw (rad), then move by x and y (m).
+
+        """
         x, y, yaw = shift
         c, s = math.cos(yaw), math.sin(yaw)
         turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])

@@ -58,7 +58,23 @@ class RoomScan:
         self._end_s = math.inf
 
     async def work(self, goal: RunningGoal) -> None:
-        """Look around; the result says how much was seen, also if that was not all."""
+        """
+        Look around: sweep the head, and turn the body between sweeps if the goal asks for that.
+
+        Parameters
+        ----------
+        goal
+            A goal of `scan_room`. Its result gets the coverage and the ids of what was seen, also
+            if the scan ends before all was seen.
+
+        Raises
+        ------
+        GoalAborted
+            The scan cannot go on, takes longer than it may, or is to end.
+        GoalCanceled
+            The client has canceled the goal.
+
+        """
         begin_s = self._gaze.now_s()
         allowed = goal.request.time_allowance
         allowed_s = allowed.sec + allowed.nanosec * 1e-9

@@ -32,7 +32,14 @@ class FieldOfView:
         cls, width: int, height: int, fx: float, fy: float, cx: float, cy: float
     ) -> FieldOfView:
         """
-        Return that of a camera_info; pixels.
+        Compute the field of view of a pinhole camera.
+
+        Parameters
+        ----------
+        width, height
+            The size of the picture in pixels.
+        fx, fy, cx, cy
+            The focal lengths and the principal point in pixels, as in K of a `camera_info`.
 
         Raises
         ------
@@ -60,7 +67,20 @@ class FieldOfView:
         return self.up_rad + self.down_rad
 
     def contains(self, directions: Array) -> npt.NDArray[np.bool_]:
-        """Return which directions (N, 3) of the optical frame are in the picture."""
+        """
+        Test which directions are in the picture.
+
+        Parameters
+        ----------
+        directions
+            Vectors (N, 3) of any length, in the optical frame.
+
+        Returns
+        -------
+        Array
+            Whether each of them is (N,).
+
+        """
         x, y, z = directions.T
         ahead = z > 1e-6
         safe = np.where(ahead, z, 1.0)
@@ -171,14 +191,34 @@ class Coverage:
         self._seen = np.zeros(len(azimuth), dtype=bool)
 
     def want_only(self, rotations: Sequence[Array], field: FieldOfView) -> None:
-        """Want only what some looks see; rotations (3, 3) of the optical frame."""
+        """
+        Restrict the wanted directions to those that some views see.
+
+        Parameters
+        ----------
+        rotations
+            The rotation (3, 3) of the optical frame of each view, in a frame whose z axis is up.
+        field
+            What the camera sees.
+
+        """
         wanted = np.zeros_like(self._wanted)
         for rotation in rotations:
             wanted |= field.contains(self._directions @ rotation)
         self._wanted = wanted
 
     def see(self, rotation: Array, field: FieldOfView) -> None:
-        """Take note of a look; its rotation (3, 3) is that of the optical frame."""
+        """
+        Mark the directions that a view sees as seen.
+
+        Parameters
+        ----------
+        rotation
+            The rotation (3, 3) of its optical frame, in the same frame as for `want_only`.
+        field
+            What the camera sees.
+
+        """
         self._seen |= field.contains(self._directions @ rotation)
 
     @property

@@ -47,7 +47,29 @@ class Transforms:
             listener.unregister()
 
     async def known(self, goal: RunningGoal, frame: str, child: str) -> Array:
-        """Return the pose (4, 4) of a frame in another; wait a while for it, or abort."""
+        """
+        Wait for a transform, and look it up.
+
+        Parameters
+        ----------
+        goal
+            The goal that needs it, and whose end ends the wait.
+        frame, child
+            The pose of the frame `child` in `frame` is meant.
+
+        Returns
+        -------
+        Array
+            The newest pose (4, 4).
+
+        Raises
+        ------
+        GoalAborted
+            The transform does not come within 5 s, or the goal is to end.
+        GoalCanceled
+            The client has canceled the goal.
+
+        """
         await goal.comes(
             lambda: frame == child or bool(self._buffer.can_transform(frame, child, Time()))
         )
@@ -59,7 +81,25 @@ class Transforms:
             ) from None
 
     def pose(self, frame: str, child: str) -> Array:
-        """Look up the newest matrix (4, 4) of a frame in another; raise TransformException."""
+        """
+        Look up the newest transform; call it while the transforms are listened to.
+
+        Parameters
+        ----------
+        frame, child
+            The pose of the frame `child` in `frame` is meant.
+
+        Returns
+        -------
+        Array
+            The pose (4, 4).
+
+        Raises
+        ------
+        TransformException
+            No transform connects the two frames.
+
+        """
         assert self._listens, 'Transforms are known while they are listened to.'
         pose = np.eye(4)
         if frame != child:

@@ -74,11 +74,33 @@ class View:
     turn_rad_s: float = 0.0
 
     def in_camera(self, points_m: Array) -> Array:
-        """Return points (N, 3) of the memory's frame in the optical frame."""
+        """
+        Transform points from the frame of the memory into the optical frame.
+
+        Parameters
+        ----------
+        points_m
+            The points (N, 3) in m; the result has the same shape.
+
+        """
         return np.asarray((points_m - self.position_m) @ self.rotation)
 
     def project(self, points_m: Array) -> tuple[Array, Array]:
-        """Return pixels (N, 2) of points (N, 3) of the memory's frame, and their depths (N,)."""
+        """
+        Project points into the picture.
+
+        Parameters
+        ----------
+        points_m
+            The points (N, 3) in m, in the frame of the memory.
+
+        Returns
+        -------
+        tuple of Array
+            Their pixels (N, 2), column and row, and their depths (N,) in m along the optical axis.
+            Pixels of points behind the camera, whose depth is negative, mean nothing.
+
+        """
         x, y, depth = self.in_camera(points_m).T
         ahead = np.maximum(depth, 1e-6)
         columns = self.fx_px * x / ahead + self.cx_px
@@ -86,12 +108,28 @@ class View:
         return np.stack([columns, rows], axis=1), depth
 
     def range_to(self, point_m: Array) -> float:
-        """Return the distance of a point (3,) from the camera in m."""
+        """
+        Compute the distance in m of a point from the camera.
+
+        Parameters
+        ----------
+        point_m
+            The point (3,) in the frame of the memory.
+
+        """
         return float(np.linalg.norm(point_m - self.position_m))
 
 
 def corners_of(position_m: Array, size_m: Array, yaw_rad: float) -> Array:
-    """Return the corners (8, 3) of an upright box."""
+    """
+    Compute the corners (8, 3) in m of an upright box.
+
+    Parameters
+    ----------
+    position_m, size_m, yaw_rad
+        Its middle (3,), its sides (3,), and its turn about the z axis.
+
+    """
     signs = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
     return np.asarray(position_m + (0.5 * signs * size_m) @ _turn(yaw_rad).T)
 

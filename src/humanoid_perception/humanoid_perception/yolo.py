@@ -64,7 +64,15 @@ class Letterbox:
 
     @classmethod
     def of(cls, picture: tuple[int, int], size: tuple[int, int]) -> Letterbox:
-        """Fit a picture (height, width) into an input (height, width), in its middle."""
+        """
+        Fit a picture into the middle of the input of a network, with its proportions.
+
+        Parameters
+        ----------
+        picture, size
+            The sizes (height, width) in pixels of the picture and of the input.
+
+        """
         height_px, width_px = picture
         scale = min(size[0] / height_px, size[1] / width_px)
         scaled_width = max(1, round(width_px * scale))
@@ -74,7 +82,22 @@ class Letterbox:
         return cls(width_px, height_px, scaled_width, scaled_height, max(left, 0), max(top, 0))
 
     def apply(self, color: Color, size: tuple[int, int]) -> Color:
-        """Return the input (height, width, 3) of a picture; the bars are grey."""
+        """
+        Scale and pad a picture to the input of a network; the bars are grey.
+
+        Parameters
+        ----------
+        color
+            The picture (height, width, 3), of the size that the letterbox is for.
+        size
+            The size (height, width) in pixels of the input.
+
+        Returns
+        -------
+        Color
+            The input (height, width, 3); `color` itself if it has that size.
+
+        """
         scaled = (self.scaled_width_px, self.scaled_height_px)
         if (self.width_px, self.height_px) != scaled:
             resized = cv2.resize(color, scaled, interpolation=cv2.INTER_LINEAR)
@@ -88,7 +111,20 @@ class Letterbox:
         return padded
 
     def undo(self, boxes_px: Array) -> Array:
-        """Return boxes (n, 4) of the input as those of the picture, within its border."""
+        """
+        Transform boxes from the input of the network to the picture, and clip them to its border.
+
+        Parameters
+        ----------
+        boxes_px
+            Left, top, right and bottom of each box (n, 4), in pixels of the input.
+
+        Returns
+        -------
+        Array
+            The same in pixels of the picture (n, 4).
+
+        """
         scale_x = self.width_px / self.scaled_width_px
         scale_y = self.height_px / self.scaled_height_px
         shift = np.array([self.left_px, self.top_px] * 2, dtype=np.float32)
@@ -98,7 +134,24 @@ class Letterbox:
 
 
 def letterbox_size(picture: tuple[int, int], longest_px: int, stride_px: int) -> tuple[int, int]:
-    """Return the smallest input (height, width) with an edge of a length that fits a picture."""
+    """
+    Compute the smallest input size that fits a picture, for networks that take any size.
+
+    Parameters
+    ----------
+    picture
+        The size (height, width) in pixels of the picture.
+    longest_px
+        What the longer edge is scaled to.
+    stride_px
+        Of what number the edges of the input are multiples; they are rounded up.
+
+    Returns
+    -------
+    tuple of int
+        The size (height, width) in pixels of the input.
+
+    """
     scale = longest_px / max(picture)
     height, width = (
         max(stride_px, -(-round(edge * scale) // stride_px) * stride_px) for edge in picture
@@ -186,9 +239,19 @@ def _unfit(shape: Sequence[int], told: str) -> str:
 
 def candidates_in(output: npt.NDArray[Any], layout: str, confidence: float) -> Candidates:
     """
-    Return what an output proposes with a score of at least `confidence`.
+    Decode the output of a network to boxes with a score of at least `confidence`.
 
     What is not finite, and boxes without an area, are left out.
+
+    Parameters
+    ----------
+    output
+        The output, in the shape that the layout has: [1, ...].
+    layout
+        One of `LAYOUTS`, but not `AUTO`.
+    confidence
+        The least score, 0 to 1.
+
     """
     table = np.asarray(output[0], dtype=np.float32)
     if layout == END_TO_END:
@@ -222,10 +285,23 @@ def _best(
 
 def suppressed(found: Candidates, iou: float) -> Candidates:
     """
-    Return the best of boxes that overlap and have the same class, sorted by score.
+    Suppress duplicate boxes by greedy non-maximum suppression (NMS) within each class.
 
-    Greedy non-maximum suppression: a box is left out if its intersection over union with a
-    better one of its class is larger than `iou`.
+    A box is left out if its intersection over union with a better one of its class is larger than
+    `iou`.
+
+    Parameters
+    ----------
+    found
+        The boxes, in any order.
+    iou
+        The greatest intersection over union of boxes that are kept.
+
+    Returns
+    -------
+    Candidates
+        Those that are kept, of the best score first; at most 300.
+
     """
     order = np.argsort(-found.scores, kind='stable')[:_MOST_CANDIDATES]
     boxes, classes = found.boxes_px[order].astype(np.float64), found.classes[order]
@@ -248,6 +324,14 @@ def suppressed(found: Candidates, iou: float) -> Candidates:
 
 
 def box_of(row: Array) -> Box:
-    """Return a row of boxes as numbers."""
+    """
+    Convert a row of an array of boxes to a tuple of numbers.
+
+    Parameters
+    ----------
+    row
+        Left, top, right and bottom (4,) in pixels.
+
+    """
     left, top, right, bottom = (float(edge) for edge in row)
     return left, top, right, bottom

@@ -13,7 +13,29 @@ T = TypeVar('T')
 
 
 def named(kind: str, name: str, things: Mapping[str, T]) -> T:
-    """Return the thing of a name; an unknown name is refused with the names that there are."""
+    """
+    Look up an entry by name; an unknown name is rejected with a suggestion.
+
+    Parameters
+    ----------
+    kind
+        What is chosen, as the error calls it: `joint`, `scene`.
+    name
+        The name that was given, perhaps by a user.
+    things
+        The entries that can be chosen, by name.
+
+    Returns
+    -------
+    T
+        The entry of that name.
+
+    Raises
+    ------
+    SimulationError
+        There is no such entry; the text names the closest one, or all of them.
+
+    """
     if name in things:
         return things[name]
     known = ', '.join(f"'{other}'" for other in things) or 'none'

@@ -42,16 +42,38 @@ NOTHING = Bits(0, 0)
 
 
 def is_collision(geom: Any) -> bool:
-    """Tell whether a geom of a robot came from a collision element of its URDF."""
+    """
+    Whether a geom of a robot came from a collision element of its URDF.
+
+    Parameters
+    ----------
+    geom
+        A geom of a MuJoCo specification, as it was read from a URDF.
+
+    """
     return bool(geom.contype or geom.conaffinity)
 
 
 def robot_bits(link: str, number: int, self_collision: str) -> Bits:
     """
-    Return the bits of a link of a robot.
+    Compute the collision bits of a link of a robot.
 
-    :param link: its name, without a prefix
-    :param number: which robot it is; robots collide with each other with all that they have
+    Links always collide with the world and with other robots.
+
+    Parameters
+    ----------
+    link
+        Name of the link, without the prefix of the robot.
+    number
+        Index of the robot, from 0 to `MOST_ROBOTS` - 1.
+    self_collision
+        A key of `SELF_COLLISIONS`: which links of the robot collide with each other.
+
+    Returns
+    -------
+    Bits
+        For the geoms of the link that collide at all.
+
     """
     own = 1 << (_FIRST_ROBOT + number)
     bits = Bits(own, WORLD | (_ALL_ROBOTS & ~own))

@@ -14,7 +14,25 @@ from simulation_interfaces.msg import EntityState as EntityStateMessage
 
 
 def entity_state(message: EntityStateMessage) -> EntityState:
-    """Return the state that a message tells, without its frame and its accelerations."""
+    """
+    Convert a message to an EntityState, without its header and its accelerations.
+
+    Parameters
+    ----------
+    message
+        Pose and twist, both in the frame of its header.
+
+    Returns
+    -------
+    EntityState
+        In the frame of the header still; accelerations are zero.
+
+    Raises
+    ------
+    SimulationError
+        A number is not finite, or the quaternion has not the length 1.
+
+    """
     pose, twist = message.pose, message.twist
     q = pose.orientation
     return EntityState(
@@ -26,7 +44,15 @@ def entity_state(message: EntityStateMessage) -> EntityState:
 
 
 def contact_message(contact: Contact) -> ContactMessage:
-    """Return the message of a contact."""
+    """
+    Convert a contact to its message, in world axes as the contact is.
+
+    Parameters
+    ----------
+    contact
+        A contact of the simulated world.
+
+    """
     x, y, z = contact.position_m.tolist()
     return ContactMessage(
         body1=contact.body1,
@@ -38,7 +64,15 @@ def contact_message(contact: Contact) -> ContactMessage:
 
 
 def vector(message: Any) -> Array:
-    """Return the three numbers of a point or vector."""
+    """
+    Convert a geometry message with x, y and z to an array (3,).
+
+    Parameters
+    ----------
+    message
+        A `Point` or a `Vector3`.
+
+    """
     return np.array([message.x, message.y, message.z])
 
 

@@ -46,7 +46,15 @@ class Region:
     margin_m: float = 0.0
 
     def meets(self, low_m: Array, high_m: Array) -> bool:
-        """Tell whether another box along the axes of the world reaches into the region."""
+        """
+        Whether an axis-aligned box comes within the margin of the region.
+
+        Parameters
+        ----------
+        low_m, high_m
+            Lower and upper corner of the box (3,), in the world frame.
+
+        """
         gaps = np.maximum(np.maximum(self.low_m - high_m, low_m - self.high_m), 0.0)
         return bool(gaps @ gaps <= self.margin_m**2)
 
@@ -60,7 +68,15 @@ class Tags:
     """Whether one of them is not enough."""
 
     def match(self, tags: Sequence[str]) -> bool:
-        """Tell whether something with tags is wanted."""
+        """
+        Whether the tags of an entity satisfy the filter.
+
+        Parameters
+        ----------
+        tags
+            The tags that the entity has.
+
+        """
         found = [tag in tags for tag in self.tags]
         return not found or (all(found) if self.all_of_them else any(found))
 
@@ -85,7 +101,20 @@ class EntityCatalogue:
         self._changed: dict[str, Description] = {}
 
     def describe(self, entity: str) -> Description:
-        """Return what an entity is."""
+        """
+        Describe an entity: as `change` has set it, else from the scene and where it is now.
+
+        Parameters
+        ----------
+        entity
+            A name among the entities of the world.
+
+        Returns
+        -------
+        Description
+            Category, a text such as `a red mug, in the kitchen`, and tags: colour, class and room.
+
+        """
         if entity in self._changed:
             return self._changed[entity]
         scene = self._backend.scene
@@ -105,16 +134,52 @@ class EntityCatalogue:
         return Description(category, f'{article} {" ".join(words)}{where}', tags)
 
     def change(self, entity: str, description: Description) -> None:
-        """Say something else of an entity from now on."""
+        """
+        Override the description of an entity.
+
+        Parameters
+        ----------
+        entity
+            A name among the entities of the world.
+        description
+            What `describe` returns for it, until `forget`.
+
+        """
         self._changed[entity] = description
 
     def forget(self, entities: Sequence[str] | None = None) -> None:
-        """Say of some entities, by default all, what is known of them by themselves."""
+        """
+        Drop overridden descriptions.
+
+        Parameters
+        ----------
+        entities
+            Those that are described from the scene again; None is all of them.
+
+        """
         for entity in list(self._changed) if entities is None else entities:
             self._changed.pop(entity, None)
 
     def found(self, search: Search) -> list[str]:
-        """Return the names of what is searched for; raise SimulationError for a wrong pattern."""
+        """
+        Find the entities that match a filter.
+
+        Parameters
+        ----------
+        search
+            The filter.
+
+        Returns
+        -------
+        list of str
+            Names, in the order of the entities of the world.
+
+        Raises
+        ------
+        SimulationError
+            The pattern is no regular expression.
+
+        """
         try:
             pattern = re.compile(search.pattern) if search.pattern else None
         except re.error as error:

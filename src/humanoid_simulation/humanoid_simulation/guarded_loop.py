@@ -37,6 +37,19 @@ class GuardedLoop(ControlLoop):
         return self.backend.observe()
 
     def reset(self, keyframe: str = 'home') -> None:
-        """Put all robots where they began, in a posture that has a name; time goes on."""
+        """
+        Reset robots and brains, and end the standstill after an error; time goes on.
+
+        Parameters
+        ----------
+        keyframe
+            Name of the posture in which the robots begin again.
+
+        Raises
+        ------
+        SimulationError
+            There is no keyframe of that name; a standstill then lasts.
+
+        """
         super().reset(keyframe)
         self._has_failed = False

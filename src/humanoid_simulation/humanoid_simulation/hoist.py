@@ -88,9 +88,22 @@ class Hoist:
 
     def wrench(self, state: EntityState, passed_s: float) -> tuple[Array, Array]:
         """
-        Return force and torque (3,) in world axes on the origin of the base.
+        Compute the wrench on the base for the coming period, and advance the hoist.
 
-        :param passed_s: the time since the last call
+        The suspension point moves on, and the hoist goes over to its next phase when that is due.
+
+        Parameters
+        ----------
+        state
+            Pose and velocity of the base now, in the world frame.
+        passed_s
+            Simulated time since the last call.
+
+        Returns
+        -------
+        tuple[Array, Array]
+            Force in N and torque in N m (3,), in world axes, on the origin of the base.
+
         """
         self._elapsed_s += passed_s
         self._age_s += passed_s

@@ -24,7 +24,27 @@ class Keyframe:
     pitch_rad: float = 0.0
 
     def positions_rad(self, joints: Iterable[str], prefix: str = '') -> Array:
-        """Return the positions of joints; a keyframe that names an unknown one is refused."""
+        """
+        Arrange the joint positions of the keyframe in a given order of joints.
+
+        Parameters
+        ----------
+        joints
+            Names of the n joints, in the order of the result.
+        prefix
+            What these names begin with; the keyframe's own are without it.
+
+        Returns
+        -------
+        Array
+            Positions (n,) in rad, or m for a prismatic joint; zero if the keyframe sets none.
+
+        Raises
+        ------
+        SimulationError
+            The keyframe sets a joint that is not among them.
+
+        """
         numbers = {joint.removeprefix(prefix): index for index, joint in enumerate(joints)}
         positions = np.zeros(len(numbers))
         for name, position in self.joints_rad.items():

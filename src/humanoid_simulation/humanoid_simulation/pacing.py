@@ -36,23 +36,62 @@ class Pacer:
         return self._period_s / self._factor if self._factor else 0.0
 
     def change(self, factor: float, now_s: float) -> None:
-        """Change how fast the time of the world is to pass."""
+        """
+        Set the real-time factor, and begin to pace and to measure anew.
+
+        Parameters
+        ----------
+        factor
+            Simulated seconds in a real one; 0 is as fast as possible.
+        now_s
+            Time now, by a monotonic clock.
+
+        Raises
+        ------
+        SimulationError
+            The factor is below 0 or above 100.
+
+        """
         self._factor = _checked(factor)
         self.restart(now_s)
 
     def restart(self, now_s: float) -> None:
-        """Go on after a pause: what was missed meanwhile is not caught up with."""
+        """
+        Resume after a pause; what was missed meanwhile is not caught up with.
+
+        Parameters
+        ----------
+        now_s
+            Time now, by a monotonic clock, at which the next period is due.
+
+        """
         self._next_s = now_s
         self._window_start_s = now_s
         self._periods = 0
         self._reached: float | None = None
 
     def wait_s(self, now_s: float) -> float:
-        """Return for how long the next period is not due yet; zero if it is."""
+        """
+        Compute the real time in s until the next period is due; 0 if it is due.
+
+        Parameters
+        ----------
+        now_s
+            Time now, by a monotonic clock.
+
+        """
         return 0.0 if self._factor == 0.0 else max(0.0, self._next_s - now_s)
 
     def ticked(self, now_s: float) -> None:
-        """Take note that a period was computed."""
+        """
+        Schedule the next period after one was computed, and measure the real-time factor.
+
+        Parameters
+        ----------
+        now_s
+            Time now, by a monotonic clock.
+
+        """
         self._periods += 1
         if self._factor > 0.0:
             self._next_s = max(self._next_s + self._period_s / self._factor, now_s - MOST_LATE_S)

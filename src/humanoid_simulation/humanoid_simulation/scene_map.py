@@ -21,7 +21,20 @@ _UNKNOWN_GREY = 205
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Write the two files of a map; return 1 if that cannot be done."""
+    """
+    Write the occupancy map of a scene, as the command `scene_map`.
+
+    Parameters
+    ----------
+    argv
+        Arguments of the command line, without the program; None takes those of the process.
+
+    Returns
+    -------
+    int
+        Exit code: 0, 1 if the map cannot be drawn or written, or 130 after Ctrl-C.
+
+    """
     arguments = _parser().parse_args(argv)
     try:
         scene = load_scene(arguments.scene)
@@ -114,9 +127,27 @@ def _layer(arguments: argparse.Namespace) -> Layer:
 
 def write_map(drawn: OccupancyMap, stem: Path) -> tuple[Path, Path]:
     """
-    Write a map as .pgm and .yaml, and return their paths.
+    Write an occupancy map as .pgm and .yaml, the format of `map_server`.
 
-    Neither file is there before it is complete; the one that names the other comes last.
+    Each file appears complete or not at all; the .yaml, which names the .pgm, comes last.
+
+    Parameters
+    ----------
+    drawn
+        The map.
+    stem
+        Path of both files without a suffix; a suffix .yaml or .pgm is dropped.
+
+    Returns
+    -------
+    tuple[Path, Path]
+        The paths of the .pgm and of the .yaml.
+
+    Raises
+    ------
+    SimulationError
+        A file cannot be written.
+
     """
     stem = stem.with_suffix('') if stem.suffix in ('.yaml', '.pgm') else stem
     picture, table = stem.with_name(f'{stem.name}.pgm'), stem.with_name(f'{stem.name}.yaml')

@@ -27,7 +27,20 @@ _HEAD = """\
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Write the file; return 1 if that cannot be done."""
+    """
+    Write the named places of a scene, as the command `scene_places`.
+
+    Parameters
+    ----------
+    argv
+        Arguments of the command line, without the program; None takes those of the process.
+
+    Returns
+    -------
+    int
+        Exit code: 0, or 1 if the scene cannot be read or the file not written.
+
+    """
     parser = argparse.ArgumentParser(
         prog='scene_places',
         description='Write the surfaces and rooms of a scene as a file of named places, as if '
@@ -52,7 +65,22 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def places_text(scene: Scene) -> str:
-    """Return the text of the file, with centimetres as a tape measure gives them."""
+    """
+    Format the surfaces and rooms of a scene as a YAML file of named places.
+
+    Lengths are rounded to 1 cm, as a tape measure gives them.
+
+    Parameters
+    ----------
+    scene
+        The scene, whose origin is that of the frame `map`.
+
+    Returns
+    -------
+    str
+        Content of the file.
+
+    """
     surfaces = [
         f'  - {{name: {surface.name}, height: {surface.height_m:.2f}, '
         f'outline: {_corners(surface.outline_m)}{_depth(scene, surface)}'

@@ -27,7 +27,20 @@ class Refusal(SimulationError):
 
 @contextmanager
 def refusing(number: int) -> Iterator[None]:
-    """Let an error in a `with` block become a refusal with a number."""
+    """
+    Turn a SimulationError of a `with` block into a Refusal with a result code.
+
+    Parameters
+    ----------
+    number
+        The code: a constant of `Result`, or of the response of the service.
+
+    Raises
+    ------
+    Refusal
+        The block raised SimulationError; the text is the same.
+
+    """
     try:
         yield
     except SimulationError as error:
@@ -36,7 +49,20 @@ def refusing(number: int) -> Iterator[None]:
 
 @contextmanager
 def refusing_resource(response: Any) -> Iterator[None]:
-    """Let a resource that is at fault become a refusal with a constant of a response."""
+    """
+    Turn a ResourceError of a `with` block into a Refusal with its result code.
+
+    Parameters
+    ----------
+    response
+        Class of the response, which has the constant that `ResourceError.problem` names.
+
+    Raises
+    ------
+    Refusal
+        The block raised ResourceError; the text is the same.
+
+    """
     try:
         yield
     except ResourceError as error:
@@ -44,17 +70,51 @@ def refusing_resource(response: Any) -> Iterator[None]:
 
 
 def answering(do: Do) -> Callable[[Any, Any], Any]:
-    """Return the callback of a service, which never fails."""
+    """
+    Make a service callback that reports a SimulationError in the result of the response.
+
+    Parameters
+    ----------
+    do
+        Fills the response; on success the result is set to `RESULT_OK` after it.
+
+    Returns
+    -------
+    Callable
+        A callback for `Node.create_service`; other exceptions pass through it.
+
+    """
     return partial(_answer, do)
 
 
 def answering_later(do: Callable[[Any, Any], Awaitable[None]]) -> Callable[..., Awaitable[Any]]:
-    """Return the callback of a service that takes its time."""
+    """
+    Make an asynchronous service callback, which answers when a coroutine has ended.
+
+    Parameters
+    ----------
+    do
+        Coroutine function that fills the response, or raises SimulationError.
+
+    Returns
+    -------
+    Callable
+        A callback for `create_async_service`; as for `answering` otherwise.
+
+    """
     return partial(_answer_later, do)
 
 
 def failure(error: SimulationError) -> Result:
-    """Return the result that tells of an error."""
+    """
+    Make the Result message of an error.
+
+    Parameters
+    ----------
+    error
+        The error; the code is that of a Refusal, else `RESULT_OPERATION_FAILED`.
+
+    """
     number = getattr(error, 'result', Result.RESULT_OPERATION_FAILED)
     return Result(result=number, error_message=str(error))
 

@@ -29,9 +29,27 @@ def simulated_robots(
     parameters: SimulatorParameters, say: Callable[[str], None]
 ) -> SimulatedRobots:
     """
-    Return robots that stand in a scene, ready to walk.
+    Build the simulated world and a walking controller for each robot in it.
 
-    :param say: gets a sentence when a controller is at fault
+    Parameters
+    ----------
+    parameters
+        The parameters of the simulator node.
+    say
+        Called with a message when a controller is at fault.
+
+    Returns
+    -------
+    SimulatedRobots
+        The world, with all robots standing in the posture in which walking begins.
+
+    Raises
+    ------
+    DescriptionError
+        The model of the robot cannot be made.
+    SimulationError
+        The scene cannot be read, or such a world cannot be simulated.
+
     """
     description = humanoid(parameters.scale, parameters.prefix, parameters.hands)
     model = load_robot(description.urdf, 'the humanoid')

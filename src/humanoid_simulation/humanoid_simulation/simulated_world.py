@@ -83,21 +83,62 @@ class SimulatedWorld:
             raise SimulationError('The physics has failed; reset the simulation first.')
 
     def put(self, entity: str, state: EntityState) -> None:
-        """Put an entity somewhere; a robot begins anew there."""
+        """
+        Move an entity to a pose and a velocity; the controller of a robot is reset.
+
+        Parameters
+        ----------
+        entity
+            Name of an entity that can be moved; '' is the robot without a name.
+        state
+            Where it is to be, and how it is to move, in the world frame.
+
+        Raises
+        ------
+        SimulationError
+            There is no such entity, it is fixed, or the state is out of bounds.
+
+        """
         self.backend.set_entity_state(entity, state)
         for robot in self.backend.robots:
             if (robot or ALONE) == (entity or ALONE):
                 self._loop.begin_anew(robot)
 
     def pause(self, paused: bool) -> None:
-        """Stop the time, or let it go on."""
+        """
+        Pause or resume the simulation; steps that are still to be done are dropped.
+
+        Parameters
+        ----------
+        paused
+            Whether time stands still.
+
+        Raises
+        ------
+        SimulationError
+            It cannot resume: the physics has failed, and needs a reset.
+
+        """
         if not paused:
             self.refuse_after_failure()
         self._is_stopped, self._pause_is_wanted = False, paused
         self._host.pause(paused)
 
     def stop(self, keyframe: str = 'home') -> None:
-        """Put all where it began, and stop the time."""
+        """
+        Reset the world and pause it, in the state `STOPPED`.
+
+        Parameters
+        ----------
+        keyframe
+            Name of the posture in which the robots begin again.
+
+        Raises
+        ------
+        SimulationError
+            There is no keyframe of that name.
+
+        """
         self.reset(keyframe=keyframe)
         self.pause(True)
         self._is_stopped = True
@@ -125,19 +166,65 @@ class SimulatedWorld:
                 self._host.pause(self._pause_is_wanted)
 
     def load(self, scene: Scene, keyframe: str = 'home') -> None:
-        """Go on in another world, with all robots where they begin, and stop the time."""
+        """
+        Replace the scene by another one, with robots where they begin, and stop the time.
+
+        Parameters
+        ----------
+        scene
+            The new scene, to which later resets go back.
+        keyframe
+            Name of the posture in which the robots begin.
+
+        Raises
+        ------
+        SimulationError
+            No such world can be simulated, or there is no such keyframe.
+
+        """
         self.change_scene(scene)
         self.catalogue.forget()
         self._loaded = scene
         self.stop(keyframe)
 
     def change_scene(self, scene: Scene) -> None:
-        """Go on in a scene with other things; robots, and things that stay, do not notice it."""
+        """
+        Switch to a scene with other objects; robots and objects in both of them stay as they are.
+
+        Parameters
+        ----------
+        scene
+            The scene from now on, until a reset of what was spawned.
+
+        Raises
+        ------
+        SimulationError
+            No such world can be simulated; the one before goes on.
+
+        """
         self.backend.change_scene(scene)
         self._follow()
 
     def periods_of(self, steps: int) -> int:
-        """Return how many control periods some steps of physics take; refuse what cannot be."""
+        """
+        Convert physics steps to control periods, rounded up.
+
+        Parameters
+        ----------
+        steps
+            Number of physics steps, from 1 to `MOST_STEPS`.
+
+        Returns
+        -------
+        int
+            Number of control periods, for `step`.
+
+        Raises
+        ------
+        SimulationError
+            The simulation is not paused, its physics has failed, or the number is out of range.
+
+        """
         if not self._host.paused:
             raise SimulationError('The simulation runs. Pause it before you step it.')
         self.refuse_after_failure()
@@ -146,7 +233,20 @@ class SimulatedWorld:
         return math.ceil(steps / self._steps_per_period)
 
     async def step(self, periods: int) -> None:
-        """Let a paused world go on by control periods, and wait for their end."""
+        """
+        Advance the paused world by some control periods, and wait until they have passed.
+
+        Parameters
+        ----------
+        periods
+            Number of control periods, from `periods_of`.
+
+        Raises
+        ------
+        SimulationError
+            The physics failed meanwhile, or another request ended the steps.
+
+        """
         end_s = self.backend.time_s + (periods - 0.5) * self.backend.period_s
         done: Future = Future()
         self._is_stopped = False

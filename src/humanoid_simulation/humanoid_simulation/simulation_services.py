@@ -120,7 +120,15 @@ class SimulationServices:
             node.create_service(Trigger, topic(robot, 'stand_up'), stand_up)
 
     def change(self, parameters: SimulatorParameters) -> None:
-        """Let robots begin in another posture from the next reset on."""
+        """
+        Apply changed parameters: the posture in which robots begin after the next reset.
+
+        Parameters
+        ----------
+        parameters
+            The parameters of the simulator, of which `reset_keyframe` counts.
+
+        """
         self._keyframe = parameters.reset_keyframe
 
     def _tell_state(self, _: Any, response: GetSimulationState.Response) -> None:

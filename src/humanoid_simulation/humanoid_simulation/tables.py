@@ -25,15 +25,48 @@ class Place:
     """The way to it: `things[0].size`; empty is the whole file."""
 
     def of(self, key: str, line: int) -> Place:
-        """Return the place of a value inside of this one."""
+        """
+        Locate a value within this table.
+
+        Parameters
+        ----------
+        key
+            Name of the value.
+        line
+            Its line, from 1 on; 0 if that is not known, which gives the line of the table.
+
+        """
         return Place(self.file, line or self.line, f'{self.key}.{key}' if self.key else key)
 
     def item(self, number: int, line: int) -> Place:
-        """Return the place of an item of this list."""
+        """
+        Locate an item of this list.
+
+        Parameters
+        ----------
+        number
+            Index of the item, from 0 on.
+        line
+            Its line, from 1 on; 0 if that is not known, which gives the line of the list.
+
+        """
         return Place(self.file, line or self.line, f'{self.key}[{number}]')
 
     def error(self, sentence: str) -> TableError:
-        """Return the error that says what is wrong here."""
+        """
+        Make an error that names the file and the line.
+
+        Parameters
+        ----------
+        sentence
+            What is wrong there.
+
+        Returns
+        -------
+        TableError
+            To be raised by the caller.
+
+        """
         where = f'{self.file}, line {self.line}' if self.line else self.file
         return TableError(f'{where}: {sentence}')
 
@@ -60,11 +93,32 @@ class Table:
         return [str(name) for name in self._values]
 
     def has(self, name: str) -> bool:
-        """Tell whether a value is set."""
+        """
+        Whether a value is set, and not null.
+
+        Parameters
+        ----------
+        name
+            Name of the value.
+
+        """
         return self._values.get(name) is not None
 
     def allow(self, *names: str) -> None:
-        """Refuse a name that means nothing here."""
+        """
+        Check that the table sets nothing but known names.
+
+        Parameters
+        ----------
+        *names
+            All names that mean something in this table.
+
+        Raises
+        ------
+        TableError
+            It sets another one; the text suggests the closest that is known.
+
+        """
         for name in self.names:
             if name not in names:
                 hint = did_you_mean(name, names) or f'What can be set: {", ".join(names)}.'
@@ -73,14 +127,44 @@ class Table:
                 )
 
     def number(self, name: str, default: float | None = None) -> float:
-        """Return a finite number."""
+        """
+        Read a finite number, as a float.
+
+        Parameters
+        ----------
+        name
+            Name of the value.
+        default
+            What it is if the table does not set it; None if it must.
+
+        Raises
+        ------
+        TableError
+            It is missing, or is not a finite number.
+
+        """
         value = self._value(name, default)
         if not _is_number(value):
             raise self._wrong(name, 'a finite number', value)
         return float(value)
 
     def integer(self, name: str, default: int) -> int:
-        """Return a number that counts."""
+        """
+        Read a whole number that is not negative.
+
+        Parameters
+        ----------
+        name
+            Name of the value.
+        default
+            What it is if the table does not set it.
+
+        Raises
+        ------
+        TableError
+            It is something else.
+
+        """
         value = self._value(name, default)
         if isinstance(value, bool) or not isinstance(value, int) or value < 0:
             raise self._wrong(name, 'a whole number, not negative', value)
@@ -89,14 +173,48 @@ class Table:
     def vector(
         self, name: str, length: int, default: Sequence[float] | None = None
     ) -> tuple[float, ...]:
-        """Return a list of so many finite numbers."""
+        """
+        Read a list of finite numbers, as a tuple of floats.
+
+        Parameters
+        ----------
+        name
+            Name of the value.
+        length
+            How many numbers the list must have.
+        default
+            What it is if the table does not set it; None if it must.
+
+        Raises
+        ------
+        TableError
+            It is missing, or is no such list.
+
+        """
         value = self._value(name, default)
         if not _is_vector(value, length):
             raise self._wrong(name, f'a list of {length} finite numbers', value)
         return tuple(float(number) for number in value)
 
     def vectors(self, name: str, length: int, least: int) -> tuple[tuple[float, ...], ...]:
-        """Return a list of at least so many lists of finite numbers."""
+        """
+        Read a list of lists of finite numbers, such as the corners of an outline.
+
+        Parameters
+        ----------
+        name
+            Name of the value, which must be set.
+        length
+            How many numbers each of the inner lists must have.
+        least
+            How many inner lists there must be, or more.
+
+        Raises
+        ------
+        TableError
+            It is missing, or is no such list.
+
+        """
         values = self._value(name, None)
         if (
             not isinstance(values, list)
@@ -107,14 +225,46 @@ class Table:
         return tuple(tuple(float(number) for number in value) for value in values)
 
     def text(self, name: str, default: str | None = None) -> str:
-        """Return a text."""
+        """
+        Read a text; it may be empty only if the default is.
+
+        Parameters
+        ----------
+        name
+            Name of the value.
+        default
+            What it is if the table does not set it; None if it must.
+
+        Raises
+        ------
+        TableError
+            It is missing, empty, or no text.
+
+        """
         value = self._value(name, default)
         if not isinstance(value, str) or not (value or default == ''):
             raise self._wrong(name, 'a text', value)
         return value
 
     def choice(self, name: str, choices: Sequence[str], default: str | None = None) -> str:
-        """Return one of the texts that can be chosen."""
+        """
+        Read one of several texts.
+
+        Parameters
+        ----------
+        name
+            Name of the value.
+        choices
+            The texts that are allowed.
+        default
+            What it is if the table does not set it; None if it must.
+
+        Raises
+        ------
+        TableError
+            It is missing, or none of these; the text suggests the closest one.
+
+        """
         value = self.text(name, default)
         if value not in choices:
             hint = did_you_mean(value, choices)
@@ -125,15 +275,54 @@ class Table:
         return value
 
     def value(self, name: str) -> Any:
-        """Return a value as it stands in the file, or None."""
+        """
+        Look up a value as it stands in the file, unchecked; None if it is not set.
+
+        Parameters
+        ----------
+        name
+            Name of the value.
+
+        """
         return self._values.get(name)
 
     def table(self, name: str) -> Table:
-        """Return a table within this one; one that is not there is empty."""
+        """
+        Read a nested table; one that is not set is empty.
+
+        Parameters
+        ----------
+        name
+            Name of the nested table.
+
+        Raises
+        ------
+        TableError
+            The value is no table.
+
+        """
         return Table(self._values.get(name, {}), self.at(name))
 
     def tables(self, name: str) -> Iterator[Table]:
-        """Yield the tables of a list, which need not be there."""
+        """
+        Iterate over a list of tables; one that is not set is empty.
+
+        Parameters
+        ----------
+        name
+            Name of the list.
+
+        Yields
+        ------
+        Table
+            Each item, with its own place in the file.
+
+        Raises
+        ------
+        TableError
+            The value is no list, or an item no table.
+
+        """
         values = self._values.get(name, [])
         if not isinstance(values, list):
             raise self._wrong(name, 'a list', values)
@@ -142,11 +331,37 @@ class Table:
             yield Table(value, self.at(name).item(number, line))
 
     def at(self, name: str) -> Place:
-        """Return where a value stands."""
+        """
+        Locate a value of this table in its file.
+
+        Parameters
+        ----------
+        name
+            Name of the value.
+
+        """
         return self.place.of(name, self._lines.get(name, 0))
 
     def checked(self, make: Callable[[], T]) -> T:
-        """Return what is made of this table; what is refused gets the place of the table."""
+        """
+        Build an object from this table; an error gets the place of the table in its text.
+
+        Parameters
+        ----------
+        make
+            Builds the object from the values of the table.
+
+        Returns
+        -------
+        T
+            What `make` returns.
+
+        Raises
+        ------
+        TableError
+            It raised SimulationError; a TableError, which has a place already, stays as it is.
+
+        """
         try:
             return make()
         except TableError:
@@ -169,7 +384,22 @@ class Table:
 
 
 def load_table(path: Path) -> Table:
-    """Read a YAML file."""
+    """
+    Load a YAML file as a table.
+
+    Parameters
+    ----------
+    path
+        Path of the file.
+
+    Raises
+    ------
+    SimulationError
+        The file cannot be read.
+    TableError
+        It is no YAML in UTF-8, or has no table at the top.
+
+    """
     try:
         text = path.read_text(encoding='utf-8')
     except OSError as error:
@@ -180,7 +410,22 @@ def load_table(path: Path) -> Table:
 
 
 def table_of(text: str, source: str) -> Table:
-    """Read a YAML text; error messages call it by its source."""
+    """
+    Parse a YAML text as a table.
+
+    Parameters
+    ----------
+    text
+        Content of a file.
+    source
+        What error messages call it, such as the path of the file.
+
+    Raises
+    ------
+    TableError
+        It is no YAML, or has no table at the top.
+
+    """
     from humanoid_simulation.yaml_lines import read_lines
     import yaml
 

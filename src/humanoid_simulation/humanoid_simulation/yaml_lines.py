@@ -43,5 +43,23 @@ _Loader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _constru
 
 
 def read_lines(text: str) -> Any:
-    """Return the content of a YAML text; tables in it are `LinedTable`."""
+    """
+    Parse a YAML text, and keep the line numbers of tables and their values.
+
+    Parameters
+    ----------
+    text
+        The text.
+
+    Returns
+    -------
+    Any
+        Its content, in which each table is a `LinedTable`.
+
+    Raises
+    ------
+    YAMLError
+        It is no YAML, or has the same key twice in one table.
+
+    """
     return yaml.load(text, Loader=_Loader)  # noqa: S506 - it is a SafeLoader

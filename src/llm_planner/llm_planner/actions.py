@@ -82,7 +82,23 @@ class Actions:
         self._walking.begin_plan()
 
     def start(self, step: Step) -> SkillRun:
-        """Begin a step, with the defaults of what it does not say."""
+        """
+        Start the skill of a plan step.
+
+        What the skill announces at its start is said at once; all else happens while the result is
+        iterated.
+
+        Parameters
+        ----------
+        step
+            A step that was checked. Arguments that it leaves out get the defaults of the skill.
+
+        Returns
+        -------
+        SkillRun
+            The running skill: to be advanced once per tick, and closed to cancel it.
+
+        """
         skill = self._skills[step.skill]
         arguments = {name: each.default for name, each in skill.arguments.items()}
         arguments.update(step.arguments)

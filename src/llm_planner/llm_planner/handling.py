@@ -28,12 +28,38 @@ class Handling:
         self._robot, self._watch, self._recall = robot, watch, recall
 
     def pick(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
-        """Take a thing into a hand."""
+        """
+        Pick up an object by the action `pick`.
+
+        Parameters
+        ----------
+        object
+            Which one: the best remembered object that fits is taken.
+
+        Raises
+        ------
+        SkillError
+            No remembered object fits, or the action does not succeed.
+
+        """
         thing = self._recall.thing(object)
         yield from self._robot.act(Pick, 'pick', Pick.Goal(object=thing.object_id))
 
     def place(self, place: str) -> SkillRun:
-        """Put down what a hand holds; on what is nearest, if the place has no surface."""
+        """
+        Put down what a hand holds by the action `place`.
+
+        Parameters
+        ----------
+        place
+            The name of a surface; for a room or an empty name, the nearest surface is taken.
+
+        Raises
+        ------
+        SkillError
+            The action does not succeed.
+
+        """
         surface = self._watch.surface(place) if place else None
         name = surface.name if surface is not None else ''
         yield from self._robot.act(Place, 'place', Place.Goal(place=name))

@@ -44,7 +44,17 @@ class PlannerHealth:
     error_at_s: float = 0.0
 
     def fail(self, error: str, now_s: float) -> None:
-        """Take note that the model has failed, so that the rules planned instead."""
+        """
+        Record a failure of the language model, after which the rules plan instead.
+
+        Parameters
+        ----------
+        error
+            Why it failed, as a sentence.
+        now_s
+            When it failed, by the clock of `status`.
+
+        """
         self.error, self.error_at_s = error, now_s
 
     def status(self, now_s: float, *, has_executor: bool) -> PartStatus:

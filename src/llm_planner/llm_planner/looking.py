@@ -42,7 +42,20 @@ class Looking:
         self._searched_s: dict[str, float] = {}
 
     def look_at(self, target: Any) -> SkillRun:
-        """Turn the head towards a thing or a place, and the body too if that is behind."""
+        """
+        Turn the head towards an object or a place, and the body too if that is behind.
+
+        Parameters
+        ----------
+        target
+            An `ObjectDescription`, or the name of a surface or room.
+
+        Raises
+        ------
+        SkillError
+            No remembered object fits, or the head cannot be turned there.
+
+        """
         position_m = self._recall.position(target)
         what = in_words(target) if isinstance(target, str) else target.text
         yield from self._walking.face(position_m)
@@ -55,7 +68,18 @@ class Looking:
         yield from self._robot.act(PointHead, 'look_at', goal, otherwise)
 
     def glance_at(self, position_m: tuple[float, float, float]) -> SkillRun:
-        """Look at something for a moment if that is possible; what fails does not matter."""
+        """
+        Look at a point for 2 s if that is possible, and ignore failures.
+
+        It is skipped if the point is more than 4 m away, the pose of the robot is unknown, or
+        nothing offers the action `look_at`.
+
+        Parameters
+        ----------
+        position_m
+            The point (3,) in the map frame.
+
+        """
         pose = self._watch.pose()
         if pose is None or math.dist(pose[:2], position_m[:2]) > _SEEN_FROM_M:
             return
@@ -73,7 +97,21 @@ class Looking:
         yield from self._robot.act(ScanRoom, 'scan_room', ScanRoom.Goal(turn_body=True))
 
     def look_over(self, place: str) -> SkillRun:
-        """Look at all that is at a place, from where the robot stands."""
+        """
+        Look at every surface of a piece of furniture, from where the robot stands.
+
+        Parameters
+        ----------
+        place
+            The base name of surfaces, such as `shelf`. With any other name, such as that of a
+            room, the robot looks around instead.
+
+        Raises
+        ------
+        SkillError
+            The robot cannot look around.
+
+        """
         surfaces = [each for each in self._watch.places.surfaces if base_name(each.name) == place]
         if surfaces:
             yield from self._look_upon(surfaces)
@@ -81,7 +119,20 @@ class Looking:
             yield from self.look_around()
 
     def find(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
-        """Look for a thing, from one place after another."""
+        """
+        Search for an object, from one place after another, and say where it is.
+
+        Parameters
+        ----------
+        object
+            Which one; the object that is found is the one meant for the rest of the plan.
+
+        Raises
+        ------
+        SkillError
+            The object was not found, or an action that the search needs is not running.
+
+        """
         looked: list[str] = []
         for search in self._searches(object, looked):
             try:

@@ -16,7 +16,20 @@ Answer = tuple[int, Any]
 
 
 def says(content: Any) -> Answer:
-    """Return the answer of a model that writes something."""
+    """
+    Build the answer of a model that writes something.
+
+    Parameters
+    ----------
+    content
+        What it writes: a text, or an object, which becomes JSON.
+
+    Returns
+    -------
+    Answer
+        Status 200, and a chat completion with one choice, as the API of OpenAI has it.
+
+    """
     text = content if isinstance(content, str) else json.dumps(content)
     return 200, {'choices': [{'message': {'role': 'assistant', 'content': text}}]}
 
@@ -32,7 +45,15 @@ class ModelStub:
         self.url = ''
 
     def answer(self, request: dict[str, Any]) -> Answer:
-        """Return the next answer; the last one again and again."""
+        """
+        Record a request, and return the next answer; the last one is repeated.
+
+        Parameters
+        ----------
+        request
+            The body of the request, decoded from JSON; an answer may be a function of it.
+
+        """
         self.asked.append(request)
         given = self.answers.pop(0) if len(self.answers) > 1 else self.answers[0]
         return given(request) if callable(given) else given
@@ -40,7 +61,20 @@ class ModelStub:
 
 @contextmanager
 def serving(stub: ModelStub) -> Iterator[ModelStub]:
-    """Serve on a free port of this machine, whose address the stub then has."""
+    """
+    Serve the answers of a stub by HTTP on a free port of 127.0.0.1.
+
+    Parameters
+    ----------
+    stub
+        What answers; its `url` is set.
+
+    Yields
+    ------
+    ModelStub
+        The same stub, while the server runs.
+
+    """
     over = threading.Event()
 
     class Handler(BaseHTTPRequestHandler):

@@ -65,7 +65,20 @@ Phrase = Word | Series | Choice | Option | Slot
 
 
 def part_of(phrase: Phrase) -> Iterator[Phrase]:
-    """Yield a phrase and all that it consists of."""
+    """
+    Traverse a phrase and all its parts, each before its own parts.
+
+    Parameters
+    ----------
+    phrase
+        The root of the tree.
+
+    Yields
+    ------
+    Phrase
+        The phrase itself first.
+
+    """
     yield phrase
     parts: tuple[Phrase, ...] = ()
     if isinstance(phrase, Option):
@@ -101,7 +114,17 @@ def with_rules(phrase: Phrase, rules: Mapping[str, str]) -> Phrase:
 
 def parse_phrase(text: str) -> Phrase:
     """
-    Read a phrase.
+    Parse a phrase.
+
+    Parameters
+    ----------
+    text
+        The phrase in the notation of this module.
+
+    Returns
+    -------
+    Phrase
+        Its tree; the rule of each slot has the name of the slot.
 
     Raises
     ------

@@ -74,7 +74,15 @@ def plan_of(message: PlanMessage, planner: RulePlanner, world: World) -> Plan:
 
 
 def failure_of(result: ExecutePlan.Result) -> Failure:
-    """Return how a plan failed that was aborted, of the result of its action."""
+    """
+    Convert the result of an aborted plan to a `Failure`.
+
+    Parameters
+    ----------
+    result
+        The result of `execute_plan`; an error code that is not known becomes `UNKNOWN`.
+
+    """
     kind = type(result)
     code = next((each for each in _CODES if getattr(kind, each) == result.error_code), 'UNKNOWN')
     return Failure(code, result.failed_step, result.error_msg)

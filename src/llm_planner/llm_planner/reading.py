@@ -51,7 +51,26 @@ class Reading:
         self._command = ''
 
     def read(self, clause: Clause, command: str) -> None:
-        """Add the steps of a clause."""
+        """
+        Append the steps of a clause to `steps`. Call once per clause, in their order.
+
+        Parameters
+        ----------
+        clause
+            The clause.
+        command
+            The whole sentence, which is planned anew when a question about it was answered.
+
+        Raises
+        ------
+        AskFirstError
+            Several objects or places fit.
+        UnavailableError
+            Several objects fit, and the skill cannot be done with any of them now.
+        PlanError
+            A pronoun refers to nothing.
+
+        """
         self._command = command
         skill, bindings = clause.skill, dict(clause.bindings)
         arguments: dict[str, Any] = {}
@@ -72,7 +91,27 @@ class Reading:
             self._add(Step(step.skill, values))
 
     def described_object(self, bindings: Bindings) -> ObjectDescription:
-        """Return the object that the rule `object` was read as."""
+        """
+        Build the description of an object from the bindings of the rule `object`.
+
+        Parameters
+        ----------
+        bindings
+            What the slots of the rule stand for.
+
+        Returns
+        -------
+        ObjectDescription
+            For a pronoun, the object that was spoken of last.
+
+        Raises
+        ------
+        PlanError
+            A pronoun refers to nothing.
+        AskFirstError
+            Several places fit.
+
+        """
         said: dict[str, Any] = dict(bindings)
         if 'pronoun' in said:
             if self.last_object is not None:

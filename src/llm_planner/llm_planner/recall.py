@@ -50,7 +50,20 @@ class Recall:
         self._found[described] = thing.object_id
 
     def remembered(self, described: ObjectDescription) -> Thing | None:
-        """Return the thing that is meant; None if there is none."""
+        """
+        Find the remembered object that a description means.
+
+        Parameters
+        ----------
+        described
+            The description. What `take_found` has set for it comes first, then what fits best.
+
+        Returns
+        -------
+        Thing or None
+            None if no remembered object fits.
+
+        """
         things = self._watch.things
         known = self._found.get(described)
         found = next((each for each in things if each.object_id == known), None)
@@ -61,7 +74,20 @@ class Recall:
         return found
 
     def thing(self, described: ObjectDescription) -> Thing:
-        """Return the thing that is meant; SkillError if there is none."""
+        """
+        Find the remembered object that a description means, or fail.
+
+        Parameters
+        ----------
+        described
+            The description; see `remembered`.
+
+        Raises
+        ------
+        SkillError
+            No remembered object fits.
+
+        """
         thing = self.remembered(described)
         if thing is None:
             text = f'I do not remember {described.text}.'
@@ -71,7 +97,26 @@ class Recall:
         return thing
 
     def position(self, target: Any) -> tuple[float, float, float]:
-        """Return where a thing or a place is in the map (m); SkillError for an unknown thing."""
+        """
+        Look up the position of an object or a place.
+
+        Parameters
+        ----------
+        target
+            An `ObjectDescription`, or the name of a surface or room that there is.
+
+        Returns
+        -------
+        tuple
+            The position (3,) in the map frame in m: the centre of an object, the middle of a
+            surface, or 1 m above the floor in the middle of a room.
+
+        Raises
+        ------
+        SkillError
+            No remembered object fits.
+
+        """
         if isinstance(target, ObjectDescription):
             return self.thing(target).position_m
         if surface := self._watch.surface(target):

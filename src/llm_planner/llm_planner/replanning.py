@@ -151,7 +151,15 @@ class Recovery:
         self.replans = 0
 
     def fail(self, failure: Failure) -> None:
-        """Take note of how the plan failed that was made last."""
+        """
+        Record how the newest plan has failed.
+
+        Parameters
+        ----------
+        failure
+            The error code, the step that failed, and the reason.
+
+        """
         self._failure = failure
         self._tried.append(self._plan.steps)
         if failure.step >= 0:
@@ -160,7 +168,20 @@ class Recovery:
             self._tried.append(self._plan.steps[at:])
 
     def may_go_on(self, world: World) -> bool:
-        """Return whether another plan may be made after what has failed."""
+        """
+        Check whether another plan may be made after the failure.
+
+        Parameters
+        ----------
+        world
+            What is known now.
+
+        Returns
+        -------
+        bool
+            False after a final error or `MOST_REPLANS` new plans, and while the robot cannot walk.
+
+        """
         return (
             self._failure.code in _CURABLE
             and 0 <= self._failure.step < len(self._plan.steps)
@@ -174,14 +195,42 @@ class Recovery:
         return Account(self._in_words(self._done), failed, self._failure.text)
 
     def by_rules(self, world: World) -> Remedy | None:
-        """Return what the rules try; None if that is nothing, or may not be done."""
+        """
+        Find a remedy by the rules.
+
+        Parameters
+        ----------
+        world
+            What is known now.
+
+        Returns
+        -------
+        Remedy or None
+            None if the step took too long, the rules know of nothing, or it may not be done.
+
+        """
         if self._failure.code != 'FAILED':
             return None
         found = remedy_for(self._plan.steps, self._failure.step, self._skills, world)
         return found if found is None or self._may_be_done(found.steps, world) else None
 
     def by_model(self, plan: Plan, world: World) -> Remedy | None:
-        """Return what a model wants to try; None if that was tried, or may not be done."""
+        """
+        Build a remedy from the new plan of a language model.
+
+        Parameters
+        ----------
+        plan
+            What the model answered; if all steps that were done come first, they are left out.
+        world
+            What is known now.
+
+        Returns
+        -------
+        Remedy or None
+            None if the steps were tried already, may not be done, or there are none.
+
+        """
         steps = plan.steps
         count = len(self._done)
         if count and steps[:count] == self._done:
@@ -192,7 +241,20 @@ class Recovery:
         return Remedy(steps, text, plan.source)
 
     def take(self, remedy: Remedy) -> Plan:
-        """Return the plan of a remedy, which is the next that is done."""
+        """
+        Turn a remedy into the next plan, and count it.
+
+        Parameters
+        ----------
+        remedy
+            What is tried next; it has steps.
+
+        Returns
+        -------
+        Plan
+            The plan, for the same command; `fail` and `account` refer to it from now on.
+
+        """
         self.replans += 1
         self._plan = Plan(self._plan.command, remedy.steps, remedy.source)
         return self._plan

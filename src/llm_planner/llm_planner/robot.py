@@ -54,12 +54,28 @@ class Robot:
         return float(self._node.get_clock().now().nanoseconds) * 1e-9
 
     def say(self, text: str) -> None:
-        """Say a text, and take note of it."""
+        """
+        Publish a text on `speech/say`, and record it in `said`.
+
+        Parameters
+        ----------
+        text
+            A sentence for the people around the robot.
+
+        """
         self.said.append(text)
         self._say.publish(String(data=text))
 
     def sleep(self, duration_s: float) -> SkillRun:
-        """Wait for a time in s."""
+        """
+        Wait for a duration, by the clock of the node.
+
+        Parameters
+        ----------
+        duration_s
+            How long; the wait also ends if the clock is set back to before it began.
+
+        """
         begin_s = self.now_s()
         while begin_s <= self.now_s() < begin_s + duration_s:
             yield

@@ -166,7 +166,15 @@ class Robot(Node):
         await self._see(goal, [each for each in self._remembered if each.id not in gone])
 
     def move_to(self, x_m: float, y_m: float) -> None:
-        """Be somewhere else in the map."""
+        """
+        Publish a pose of the robot in the map, with a yaw of zero.
+
+        Parameters
+        ----------
+        x_m, y_m
+            Where `base_footprint` is in the map frame.
+
+        """
         here = TransformStamped(child_frame_id='base_footprint')
         here.header.frame_id = 'map'
         here.transform.translation.x, here.transform.translation.y = x_m, y_m
@@ -174,12 +182,33 @@ class Robot(Node):
         self._transforms.sendTransform(here)
 
     def remember(self, things: Sequence[Detection3D]) -> None:
-        """Publish what is remembered."""
+        """
+        Publish remembered objects on `objects`.
+
+        Parameters
+        ----------
+        things
+            All objects; those of before are forgotten.
+
+        """
         self._remembered = list(things)
         self.objects.publish(Detection3DArray(detections=things))
 
     def heard(self, *texts: str) -> Callable[[], bool]:
-        """Return a function that tells whether all of some texts were said, in their order."""
+        """
+        Build a predicate that tells whether some texts were said, in their order.
+
+        Parameters
+        ----------
+        *texts
+            Parts of utterances, each of a separate one.
+
+        Returns
+        -------
+        Callable
+            The predicate, for all that was said since the node was made.
+
+        """
 
         def were_said() -> bool:
             said = iter(self.said)

@@ -100,12 +100,19 @@ class RulePlanner:
 
     def object_of(self, text: str, world: World) -> ObjectDescription:
         """
-        Return the object that a text describes: `the red mug on the desk`.
+        Parse the description of an object: `the red mug on the desk`.
+
+        Parameters
+        ----------
+        text
+            The description; a pronoun is none.
+        world
+            What is known: the names of places are from there.
 
         Raises
         ------
         PlanError
-            It describes none.
+            The text describes no object, or several places fit.
 
         """
         grammar, _, _ = self._grammar(world)
@@ -116,7 +123,20 @@ class RulePlanner:
         raise PlanError(f"I do not know what '{shortened(text)}' is.")
 
     def to_jsgf(self, world: World) -> str:
-        """Return the grammar of what can be said now, for a speech recogniser, as JSGF."""
+        """
+        Write the grammar of all commands for a speech recogniser.
+
+        Parameters
+        ----------
+        world
+            The places that can be named.
+
+        Returns
+        -------
+        str
+            A grammar in JSGF 1.0 with the public rule `<command>`, and with examples of commands.
+
+        """
         grammar, _, _ = self._grammar(world)
         phrases: dict[str, Phrase] = {}
         for number, (skill, saying) in enumerate(self._sayings):
@@ -129,7 +149,15 @@ class RulePlanner:
         return grammar.to_jsgf('robot', command, phrases, examples)
 
     def is_stop(self, text: str) -> bool:
-        """Return whether a sentence says no more than to stop, once or again and again."""
+        """
+        Check whether a sentence only tells the robot to stop, once or repeatedly.
+
+        Parameters
+        ----------
+        text
+            What was said or typed.
+
+        """
         grammar, _, _ = self._grammar(World())
         tokens = [each for each in tokenized(text) if each != ',']
         sayings = self.skills['stop'].sayings if 'stop' in self.skills.skills else ()

@@ -186,7 +186,20 @@ class SkillExecutor(Node):
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run the node."""
+    """
+    Run the node `skill_executor`.
+
+    Parameters
+    ----------
+    args
+        The command line with its ROS arguments; None for that of the process.
+
+    Returns
+    -------
+    int
+        The exit status: 1 if the node cannot start, else 0.
+
+    """
     return run_node(SkillExecutor, args)
 
 

@@ -130,7 +130,20 @@ class Skills:
         return iter(self.skills.values())
 
     def simple(self, name: str) -> frozenset[str]:
-        """Return the names of the skills that one finally consists of; itself if it is simple."""
+        """
+        Resolve a skill into the simple skills that it consists of.
+
+        Parameters
+        ----------
+        name
+            The name of a skill.
+
+        Returns
+        -------
+        frozenset of str
+            Their names; only its own if it is simple.
+
+        """
         steps = self.skills[name].steps
         if not steps:
             return frozenset((name,))

@@ -45,7 +45,15 @@ class SkillsError(Exception):
 
 
 def skills_path(given: str = '') -> Path:
-    """Return the path of a file of skills: the one that is given, or that of this package."""
+    """
+    Locate the file of skills.
+
+    Parameters
+    ----------
+    given
+        A path, which may begin with `~`; empty for the file of this package.
+
+    """
     if given:
         return Path(given).expanduser()
     return Path(get_package_share_directory('llm_planner')) / 'config' / 'skills.yaml'

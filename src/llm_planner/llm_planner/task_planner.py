@@ -392,7 +392,20 @@ class TaskPlanner(Node):
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run the node."""
+    """
+    Run the node `task_planner`.
+
+    Parameters
+    ----------
+    args
+        The command line with its ROS arguments; None for that of the process.
+
+    Returns
+    -------
+    int
+        The exit status: 1 if the node cannot start, else 0.
+
+    """
     return run_node(TaskPlanner, args)
 
 

@@ -48,7 +48,20 @@ class Telling:
         self._walking, self._looking = walking, looking
 
     def where(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
-        """Say where a thing is."""
+        """
+        Say where an object is.
+
+        Parameters
+        ----------
+        object
+            Which one; it may be what a hand holds.
+
+        Raises
+        ------
+        SkillError
+            No remembered object fits.
+
+        """
         if object.names(self._watch.holding):
             self._robot.say(f'I hold the {self._watch.holding}.')
             return
@@ -58,14 +71,35 @@ class Telling:
         yield
 
     def identify(self, object: ObjectDescription) -> SkillRun:  # noqa: A002
-        """Say which thing is meant."""
+        """
+        Say which object is meant, and where it is.
+
+        Parameters
+        ----------
+        object
+            Which one.
+
+        Raises
+        ------
+        SkillError
+            No remembered object fits.
+
+        """
         thing = self._recall.thing(object)
         self._robot.say(f'It is {with_article(thing.name)}{where_is(thing)}.')
         return
         yield
 
     def tell_count(self, objects: ObjectDescription) -> SkillRun:
-        """Say how many things there are."""
+        """
+        Say how many remembered objects fit a description.
+
+        Parameters
+        ----------
+        objects
+            Which ones.
+
+        """
         count = len(objects.among(self._watch.things))
         one = ObjectDescription(
             objects.class_id, objects.colour, '', objects.place, is_inside=objects.is_inside

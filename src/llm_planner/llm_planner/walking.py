@@ -54,7 +54,21 @@ class Walking:
         self._missed.clear()
 
     def go_to(self, target: Any) -> SkillRun:
-        """Walk to a place, or up to a thing."""
+        """
+        Walk to a place, or up to an object.
+
+        Parameters
+        ----------
+        target
+            An `ObjectDescription`, or the name of a surface or room; in that room already, the
+            robot stays where it is.
+
+        Raises
+        ------
+        SkillError
+            No remembered object fits, there is no path, or navigation does not succeed.
+
+        """
         if isinstance(target, ObjectDescription):
             stands = self._stands_at(self._recall.thing(target))
         else:
@@ -73,7 +87,20 @@ class Walking:
         )
 
     def follow_path(self, places: Sequence[str]) -> SkillRun:
-        """Walk through places."""
+        """
+        Walk through several places by the action `follow_waypoints`.
+
+        Parameters
+        ----------
+        places
+            The names of surfaces or rooms, in order.
+
+        Raises
+        ------
+        SkillError
+            There is no free floor at a place, or the robot did not reach one.
+
+        """
         poses = []
         for place in places:
             stands = self._stands_at_place(place)
@@ -122,7 +149,20 @@ class Walking:
         yield from self.spin(sign * math.radians(angle))
 
     def spin(self, angle_rad: float) -> SkillRun:
-        """Turn to the left by an angle."""
+        """
+        Turn on the spot by an angle.
+
+        Parameters
+        ----------
+        angle_rad
+            How far; positive turns to the left.
+
+        Raises
+        ------
+        SkillError
+            The action `spin` does not succeed.
+
+        """
         goal = Spin.Goal(target_yaw=angle_rad, time_allowance=Duration(seconds=60.0).to_msg())
         yield from self._robot.act(Spin, 'spin', goal)
 
@@ -165,7 +205,23 @@ class Walking:
         raise SkillError(f'I do not find a way to {what}. {reason}')
 
     def face(self, position_m: Sequence[float]) -> SkillRun:
-        """Turn the body towards something that the head alone cannot look at."""
+        """
+        Turn the body towards a point that the head alone cannot look at.
+
+        Nothing happens if the point is less than 0.9 rad aside, the pose of the robot is unknown,
+        or it cannot turn now.
+
+        Parameters
+        ----------
+        position_m
+            The point in the map frame, of which x and y count.
+
+        Raises
+        ------
+        SkillError
+            The turn does not succeed.
+
+        """
         pose = self._watch.pose()
         if pose is None or self._watch.lacks('turn'):
             return

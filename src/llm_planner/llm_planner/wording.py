@@ -14,23 +14,65 @@ NUMBERS = ('no', 'one', 'two', 'three', 'four', 'five', 'six', 'seven', 'eight',
 
 
 def where_is(thing: Thing) -> str:
-    """Return where a thing is, in words that follow others; empty if that has no name."""
+    """
+    Describe where an object is, in words that follow its name.
+
+    Parameters
+    ----------
+    thing
+        The object.
+
+    Returns
+    -------
+    str
+        ` on the desk` or ` in the hall`; empty if neither surface nor room is known.
+
+    """
     on = f' on the {in_words(thing.place)}' if thing.place else ''
     return on or (f' in the {in_words(thing.room)}' if thing.room else '')
 
 
 def with_article(name: str) -> str:
-    """Return a name with its article: an apple."""
+    """
+    Put the indefinite article before a name: an apple.
+
+    Parameters
+    ----------
+    name
+        Such as `apple` or `red mug`.
+
+    """
     return f'{"an" if name[:1] in "aeiou" else "a"} {name}'
 
 
 def capital(text: str) -> str:
-    """Return a text that begins with a capital letter."""
+    """
+    Capitalise the first letter of a text.
+
+    Parameters
+    ----------
+    text
+        The text; the rest of it stays as it is.
+
+    """
     return text[:1].upper() + text[1:]
 
 
 def enumerated(things: Sequence[Thing]) -> str:
-    """Return things as people list them: a red mug and two books; empty for none."""
+    """
+    List objects in words: a red mug and two books.
+
+    Parameters
+    ----------
+    things
+        The objects; those with the same name are counted.
+
+    Returns
+    -------
+    str
+        The list; empty for no objects.
+
+    """
     counts: Mapping[str, int] = Counter(each.name or ANYTHING for each in things)
     names = []
     for name, count in counts.items():

@@ -90,14 +90,30 @@ class ObjectDescription:
         return ' '.join(filter(None, words))
 
     def names(self, name: str) -> bool:
-        """Return whether a thing with a name, such as `red mug`, can be meant, wherever it is."""
+        """
+        Check whether an object with a name can be meant, wherever it is.
+
+        Parameters
+        ----------
+        name
+            A class, or a colour and a class, such as `red mug`.
+
+        """
         words = name.split()
         return (
             bool(words) and self.class_id in (ANYTHING, words[-1]) and self.colour in ('', *words)
         )
 
     def fits(self, thing: Thing) -> bool:
-        """Return whether a thing can be meant, whatever `which` says."""
+        """
+        Check whether an object can be meant, whatever `which` says.
+
+        Parameters
+        ----------
+        thing
+            A remembered object. If the description has an `object_id`, nothing else counts.
+
+        """
         if self.object_id:
             return thing.object_id == self.object_id
         return (
@@ -171,12 +187,33 @@ class World:
 
 
 def base_name(place: str) -> str:
-    """Return the name of a piece of furniture of which a surface is one board: `shelf/1`."""
+    """
+    Strip the board from the name of a surface: `shelf` of `shelf/1`.
+
+    Parameters
+    ----------
+    place
+        The name of a surface or room.
+
+    Returns
+    -------
+    str
+        The name of the piece of furniture; a name without a board as it is.
+
+    """
     return place.partition('/')[0]
 
 
 def in_words(name: str) -> str:
-    """Return a name as it is said: `kitchen_table` is the kitchen table."""
+    """
+    Spell a name as it is said: `kitchen_table` as kitchen table, `shelf/1` as shelf.
+
+    Parameters
+    ----------
+    name
+        The name of a place, or the class of an object.
+
+    """
     return base_name(name).replace('_', ' ')
 
 

@@ -80,7 +80,20 @@ class WorldWatch:
         return next(iter(self._held.values()), '')
 
     def held_by(self, side: str) -> str:
-        """Return the name of what the left or the right hand holds; empty if nothing."""
+        """
+        Look up what a hand holds.
+
+        Parameters
+        ----------
+        side
+            `left` or `right`.
+
+        Returns
+        -------
+        str
+            The name of the object, such as `red mug`; empty if there is none.
+
+        """
         return self._held.get(side, '')
 
     @property
@@ -89,7 +102,20 @@ class WorldWatch:
         return self._inhibition.reason
 
     def arm_joints(self, side: str) -> list[str]:
-        """Return the joints of an arm that a goal of its controller names, from the shoulder."""
+        """
+        List the joints of an arm that a goal of its trajectory controller names.
+
+        Parameters
+        ----------
+        side
+            `left` or `right`.
+
+        Returns
+        -------
+        list of str
+            The names, from the shoulder down: four, or six for an arm with a hand.
+
+        """
         wrist = [joint for joint in _WRIST if f'"{side}_{joint}"' in self._model]
         return [f'{side}_{joint}' for joint in (*_ARM, *wrist)]
 
@@ -113,7 +139,20 @@ class WorldWatch:
         )
 
     def lack(self, skill: Skill) -> str:
-        """Return why a skill cannot be done now; nothing if it can."""
+        """
+        Explain why a skill cannot be done now.
+
+        Parameters
+        ----------
+        skill
+            The skill. One that consists of others lacks nothing itself.
+
+        Returns
+        -------
+        str
+            The reason, as a sentence; empty if the skill can be done.
+
+        """
         if skill.steps:
             return ''
         if skill.name not in self._implemented:
@@ -126,16 +165,50 @@ class WorldWatch:
         return skill.without or f"I cannot do that, as '{skill.server}' is not running."
 
     def lacks(self, name: str) -> bool:
-        """Return whether the skill of a name cannot be done now."""
+        """
+        Check whether a skill cannot be done now.
+
+        Parameters
+        ----------
+        name
+            The name of the skill.
+
+        """
         return bool(self.lack(self._skills[name]))
 
     def surface(self, name: str) -> Surface | None:
-        """Return the first board of a piece of furniture; None if nothing has that name."""
+        """
+        Look up the first board of a piece of furniture.
+
+        Parameters
+        ----------
+        name
+            Its base name, such as `shelf`.
+
+        Returns
+        -------
+        Surface or None
+            None if no surface has that name.
+
+        """
         boards = (each for each in self.places.surfaces if base_name(each.name) == name)
         return next(boards, None)
 
     def room(self, name: str) -> Room | None:
-        """Return a room; None if nothing has that name."""
+        """
+        Look up a room.
+
+        Parameters
+        ----------
+        name
+            Its name.
+
+        Returns
+        -------
+        Room or None
+            None if no room has that name.
+
+        """
         return next((each for each in self.places.rooms if each.name == name), None)
 
     def pose(self) -> tuple[float, float, float] | None:

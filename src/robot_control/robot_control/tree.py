@@ -11,7 +11,21 @@ from robot_control.robot_model import RobotModel
 
 
 def check_tree(model: RobotModel) -> None:
-    """Raise UrdfError unless every link hangs from one root, and every name is used once."""
+    """
+    Check that the links and joints of a robot form a single tree with unique names.
+
+    Parameters
+    ----------
+    model
+        The robot.
+
+    Raises
+    ------
+    UrdfError
+        It has no links, a name twice, a joint at a link that does not exist, several roots, or a
+        loop.
+
+    """
     if not model.links:
         raise UrdfError(f"Robot '{model.name}' has no links. Add at least one <link>.")
     _check_unique('link', model.links)

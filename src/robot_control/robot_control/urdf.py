@@ -16,7 +16,20 @@ _KINDS = (*_LIMITED, 'continuous', 'fixed', 'floating', 'planar')
 
 
 def parse_urdf(text: str) -> RobotModel:
-    """Return the robot that the text describes, or raise UrdfError with the reason."""
+    """
+    Parse a URDF into a robot model, and check that its links form a tree.
+
+    Parameters
+    ----------
+    text
+        The content of a URDF file.
+
+    Raises
+    ------
+    UrdfError
+        The text is no valid URDF; the error says why, and what to do.
+
+    """
     robot = _robot_element(text)
     model = RobotModel(
         _attribute(robot, 'name', 'the robot'),

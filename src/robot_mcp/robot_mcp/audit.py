@@ -16,7 +16,15 @@ _LONGEST = 2000
 
 
 def default_path(environment: Mapping[str, str]) -> Path:
-    """Return where the log is if nobody says otherwise: below ROS_HOME, or ~/.ros."""
+    """
+    Locate the log if nobody says otherwise: below ROS_HOME, or ~/.ros.
+
+    Parameters
+    ----------
+    environment
+        The variables of the process, of which ROS_HOME counts.
+
+    """
     home = environment.get('ROS_HOME') or str(Path('~').expanduser() / '.ros')
     return Path(home) / 'robot_mcp' / 'audit.jsonl'
 

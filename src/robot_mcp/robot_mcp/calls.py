@@ -71,10 +71,40 @@ class Client(Protocol):
     """Is set when it has gone; None if that cancels the call anyway."""
 
     async def asks(self, question: str, request: str) -> bool | None:
-        """Return whether its person agrees; None if it cannot ask one."""
+        """
+        Ask the person at the client for agreement.
+
+        Parameters
+        ----------
+        question
+            What the person is shown.
+        request
+            What an agreement is good for, beginning with `request_of`.
+
+        Returns
+        -------
+        bool or None
+            Whether the person agrees; None if the client cannot ask one.
+
+        Raises
+        ------
+        NeedsInputError
+            The client has to call again with the answer.
+
+        """
 
     async def report(self, progress: float, total: float, text: str) -> None:
-        """Tell it how far it is."""
+        """
+        Report progress to the client.
+
+        Parameters
+        ----------
+        progress, total
+            How many steps are done, parts of one included, and how many there are.
+        text
+            What is being done, or came of it.
+
+        """
 
 
 class Calls:

@@ -30,7 +30,20 @@ class _Pending:
 
 
 def request_of(tool: str, arguments: Mapping[str, Any]) -> str:
-    """Return what a code is good for, as a text: exactly this tool with these arguments."""
+    """
+    Serialise a call, as what a code is good for: exactly this tool with these arguments.
+
+    Parameters
+    ----------
+    tool, arguments
+        The name of the tool, and what was sent to it.
+
+    Returns
+    -------
+    str
+        JSON, the same for any order of the arguments.
+
+    """
     return json.dumps([tool, dict(arguments)], sort_keys=True)
 
 
@@ -60,7 +73,20 @@ class Confirmations:
         self._pending: dict[str, _Pending] = {}
 
     def ask(self, request: str) -> str:
-        """Return a new code for a request; an earlier one for the same is worth nothing then."""
+        """
+        Issue a code for a request; an earlier one for the same request is void then.
+
+        Parameters
+        ----------
+        request
+            What the code is to allow.
+
+        Returns
+        -------
+        str
+            A code that is valid for 180 s; of more than eight, the oldest are void.
+
+        """
         self._pending.pop(request, None)
         while len(self._pending) >= _MOST:
             del self._pending[next(iter(self._pending))]
@@ -69,7 +95,22 @@ class Confirmations:
         return code
 
     def redeem(self, code: str, request: str) -> bool:
-        """Return whether a code allows a request; it is worth nothing afterwards."""
+        """
+        Check a code for a request. A right code works once, and three wrong ones make it void.
+
+        Parameters
+        ----------
+        code
+            What was typed; small letters and spaces around it do not matter.
+        request
+            What it is to allow.
+
+        Returns
+        -------
+        bool
+            Whether the code is right and still valid.
+
+        """
         pending = self._pending.get(request)
         if pending is None:
             return False

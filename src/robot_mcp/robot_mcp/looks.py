@@ -65,7 +65,20 @@ def robot_state(
 
 
 def remembered_objects(world: World) -> list[dict[str, Any]]:
-    """Return what is remembered, in the words in which it can be asked for."""
+    """
+    List the remembered objects, in the words in which they can be asked for.
+
+    Parameters
+    ----------
+    world
+        What is known.
+
+    Returns
+    -------
+    list of dict
+        The id, class, colour, place, room and position (m, in the map) of 200 objects at most.
+
+    """
     return [
         {
             'id': each.object_id,
@@ -80,7 +93,20 @@ def remembered_objects(world: World) -> list[dict[str, Any]]:
 
 
 def named_places(world: World) -> dict[str, Any]:
-    """Return the rooms, and the places with the rooms in which they are."""
+    """
+    List the rooms, and the places with the rooms in which they are.
+
+    Parameters
+    ----------
+    world
+        What is known.
+
+    Returns
+    -------
+    dict
+        `rooms`, a list of names, and `places`: for each name its room, or None.
+
+    """
     return {
         'rooms': list(world.rooms),
         'places': {name: room or None for name, room in world.places.items()},

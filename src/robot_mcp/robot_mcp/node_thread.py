@@ -46,12 +46,17 @@ class NodeThread:
 
     async def do(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """
-        Call a function in the thread of the node, and return what it returns.
+        Call a function in the thread of the node, and return its result.
+
+        Parameters
+        ----------
+        function, *arguments
+            What is called, and with which arguments; what it raises is passed on.
 
         Raises
         ------
         RobotError
-            The node does not get to it.
+            The node does not run, or has not finished the call within 5 s.
 
         """
         loop = asyncio.get_running_loop()
@@ -83,7 +88,25 @@ class NodeThread:
             raise RobotError('The node of this server is too busy to answer.') from None
 
     async def found(self, condition: Callable[[], bool]) -> bool:
-        """Return whether something is there; shortly after the start, wait for it a while."""
+        """
+        Check a condition; within 4 s of the start, wait until it holds.
+
+        Parameters
+        ----------
+        condition
+            Is called in the thread of the node, such as whether a server is there.
+
+        Returns
+        -------
+        bool
+            Whether it holds.
+
+        Raises
+        ------
+        RobotError
+            As for `do`.
+
+        """
         while not await self.do(condition):
             if time.monotonic() > self._begin_s + _DISCOVERY_S:
                 return False

@@ -45,7 +45,20 @@ def png_of(pixels: Pixels) -> bytes:
 
 
 def camera_png(color: Pixels) -> bytes:
-    """Return a picture of a camera as PNG, thinned out to a size that models take."""
+    """
+    Encode a camera picture as PNG, thinned out to a size that models take.
+
+    Parameters
+    ----------
+    color
+        (height, width, 3): red, green, blue.
+
+    Returns
+    -------
+    bytes
+        A PNG of at most 640 pixels each way.
+
+    """
     step = math.ceil(max(color.shape[:2]) / _MOST_PIXELS)
     return png_of(np.ascontiguousarray(color[::step, ::step]))
 

@@ -93,12 +93,22 @@ class RobotLink:
 
     async def plan(self, sentence: str) -> MakePlan.Response:
         """
-        Return what the planner makes of a sentence.
+        Have the task planner make a plan of a sentence.
+
+        Parameters
+        ----------
+        sentence
+            What the robot is to do.
+
+        Returns
+        -------
+        MakePlan.Response
+            The plan, or why there is none.
 
         Raises
         ------
         RobotError
-            It is not there, or does not answer.
+            The planner is not there, or does not answer.
 
         """
         if not await self.thread.found(self._planner.service_is_ready):
@@ -111,14 +121,27 @@ class RobotLink:
         self, plan: PlanMessage, run: PlanRun
     ) -> AsyncGenerator[ExecutePlan.Feedback | PlanEnd | None, None]:
         """
-        Do a plan; yield what the executor tells of it, and last its end.
+        Execute a plan, and report what the executor tells of it.
 
-        None comes again and again while nothing is told. Whoever leaves early has to call `leave`.
+        Whoever leaves early has to call `leave`.
+
+        Parameters
+        ----------
+        plan
+            The plan as a message.
+        run
+            A new `PlanRun`, by which the plan can be canceled.
+
+        Yields
+        ------
+        ExecutePlan.Feedback, PlanEnd or None
+            Feedback as it comes, None again and again while nothing is told, and the end last.
 
         Raises
         ------
         RobotError
-            The executor is not there, or ends in the middle.
+            The executor is not there, refuses the plan, does not answer, or ends in the middle; or
+            the plan was canceled before it was sent.
 
         """
         # From here on a stop concerns it, although it has not been sent yet.
@@ -165,7 +188,15 @@ class RobotLink:
                 return
 
     def leave(self, run: PlanRun) -> None:
-        """Give a plan up, from any thread; it does not matter if it is over."""
+        """
+        Cancel a plan, from any thread; it does not matter if it is over.
+
+        Parameters
+        ----------
+        run
+            What `execute` was given.
+
+        """
         run.is_canceled = True
         executor = self._node.executor
         if executor is not None and not run.is_over:

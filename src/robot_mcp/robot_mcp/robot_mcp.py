@@ -148,7 +148,20 @@ def _token() -> str:
 
 
 def arguments_of(given: list[str]) -> list[str]:
-    """Return the arguments of a program for ROS, in which `name:=value` sets a parameter."""
+    """
+    Convert `name:=value` on a command line to the parameter assignments of ROS.
+
+    Parameters
+    ----------
+    given
+        The command line. What follows `--ros-args`, if that is there, stays as it is.
+
+    Returns
+    -------
+    list of str
+        The command line for ROS, with `--ros-args -p name:=value`.
+
+    """
     cut = given.index('--ros-args') if '--ros-args' in given else len(given)
     plain, options = [], ['--ros-args']
     for each in given[:cut]:
@@ -161,7 +174,20 @@ def arguments_of(given: list[str]) -> list[str]:
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run the node."""
+    """
+    Run the node `robot_mcp`.
+
+    Parameters
+    ----------
+    args
+        The command line with its ROS arguments; None for that of the process.
+
+    Returns
+    -------
+    int
+        The exit status: 1 if the node cannot start, else 0.
+
+    """
     given = arguments_of(sys.argv if args is None else args)
     wire = take_stdout()
     return run_node(lambda: RobotMcp(wire), given)

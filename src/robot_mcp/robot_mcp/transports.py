@@ -31,12 +31,17 @@ def take_stdout() -> int:
 
 def listen(port: int) -> socket.socket:
     """
-    Return a socket that listens on this machine only.
+    Open a socket that listens on this machine only, at 127.0.0.1.
+
+    Parameters
+    ----------
+    port
+        The port; 0 for any that is free.
 
     Raises
     ------
     NodeStartError
-        The port is taken.
+        The port cannot be used.
 
     """
     listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)

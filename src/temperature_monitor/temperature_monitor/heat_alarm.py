@@ -24,7 +24,21 @@ class HeatAlarm:
         self._is_hot = False
 
     def judge(self, celsius: float) -> Notice | None:
-        """Return what there is to say about a reading, or None."""
+        """
+        Compare a reading with the threshold.
+
+        Parameters
+        ----------
+        celsius
+            The reading.
+
+        Returns
+        -------
+        Notice or None
+            A warning for each reading above the threshold or not finite, a notice for the first
+            one back to normal, and None for others.
+
+        """
         if not math.isfinite(celsius):
             return Notice(f'The thermometer reads {celsius}: is it broken?', is_warning=True)
         was_hot, self._is_hot = self._is_hot, celsius > self.threshold_celsius

@@ -20,10 +20,26 @@ class Thermometer:
         return (self.high_celsius - self.low_celsius) ** 2 / 12.0
 
     def read(self, generator: random.Random) -> float:
-        """Return the next reading in degrees Celsius."""
+        """
+        Draw the next reading in degrees Celsius.
+
+        Parameters
+        ----------
+        generator
+            The source of random numbers.
+
+        """
         return generator.uniform(self.low_celsius, self.high_celsius)
 
 
 def generator_of(seed: int) -> random.Random:
-    """Return a random generator that repeats itself, or for a negative seed one that does not."""
+    """
+    Create a random number generator.
+
+    Parameters
+    ----------
+    seed
+        The same seed repeats the same numbers; a negative one gives new numbers each time.
+
+    """
     return random.Random(seed) if seed >= 0 else random.Random()

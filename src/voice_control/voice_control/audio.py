@@ -33,7 +33,15 @@ class AudioError(Exception):
 
 
 def duration_s(sound: bytes) -> float:
-    """Compute how long a sound in S16LE is."""
+    """
+    Compute the duration of a sound in seconds.
+
+    Parameters
+    ----------
+    sound
+        Samples in S16LE, 16 kHz, mono.
+
+    """
     return len(sound) / BYTES_PER_SECOND
 
 
@@ -101,7 +109,15 @@ def read_wav(path: Path) -> bytes:
 
 
 def wav_of(sound: bytes) -> bytes:
-    """Return the content of a WAV file with a sound in S16LE, 16 kHz, mono."""
+    """
+    Encode a sound as the content of a WAV file.
+
+    Parameters
+    ----------
+    sound
+        Samples in S16LE, 16 kHz, mono.
+
+    """
     content = io.BytesIO()
     with wave.open(content, 'wb') as file:
         file.setnchannels(1)

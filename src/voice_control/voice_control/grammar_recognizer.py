@@ -48,7 +48,17 @@ _PHRASE_OF_PHONES = re.compile(r'[A-Z]{1,2}( [A-Z]{1,2})*')
 
 def read_dictionary(lines: Iterable[str]) -> dict[str, str]:
     """
-    Read words with their phones, as in CMUdict: `kitchenette K IH CH AH N EH T`.
+    Parse a pronunciation dictionary, as CMUdict is: `kitchenette K IH CH AH N EH T`.
+
+    Parameters
+    ----------
+    lines
+        A word and its phones each; what follows `#` is a comment.
+
+    Returns
+    -------
+    dict
+        The phones, parted by spaces, by the word in lower case.
 
     Raises
     ------
@@ -150,7 +160,15 @@ class GrammarRecognizer:
         return list(network.unknown)
 
     def accepts(self, text: str) -> bool:
-        """Whether the words of `text` are a command of the grammar."""
+        """
+        Check whether a text is a command of the grammar.
+
+        Parameters
+        ----------
+        text
+            Words in lower case, parted by spaces.
+
+        """
         return self._commands.accepts(text)
 
     @property
@@ -159,7 +177,21 @@ class GrammarRecognizer:
         return self._commands.shown
 
     def recognize(self, sound: bytes) -> Recognition:
-        """Recognize an utterance; see `Recognizer`."""
+        """
+        Recognize a command of the grammar, or a phrase that stops the robot.
+
+        Parameters
+        ----------
+        sound
+            As for `Recognizer.recognize`.
+
+        Returns
+        -------
+        Recognition
+            The closest command, with a reason if it does not count. Its confidence is the
+            log-likelihood ratio per frame.
+
+        """
         self._learn_mean(sound)
         phones = self._decoded(_PHONES, sound)
         command = self._fit(_COMMANDS, sound, phones)

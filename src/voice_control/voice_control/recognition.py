@@ -97,10 +97,36 @@ class CommandRecognizer(Recognizer, Protocol):
     """Turns utterances into the commands of a grammar; knows which of them stop the robot."""
 
     def set_grammar(self, jsgf: str) -> list[str]:
-        """Replace the grammar; return the words that cannot be heard."""
+        """
+        Replace the grammar of commands.
+
+        Parameters
+        ----------
+        jsgf
+            A grammar in JSGF 1.0.
+
+        Returns
+        -------
+        list[str]
+            The words that cannot be heard.
+
+        Raises
+        ------
+        RecognizerError
+            If it is no grammar; the one of before stays.
+
+        """
 
     def accepts(self, text: str) -> bool:
-        """Whether these words are a command of the grammar."""
+        """
+        Check whether a text is a command of the grammar.
+
+        Parameters
+        ----------
+        text
+            Words in lower case, parted by spaces.
+
+        """
 
     @property
     def examples(self) -> Sequence[str]:
@@ -111,7 +137,15 @@ class FreeRecognizer(Recognizer, Protocol):
     """Turns utterances into words of all kinds."""
 
     def expect(self, examples: Sequence[str]) -> None:
-        """Take notice of how commands sound that are likely."""
+        """
+        Prime the recogniser with commands that are likely.
+
+        Parameters
+        ----------
+        examples
+            Commands; a recogniser may take only the first ones.
+
+        """
 
 
 class Listener:

@@ -83,11 +83,32 @@ class FasterWhisper:
         self.title = f"Whisper (faster-whisper, '{path}')"
 
     def expect(self, examples: Sequence[str]) -> None:
-        """Have Whisper believe that it has just heard these commands; see `FreeRecognizer`."""
+        """
+        Set commands as the prompt of Whisper, as if it had just heard them.
+
+        Parameters
+        ----------
+        examples
+            English commands, of which about 150 words count; without effect in another language.
+
+        """
         self._prompt = _prompt(examples, self._language)
 
     def recognize(self, sound: bytes) -> Recognition:
-        """Recognize an utterance; see `Recognizer`."""
+        """
+        Recognize an utterance with faster-whisper.
+
+        Parameters
+        ----------
+        sound
+            As for `Recognizer.recognize`.
+
+        Returns
+        -------
+        Recognition
+            Its confidence is the mean log-probability of a token, of the worst segment.
+
+        """
         segments = list(
             self._model.transcribe(
                 _samples(sound),
@@ -147,10 +168,31 @@ class WhisperCpp:
         self.title = f"Whisper (whisper.cpp, '{path}')"
 
     def expect(self, examples: Sequence[str]) -> None:
-        """Do without: with a prompt, pywhispercpp has ended the process (its issue 141)."""
+        """
+        Do without: with a prompt, pywhispercpp has ended the process (its issue 141).
+
+        Parameters
+        ----------
+        examples
+            Are left aside.
+
+        """
 
     def recognize(self, sound: bytes) -> Recognition:
-        """Recognize an utterance; see `Recognizer`."""
+        """
+        Recognize an utterance with whisper.cpp.
+
+        Parameters
+        ----------
+        sound
+            As for `Recognizer.recognize`.
+
+        Returns
+        -------
+        Recognition
+            Its confidence is not known: NaN.
+
+        """
         segments = self._model.transcribe(_samples(sound), no_context=True, temperature=0.0)
         text = ''.join(str(each.text) for each in segments)
         return _judged(text, math.nan, 0.0, 'whisper_cpp')
@@ -193,11 +235,37 @@ class TranscriptionServer:
         self.title = f'the server at {self._url}'
 
     def expect(self, examples: Sequence[str]) -> None:
-        """Send the commands along with each utterance, as what was said before it."""
+        """
+        Set commands as the prompt that is sent along with each utterance.
+
+        Parameters
+        ----------
+        examples
+            As for `FasterWhisper.expect`.
+
+        """
         self._form['prompt'] = _prompt(examples, self._form['language'])
 
     def recognize(self, sound: bytes) -> Recognition:
-        """Recognize an utterance; see `Recognizer`."""
+        """
+        Recognize an utterance with the server.
+
+        Parameters
+        ----------
+        sound
+            As for `Recognizer.recognize`.
+
+        Returns
+        -------
+        Recognition
+            Its confidence is not known: NaN.
+
+        Raises
+        ------
+        RecognizerError
+            If the server does not answer, or answers with an error or without a text.
+
+        """
         import httpx
 
         files = {'file': ('speech.wav', wav_of(sound), 'audio/wav')}

@@ -58,7 +58,15 @@ class WordNetwork:
     shown: tuple[str, ...] = ()
 
     def accepts(self, text: str) -> bool:
-        """Whether the words of `text` are a sentence of the grammar."""
+        """
+        Check whether a text is a sentence of the grammar.
+
+        Parameters
+        ----------
+        text
+            Words as the grammar spells them, parted by spaces.
+
+        """
         state = 0
         for word in text.split():
             if word not in self.arcs[state]:

@@ -14,10 +14,23 @@ T = TypeVar('T')
 
 def build(kind: type[T], values: Mapping[str, Any]) -> T:
     """
-    Build the parameter dataclass from the values; those that are missing take their defaults.
+    Build a parameter dataclass from values; those that are missing take their defaults.
 
     Each value is checked by the rules of its field; then the dataclass itself checks, in its
     `__post_init__`, what must hold for all of them together.
+
+    Parameters
+    ----------
+    kind
+        The dataclass, whose fields are declared with `parameter`.
+    values
+        Values by the names of its fields.
+
+    Raises
+    ------
+    ParameterError
+        A value breaks the rules of its parameter, or the values do not fit together.
+
     """
     specs = specs_of(kind)
     checked = {name: checked_value(specs[name], value) for name, value in values.items()}

@@ -49,7 +49,20 @@ def parameter(
 
 
 def rules_of(declared: Field[Any]) -> ParameterRules:
-    """Return the rules that `parameter` stored in a field."""
+    """
+    Look up the rules that `parameter` stored in a dataclass field.
+
+    Parameters
+    ----------
+    declared
+        A field of a parameter dataclass.
+
+    Raises
+    ------
+    TypeError
+        The field is not declared with `parameter`.
+
+    """
     rules = declared.metadata.get(_RULES)
     if not isinstance(rules, ParameterRules):
         raise TypeError(f"Field '{declared.name}' is not declared with parameter(...).")

@@ -34,7 +34,25 @@ class ParameterSpec:
 
 
 def specs_of(kind: type) -> dict[str, ParameterSpec]:
-    """Read the parameters of a parameter dataclass, by name."""
+    """
+    Read the parameters that a dataclass declares.
+
+    Parameters
+    ----------
+    kind
+        The dataclass, whose fields are declared with `parameter`.
+
+    Returns
+    -------
+    dict
+        The specification of each parameter, by name and in the order of the fields.
+
+    Raises
+    ------
+    TypeError
+        A field is not declared with `parameter`, or has a type that no ROS parameter has.
+
+    """
     hints = get_type_hints(kind)
     specs = {}
     for declared in fields(kind):

@@ -9,7 +9,22 @@ from humanoid_common.naming import did_you_mean
 
 
 def unknown_parameter_warnings(given: Iterable[str], known: Iterable[str]) -> list[str]:
-    """Return a sentence for each given parameter that is not among the known ones."""
+    """
+    Build a warning for each parameter that was set but does not exist.
+
+    Parameters
+    ----------
+    given
+        Names of the parameters that were set.
+    known
+        Names of the parameters of the node.
+
+    Returns
+    -------
+    list of str
+        One message a name, in alphabetical order.
+
+    """
     names = sorted(known)
     return [_warning(name, names) for name in sorted(set(given) - set(names))]
 

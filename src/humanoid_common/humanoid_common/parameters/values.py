@@ -17,7 +17,17 @@ ParameterValue = Union[Scalar, tuple[Scalar, ...]]
 
 
 def widened(spec: ParameterSpec, value: Any) -> Any:
-    """Turn integers into the floating-point numbers that the parameter asks for."""
+    """
+    Convert integers to floats where a parameter is a floating-point number, or a list of them.
+
+    Parameters
+    ----------
+    spec
+        The parameter.
+    value
+        The value as it was given, of any type; what is no integer stays as it is.
+
+    """
     if spec.element is not float:
         return value
     if spec.is_list and _is_sequence(value):
@@ -26,7 +36,27 @@ def widened(spec: ParameterSpec, value: Any) -> Any:
 
 
 def checked_value(spec: ParameterSpec, value: Any) -> ParameterValue:
-    """Return the value in the type of its parameter, or raise ParameterError with the reason."""
+    """
+    Validate a value against the type, limits and choices of its parameter.
+
+    Parameters
+    ----------
+    spec
+        The parameter.
+    value
+        The value as it was given, of any type.
+
+    Returns
+    -------
+    ParameterValue
+        The value in the type of the parameter; a list becomes a tuple.
+
+    Raises
+    ------
+    ParameterError
+        The value breaks a rule, or is an empty list; the text says which, and what it must be.
+
+    """
     value = widened(spec, value)
     if spec.is_list:
         if not _is_sequence(value):

@@ -45,7 +45,22 @@ class ActionCaller:
         ros.wait_until(self._client.server_is_ready, PATIENCE_S, name)
 
     def send(self, goal: Any = None, **fields: Any) -> Any:
-        """Return the handle of a goal, which is given as a whole or by its fields."""
+        """
+        Send a goal, and wait until it is accepted or rejected.
+
+        Parameters
+        ----------
+        goal
+            The goal; None builds one of its fields.
+        **fields
+            Fields of the goal, if it is not given as a whole.
+
+        Returns
+        -------
+        ClientGoalHandle
+            The handle of the goal; its `accepted` says whether it was.
+
+        """
         future = self._client.send_goal_async(
             self.kind.Goal(**fields) if goal is None else goal,
             lambda message: self.feedback.append(message.feedback),
@@ -53,13 +68,41 @@ class ActionCaller:
         return self._waited(future, PATIENCE_S)
 
     def end_of(self, handle: Any, patience_s: float = PATIENCE_S) -> End:
-        """Return how a goal that was accepted ends."""
+        """
+        Wait for the end of a goal that was accepted.
+
+        Parameters
+        ----------
+        handle
+            What `send` returned.
+        patience_s
+            Real time to wait before the test fails.
+
+        Returns
+        -------
+        End
+            Its status and its result.
+
+        """
         assert handle.accepted
         answer = self._waited(handle.get_result_async(), patience_s)
         return End(answer.status, answer.result)
 
     def cancel(self, handle: Any) -> Any:
-        """Cancel a goal, and return what is answered to that."""
+        """
+        Cancel a goal, and wait for the answer.
+
+        Parameters
+        ----------
+        handle
+            What `send` returned.
+
+        Returns
+        -------
+        CancelGoal.Response
+            The answer of the action server.
+
+        """
         return self._waited(handle.cancel_goal_async(), PATIENCE_S)
 
     def close(self) -> None:

@@ -25,7 +25,15 @@ class Capture:
         return b''.join(self._chunks).decode(errors='replace')
 
     def join(self, timeout_s: float) -> None:
-        """Wait until the stream has ended."""
+        """
+        Wait until the stream has ended.
+
+        Parameters
+        ----------
+        timeout_s
+            Returns after this time in any case.
+
+        """
         self._thread.join(timeout_s)
 
     def _read(self) -> None:

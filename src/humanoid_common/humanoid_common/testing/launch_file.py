@@ -12,7 +12,15 @@ from launch.launch_description_sources import AnyLaunchDescriptionSource
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Launch the file that the first argument names, and return the exit status."""
+    """
+    Run a launch file, and return the exit status.
+
+    Parameters
+    ----------
+    arguments
+        The path of the file, and then launch arguments in the form `name:=value`.
+
+    """
     path, *settings = arguments
     pairs = [(name, value) for name, _, value in (text.partition(':=') for text in settings)]
     service = LaunchService(argv=settings, noninteractive=True)

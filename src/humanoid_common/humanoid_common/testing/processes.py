@@ -63,7 +63,22 @@ class RunningProgram:
         return self._process.poll() is not None
 
     def wait_for_output(self, text: str, timeout_s: float = 60.0) -> None:
-        """Wait until the text was written on either stream."""
+        """
+        Wait until a text was written on stdout or stderr.
+
+        Parameters
+        ----------
+        text
+            What to wait for.
+        timeout_s
+            Real time to wait; if the program ends, no more than another second.
+
+        Raises
+        ------
+        WaitedInVainError
+            The text did not come in time.
+
+        """
         wait_until(
             lambda: text in self.output or self.has_ended,
             timeout_s,
@@ -76,11 +91,37 @@ class RunningProgram:
         )
 
     def send(self, number: signal.Signals) -> None:
-        """Send a signal to the program itself, as `kill` does."""
+        """
+        Send a signal to the program itself, not to its process group.
+
+        Parameters
+        ----------
+        number
+            The signal.
+
+        """
         self._process.send_signal(number)
 
     def wait_for_exit(self, timeout_s: float = 60.0) -> ExitReport:
-        """Wait until the program has ended and all its output was read."""
+        """
+        Wait until the program has ended and all its output was read.
+
+        Parameters
+        ----------
+        timeout_s
+            Real time to wait for the end.
+
+        Returns
+        -------
+        ExitReport
+            Its exit status and its output.
+
+        Raises
+        ------
+        WaitedInVainError
+            The program still runs then.
+
+        """
         wait_until(
             lambda: self.has_ended,
             timeout_s,
@@ -91,7 +132,20 @@ class RunningProgram:
         return ExitReport(self._process.returncode, self._stdout.text, self._stderr.text)
 
     def stop(self, number: signal.Signals, timeout_s: float = 60.0) -> ExitReport:
-        """Send the signal and wait for the end."""
+        """
+        Send a signal to the program, and wait for its end.
+
+        Parameters
+        ----------
+        number, timeout_s
+            As for `send` and `wait_for_exit`.
+
+        Returns
+        -------
+        ExitReport
+            As for `wait_for_exit`.
+
+        """
         self.send(number)
         return self.wait_for_exit(timeout_s)
 
@@ -117,7 +171,22 @@ def running_program(
     command: Sequence[str],
     environment: Mapping[str, str] = {},
 ) -> Iterator[RunningProgram]:
-    """Run a command for the length of a `with` block."""
+    """
+    Run a command for the length of a `with` block.
+
+    Parameters
+    ----------
+    command
+        The program and its arguments.
+    environment
+        Environment variables, added to those of this process.
+
+    Yields
+    ------
+    RunningProgram
+        The program; it is killed after the block, with all processes that it started.
+
+    """
     program = RunningProgram(command, environment)
     try:
         yield program
@@ -138,7 +207,15 @@ def _descendants(pid: int) -> list[int]:
 
 
 def is_alive(pid: int) -> bool:
-    """Tell whether a process is there and is more than a zombie."""
+    """
+    Whether a process exists and is no zombie.
+
+    Parameters
+    ----------
+    pid
+        Id of the process.
+
+    """
     try:
         return _stat_of(Path(f'/proc/{pid}'))[0] != 'Z'
     except OSError:
@@ -151,12 +228,35 @@ def _stat_of(folder: Path) -> list[str]:
 
 
 def module_command(module: str, *arguments: str) -> list[str]:
-    """Return the command that runs a module with the Python at hand."""
+    """
+    Build the command that runs a module with the Python interpreter of this process.
+
+    Parameters
+    ----------
+    module
+        Name of the module, as for `python3 -m`.
+    *arguments
+        Its command line arguments.
+
+    """
     return [sys.executable, '-m', module, *arguments]
 
 
 def assert_clean_exit(report: ExitReport) -> None:
-    """Assert that a node ended in order: status 0, and nothing on stderr but log lines."""
+    """
+    Assert that a node ended in order: status 0, and nothing on stderr but log lines.
+
+    Parameters
+    ----------
+    report
+        How its program ended.
+
+    Raises
+    ------
+    AssertionError
+        It ended otherwise; the text contains the output.
+
+    """
     noise = [line for line in report.stderr.splitlines() if line and not line.startswith('[')]
     assert not noise, f'the program wrote more than log lines on stderr:\n{report.stderr}'
     assert report.status == 0, f'status {report.status}:\n{report.output}'

@@ -44,7 +44,19 @@ class RosSandbox:
         parameters: Mapping[str, Any] = {},
         **options: Any,
     ) -> NodeT:
-        """Start a node with parameter values, as if they came from a parameter file."""
+        """
+        Start a node with parameter values, as if they came from a parameter file.
+
+        Parameters
+        ----------
+        factory
+            Makes the node; it takes the keyword arguments of `rclpy.node.Node`.
+        parameters
+            Values by the names of parameters.
+        **options
+            Further arguments for the factory.
+
+        """
         overrides = [Parameter(name, value=value) for name, value in parameters.items()]
         node = factory(context=self._context, parameter_overrides=overrides, **options)
         self._nodes.append(node)
@@ -52,7 +64,15 @@ class RosSandbox:
         return node
 
     def end(self, node: Node) -> None:
-        """End a node that was started here, as if its process were killed."""
+        """
+        Destroy a node that was started here, as if its process were killed.
+
+        Parameters
+        ----------
+        node
+            What `start` or `observer` returned.
+
+        """
         self._nodes.remove(node)
         self._executor.remove_node(node)
         self._handle()  # what a response has set off would meet a node without its parts
@@ -70,10 +90,25 @@ class RosSandbox:
         what: str = 'the condition',
     ) -> None:
         """
-        Spin until the predicate holds; a failure tells which topics exist.
+        Spin the nodes until a condition holds; a failure tells which topics exist.
 
         All that has come is handled between two looks: with one event for each, a predicate that
         publishes would fill the queue faster than it is emptied.
+
+        Parameters
+        ----------
+        predicate
+            The condition.
+        timeout_s
+            Real time to wait.
+        what
+            What is waited for, for the message of a failure.
+
+        Raises
+        ------
+        WaitedInVainError
+            The condition did not come true in time.
+
         """
         wait_until(
             predicate,

@@ -18,9 +18,24 @@ def wait_until(
     pause: Callable[[], None] = lambda: time.sleep(0.01),
 ) -> None:
     """
-    Return as soon as the predicate holds, or raise WaitedInVainError with the message.
+    Wait until a condition holds.
 
-    `pause` runs between two attempts: a place to spin an executor.
+    Parameters
+    ----------
+    predicate
+        The condition.
+    timeout_s
+        Real time to wait.
+    message
+        Says what is waited for, when that was in vain.
+    pause
+        Runs between two attempts: a place to spin an executor.
+
+    Raises
+    ------
+    WaitedInVainError
+        The condition did not come true in time.
+
     """
     deadline_s = time.monotonic() + timeout_s
     while not predicate():

@@ -72,7 +72,15 @@ class ImuNoise:
     """Of that part of roll and pitch which stays: the sensor takes level ground for a slope."""
 
     def heading_variance_rad2(self, passed_s: float) -> float:
-        """Return the variance of the heading after some time without a correction, in rad2."""
+        """
+        Compute the variance of the heading after some time without a correction, in rad2.
+
+        Parameters
+        ----------
+        passed_s
+            The time since the heading was known.
+
+        """
         drift_rad = self.heading_drift_rad_s * passed_s
         return drift_rad * drift_rad + self.heading_walk_rad_sqrt_s**2 * passed_s
 
@@ -114,10 +122,27 @@ class Backend(Protocol):
         """Return what the sensors of every robot say now, or raise BackendError."""
 
     def step(self, targets: Mapping[str, JointTargets]) -> None:
-        """Let time pass; a robot without targets keeps those that it had."""
+        """
+        Advance all robots by one period.
+
+        Parameters
+        ----------
+        targets
+            Joint targets by the names of the robots; a robot without an entry keeps those that it
+            had.
+
+        """
 
     def reset(self, keyframe: str = 'home') -> None:
-        """Put all robots where they began, at rest, in a posture that has a name; time goes on."""
+        """
+        Reset all robots to where they began, at rest; time goes on.
+
+        Parameters
+        ----------
+        keyframe
+            The name of the posture that they take. An unknown one raises the backend's own error.
+
+        """
 
     def close(self) -> None:
         """Give back what is held; nothing else may be called after it."""

@@ -64,7 +64,15 @@ class MockBackend:
         return {robot: self._observed(bank) for robot, bank in self._banks.items()}
 
     def step(self, targets: Mapping[str, JointTargets]) -> None:
-        """Let time pass; a robot without targets keeps those that it had."""
+        """
+        Advance all joints by one period.
+
+        Parameters
+        ----------
+        targets
+            As for `Backend.step`.
+
+        """
         for robot, target in targets.items():
             self._banks[robot].aim(target)
         for bank in self._banks.values():
@@ -72,7 +80,20 @@ class MockBackend:
         self._steps += 1
 
     def reset(self, keyframe: str = KEYFRAME) -> None:
-        """Put all robots where they began, at rest; time goes on."""
+        """
+        Reset all joints to where they began, at rest; time goes on.
+
+        Parameters
+        ----------
+        keyframe
+            The name of the posture: only `home` is known.
+
+        Raises
+        ------
+        ValueError
+            It is another one.
+
+        """
         if keyframe != KEYFRAME:
             raise ValueError(
                 f"The mock has no posture '{keyframe}': it knows '{KEYFRAME}' alone. "

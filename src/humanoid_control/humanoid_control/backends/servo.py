@@ -43,12 +43,29 @@ class ServoBank:
         self.aim(JointTargets(self._home_rad, rest, rest))
 
     def aim(self, targets: JointTargets) -> None:
-        """Take new targets."""
+        """
+        Set new targets for all servos.
+
+        Parameters
+        ----------
+        targets
+            Of the n joints, (n,) each. Efforts move nothing: they count as loads that the servos
+            carry.
+
+        """
         self._aim_rad = targets.positions_rad + self._lead_s * targets.velocities_rad_s
         self._load_nm = targets.efforts_nm
 
     def move(self, period_s: float) -> None:
-        """Let time pass."""
+        """
+        Advance all servos towards their targets.
+
+        Parameters
+        ----------
+        period_s
+            The time that passes.
+
+        """
         limits = self._limits
         left_rad = self._left_after(self._aim_rad - self.positions_rad, period_s)
         free_rad = self._aim_rad - left_rad

@@ -26,7 +26,20 @@ class Blend:
         self._offset_rad, self._speed_rad_s, self._effort_nm = np.zeros((3, joints))
 
     def begin(self, joints: Mask, now_s: float, last: JointTargets, new: JointTargets) -> None:
-        """Fade for some joints, (n,) true, from what was told last."""
+        """
+        Start to blend some joints from their old targets to those of their new owner.
+
+        Parameters
+        ----------
+        joints
+            Mask (n,) of the joints that change their owner.
+        now_s
+            The robot's time.
+        last, new
+            Targets of all n joints at this moment: those that the old owner leaves, and those that
+            the new owner gives.
+
+        """
         self._since_s[joints] = now_s
         self._until_s = now_s + self._duration_s
         self._offset_rad[joints] = (last.positions_rad - new.positions_rad)[joints]
@@ -34,7 +47,22 @@ class Blend:
         self._effort_nm[joints] = (last.efforts_nm - new.efforts_nm)[joints]
 
     def blended(self, now_s: float, new: JointTargets) -> JointTargets:
-        """Return the targets of a moment, with what is left of the offset."""
+        """
+        Add what is left of the offset to the targets of a moment.
+
+        Parameters
+        ----------
+        now_s
+            The robot's time.
+        new
+            What the present owners ask of all n joints.
+
+        Returns
+        -------
+        JointTargets
+            Blended targets of all n joints; `new` itself when no blend is under way.
+
+        """
         if now_s >= self._until_s:
             return new
         passed = np.minimum((now_s - self._since_s) / self._duration_s, 1.0)

@@ -37,7 +37,25 @@ class JointNames:
         self._place_of = {joint: place for place, joint in enumerate(joints)}
 
     def places(self, names: Sequence[str]) -> Indices:
-        """Return the places of some joints; refuse none, unknown ones and repeated ones."""
+        """
+        Look up the indices of joints by their names.
+
+        Parameters
+        ----------
+        names
+            Names of m joints, in any order.
+
+        Returns
+        -------
+        Indices
+            Index (m,) of each among all joints of the robot.
+
+        Raises
+        ------
+        CommandError
+            There is no name, or one is unknown or repeated.
+
+        """
         if not names:
             raise CommandError('It names no joint. Name those that are to move.')
         for name in names:
@@ -56,7 +74,29 @@ class JointNames:
         velocities_rad_s: Sequence[float] = (),
         efforts_nm: Sequence[float] = (),
     ) -> PartialTargets:
-        """Return the targets of a command; velocities and efforts that are not given are zero."""
+        """
+        Check a joint command and convert it to targets.
+
+        Parameters
+        ----------
+        names
+            Names of the m joints that it commands.
+        positions_rad, velocities_rad_s, efforts_nm
+            One value per name; m, m/s and N for joints that slide. Velocities and efforts may be
+            empty, which means zero.
+
+        Returns
+        -------
+        PartialTargets
+            Indices and targets of the m joints.
+
+        Raises
+        ------
+        CommandError
+            A name is unknown or repeated, or a field has the wrong length or holds values that are
+            not finite or beyond `LARGEST`.
+
+        """
         places = self.places(names)
         targets = JointTargets(
             checked_values('position', positions_rad, names),
@@ -72,12 +112,52 @@ class JointNames:
 
 
 def optional_values(field: str, values: Sequence[float], names: Sequence[str]) -> Array:
-    """Return values that may be left out, which means zero."""
+    """
+    Check the values of a field that may be empty, which means zero.
+
+    Parameters
+    ----------
+    field
+        Name of the field, for the error message.
+    values, names
+        One value for each of the m names, or none at all.
+
+    Returns
+    -------
+    Array
+        The values (m,).
+
+    Raises
+    ------
+    CommandError
+        As for `checked_values`.
+
+    """
     return checked_values(field, values, names) if len(values) else np.zeros(len(names))
 
 
 def checked_values(field: str, values: Sequence[float], names: Sequence[str]) -> Array:
-    """Return one finite value a joint, none of them absurd, or refuse them."""
+    """
+    Check that a field has one finite value of sane size per joint.
+
+    Parameters
+    ----------
+    field
+        Name of the field, for the error message.
+    values, names
+        The values, and the m joints that they belong to.
+
+    Returns
+    -------
+    Array
+        The values (m,).
+
+    Raises
+    ------
+    CommandError
+        The number of values is not m, or one is not finite or beyond `LARGEST`.
+
+    """
     if len(values) != len(names):
         raise CommandError(
             f"Its field '{field}' has length {len(values)}, but it names {len(names)} joints. "

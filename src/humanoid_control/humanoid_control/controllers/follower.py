@@ -45,10 +45,26 @@ class Follower:
         return False
 
     def start(self, observation: Observation, held: JointTargets) -> None:
-        """Begin: what is to be done came with the commands."""
+        """
+        Do nothing: the targets came with the commands.
+
+        Parameters
+        ----------
+        observation, held
+            As for `Controller.start`; not used.
+
+        """
 
     def accept(self, command: PartialTargets) -> None:
-        """Take a command that has been checked."""
+        """
+        Store a command, which takes effect in the next period.
+
+        Parameters
+        ----------
+        command
+            Checked targets of some joints, whose timeout starts anew; other joints keep theirs.
+
+        """
         targets, places = self._targets, command.places
         targets.positions_rad[places] = command.targets.positions_rad
         targets.velocities_rad_s[places] = command.targets.velocities_rad_s
@@ -56,7 +72,20 @@ class Follower:
         self._silence_of(places.tolist()).heard()
 
     def wanted(self, now_s: float) -> Mask:
-        """Return for which joints commands come, (n,)."""
+        """
+        Compute which joints have commands that have not timed out.
+
+        Parameters
+        ----------
+        now_s
+            The robot's time.
+
+        Returns
+        -------
+        Mask
+            Over all joints (n,).
+
+        """
         self._silences = {
             key: entry for key, entry in self._silences.items() if not entry[1].lasts(now_s)
         }
@@ -65,7 +94,20 @@ class Follower:
         return wanted
 
     def update(self, observation: Observation) -> JointTargets:
-        """Return the newest targets; those of joints that it does not want mean nothing."""
+        """
+        Return the newest commanded targets.
+
+        Parameters
+        ----------
+        observation
+            Not used.
+
+        Returns
+        -------
+        JointTargets
+            Of all n joints; the entries of joints that are not `wanted` mean nothing.
+
+        """
         return self._targets
 
     def cancel(self) -> None:

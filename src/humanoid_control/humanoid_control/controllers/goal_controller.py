@@ -69,7 +69,17 @@ class GoalController(ABC, Generic[GoalT, ResultT]):
         return self._starts
 
     def accept(self, goal: GoalT, done: Callable[[ResultT], None]) -> None:
-        """Run a goal from the next period on, not the present one; `done` hears its end."""
+        """
+        Accept a goal, which starts in the next period and preempts the one that runs.
+
+        Parameters
+        ----------
+        goal
+            A goal that has been checked.
+        done
+            Called once with the result when the goal has ended, however it ends.
+
+        """
         self.abort(PREEMPTED)
         self._goal, self._done = goal, done
         self._claims = self._starts = True
@@ -79,11 +89,30 @@ class GoalController(ABC, Generic[GoalT, ResultT]):
         self._end(self._ended(CANCELED, True))
 
     def abort(self, why: str) -> None:
-        """End the goal; hold the joints, as soon as they are there to be held."""
+        """
+        Abort the goal; from the next period on the joints are held at their last targets.
+
+        Without a goal nothing changes. Joints that another controller has are held when they come
+        back.
+
+        Parameters
+        ----------
+        why
+            Message for the client of the goal.
+
+        """
         self._end(self._ended(why, False))
 
     def release(self, why: str) -> None:
-        """End the goal, and give the joints back."""
+        """
+        Abort the goal, if one runs, and release the claimed joints.
+
+        Parameters
+        ----------
+        why
+            Message for the client of the goal.
+
+        """
         self.abort(why)
         self._claims = self._starts = False
 
@@ -92,16 +121,50 @@ class GoalController(ABC, Generic[GoalT, ResultT]):
         self.release(RESTARTED)
 
     def wanted(self, now_s: float) -> Mask:
-        """Return its joints among all, (n,), once it has had a goal."""
+        """
+        Return the joints that it claims: its own from the first goal until `release`, then none.
+
+        Parameters
+        ----------
+        now_s
+            Not used: a claim does not expire.
+
+        Returns
+        -------
+        Mask
+            Over all joints (n,).
+
+        """
         return self._mask if self._claims else self._none
 
     @abstractmethod
     def start(self, observation: Observation, held: JointTargets) -> None:
-        """Begin from what the joints were told last: the goal, or to hold them there."""
+        """
+        Start the accepted goal, or hold the joints if there is none.
+
+        Parameters
+        ----------
+        observation, held
+            As for `Controller.start`.
+
+        """
 
     @abstractmethod
     def update(self, observation: Observation) -> JointTargets:
-        """Return the targets of now, and see whether the goal is reached or out of reach."""
+        """
+        Compute the targets of the period, and end the goal once it succeeds or fails.
+
+        Parameters
+        ----------
+        observation
+            As for `Controller.update`.
+
+        Returns
+        -------
+        JointTargets
+            Of all n joints of the robot; only the entries of its own joints mean something.
+
+        """
 
     @abstractmethod
     def _ended(self, why: str, is_canceled: bool) -> ResultT:

@@ -120,7 +120,15 @@ class GripperController(GoalController[Grip, GripResult]):
         return Grip(min(max(gap_m, 0.0), self.widest_m), force_n)
 
     def start(self, observation: Observation, held: JointTargets) -> None:
-        """Begin: with the goal, or to hold what the finger was told last."""
+        """
+        Start the accepted grip, or hold the finger at its last target if there is none.
+
+        Parameters
+        ----------
+        observation, held
+            As for `Controller.start`. A hold keeps the force limit of the last grip.
+
+        """
         self._starts = False
         if self._goal is not None:
             self._set = self._goal
@@ -129,7 +137,23 @@ class GripperController(GoalController[Grip, GripResult]):
             self._set = Grip(2.0 * float(held.positions_rad[self._place]), self._set.most_n)
 
     def update(self, observation: Observation) -> JointTargets:
-        """Return the target of the finger, and see whether it has come as far as it will."""
+        """
+        Compute the force-limited target of the finger; end the goal when it is reached or stalls.
+
+        The target stays so close to the measured position that the stiffness of the servo alone
+        makes no more than the force of the grip.
+
+        Parameters
+        ----------
+        observation
+            As for `Controller.update`.
+
+        Returns
+        -------
+        JointTargets
+            Of all n joints of the robot; only the position (m) of the finger means something.
+
+        """
         at_m = float(observation.positions_rad[self._place])
         way_m = self._set.most_n / self._stiffness_n_m
         wanted_m = self._set.gap_m / 2.0

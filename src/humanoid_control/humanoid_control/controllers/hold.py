@@ -21,12 +21,30 @@ class Hold:
         self._targets = JointTargets(none, none, none)
 
     def start(self, observation: Observation, held: JointTargets) -> None:
-        """Hold from now on what the joints were told last."""
+        """
+        Hold all joints at their last targets, with zero velocity and the same efforts.
+
+        Parameters
+        ----------
+        observation, held
+            As for `Controller.start`.
+
+        """
         rest = np.zeros(len(self.joints))
         self._targets = JointTargets(held.positions_rad, rest, held.efforts_nm)
 
     def take_back(self, joints: Mask, held: JointTargets) -> None:
-        """Hold the joints that come back, (n,) true, where they were told to be last."""
+        """
+        Hold joints that another controller gives back, with zero velocity and effort.
+
+        Parameters
+        ----------
+        joints
+            Mask (n,) of the joints that come back; the others are held as before.
+        held
+            Targets of all n joints, at whose positions those joints are held.
+
+        """
         before = self._targets
         self._targets = JointTargets(
             np.where(joints, held.positions_rad, before.positions_rad),
@@ -35,5 +53,18 @@ class Hold:
         )
 
     def update(self, observation: Observation) -> JointTargets:
-        """Return the same targets again."""
+        """
+        Return the held targets, the same in every period.
+
+        Parameters
+        ----------
+        observation
+            Not used.
+
+        Returns
+        -------
+        JointTargets
+            Of all n joints.
+
+        """
         return self._targets

@@ -24,10 +24,38 @@ class Controller(Protocol):
         """Return the joints that it moves, in the order of its targets."""
 
     def start(self, observation: Observation, held: JointTargets) -> None:
-        """Begin; `held` is what its joints were told last, from which it goes on."""
+        """
+        Start to control joints, from the targets that they have now.
+
+        The manager calls it before `update`: for the controller of a mode when the mode is
+        entered, for a `Guest` when it gets joints, or has them and `waits`.
+
+        Parameters
+        ----------
+        observation
+            Sensor values of the present period.
+        held
+            Targets of all joints to go on from: those of the last period, extrapolated to now at
+            their velocities; at first the measured positions, at rest.
+
+        """
 
     def update(self, observation: Observation) -> JointTargets:
-        """Return the targets of its joints for the coming period; called once a period."""
+        """
+        Compute the joint targets of the coming period. Call once per control period.
+
+        Parameters
+        ----------
+        observation
+            Sensor values of the present period.
+
+        Returns
+        -------
+        JointTargets
+            Of its n joints, in their order, each array (n,). The manager ignores those of joints
+            that belong to another controller.
+
+        """
 
 
 class Guest(Controller, Protocol):
@@ -42,7 +70,20 @@ class Guest(Controller, Protocol):
         """Tell whether it is to be started, even if it has its joints already."""
 
     def wanted(self, now_s: float) -> Mask:
-        """Return for which joints it has commands, (n,)."""
+        """
+        Compute which joints it has commands for, and so claims.
+
+        Parameters
+        ----------
+        now_s
+            The robot's time.
+
+        Returns
+        -------
+        Mask
+            Over all joints (n,).
+
+        """
 
     def cancel(self) -> None:
         """Forget all commands."""

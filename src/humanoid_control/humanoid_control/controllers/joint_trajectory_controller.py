@@ -67,7 +67,19 @@ class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
         self._hold_rad: Array | None = None
 
     def start(self, observation: Observation, held: JointTargets) -> None:
-        """Begin from what the joints were told last: the goal, or to hold them there."""
+        """
+        Start the accepted trajectory, or hold the joints if there is none.
+
+        They are held at their last targets; after a violation of the path tolerance, where they
+        were measured then.
+
+        Parameters
+        ----------
+        observation, held
+            As for `Controller.start`. The trajectory begins at the time of the observation and
+            goes on from the held position and velocity.
+
+        """
         self._starts = False
         hold_rad, self._hold_rad = self._hold_rad, None
         if self._goal is not None:
@@ -79,7 +91,21 @@ class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
         self._targets.velocities_rad_s[self.places] = 0.0
 
     def update(self, observation: Observation) -> JointTargets:
-        """Return the targets of now, and see whether the goal is reached or out of reach."""
+        """
+        Sample the trajectory, and end the goal when it is reached or violates a tolerance.
+
+        Parameters
+        ----------
+        observation
+            As for `Controller.update`; its positions and velocities are compared with the
+            trajectory.
+
+        Returns
+        -------
+        JointTargets
+            Of all n joints of the robot; only the entries of its own joints mean something.
+
+        """
         if self._goal is not None and self._spline is not None:
             time_s = observation.time_s - self._start_s
             positions_rad, velocities_rad_s = self._spline.at(time_s)

@@ -77,7 +77,23 @@ class ControllerManager:
         }
 
     def switch(self, mode: str) -> None:
-        """Go over to another mode, as soon as the present one can be left, and smoothly."""
+        """
+        Request a mode switch.
+
+        It takes place in the first `update` in which the present mode can be left, and blends the
+        targets. The name of the present mode withdraws an earlier request.
+
+        Parameters
+        ----------
+        mode
+            The name of the mode to switch to.
+
+        Raises
+        ------
+        CommandError
+            There is no such mode.
+
+        """
         if mode not in self._modes:
             known = ', '.join(self._modes)
             raise CommandError(
@@ -98,7 +114,20 @@ class ControllerManager:
         self._entered = True
 
     def owner(self, joint: str) -> str:
-        """Return the name of the controller that moves a joint."""
+        """
+        Look up the controller that owns a joint now.
+
+        Parameters
+        ----------
+        joint
+            The name of a joint of the robot.
+
+        Returns
+        -------
+        str
+            The name of the mode or of the guest.
+
+        """
         return self._name_of(self._owners[self.joints.index(joint)])
 
     @property
@@ -107,15 +136,46 @@ class ControllerManager:
         return self._guests
 
     def joints_of(self, name: str) -> tuple[str, ...]:
-        """Return the joints that a mode or a guest owns now."""
+        """
+        List the joints that a mode or a guest owns now.
+
+        Parameters
+        ----------
+        name
+            The name of the mode or of the guest.
+
+        Returns
+        -------
+        tuple[str, ...]
+            Names of joints, in the order of the robot; none for a mode that is not active.
+
+        """
         return tuple(joint for joint in self.joints if self.owner(joint) == name)
 
     def is_lent(self, places: Indices) -> bool:
-        """Whether the mode lends all of some joints now."""
+        """
+        Check whether the mode lends all of some joints now.
+
+        Parameters
+        ----------
+        places
+            Joint indices (m,).
+
+        """
         return bool(self._may_lend[places].all()) and not self.trouble
 
     def owns(self, guest: Guest, places: Indices) -> bool:
-        """Whether a guest owns all of some joints."""
+        """
+        Check whether a guest owns all of some joints.
+
+        Parameters
+        ----------
+        guest
+            One of `guests`.
+        places
+            Joint indices (m,).
+
+        """
         return bool((self._owners[places] == self._guests.index(guest)).all())
 
     def lent(self) -> dict[str, str]:
@@ -124,7 +184,23 @@ class ControllerManager:
         return {self.joints[place]: self._name_of(self._owners[place]) for place in places}
 
     def check(self, guest: Guest, places: Indices) -> None:
-        """Refuse that a guest moves joints which belong to the mode or to a guest before it."""
+        """
+        Check that a guest may claim joints now.
+
+        Parameters
+        ----------
+        guest
+            One of `guests`.
+        places
+            Indices (m,) of the joints that it is to move.
+
+        Raises
+        ------
+        CommandError
+            The mode does not lend one of the joints, or lends nothing at the moment, or a guest of
+            higher priority owns one.
+
+        """
         for place in places[~self._may_lend[places]]:
             raise CommandError(self._not_lent(self.joints[place]))
         if self.trouble:
@@ -141,7 +217,23 @@ class ControllerManager:
             )
 
     def update(self, observation: Observation) -> JointTargets:
-        """Return the targets of all joints for the coming period."""
+        """
+        Compute the targets of all joints for the coming period. Call once per control period.
+
+        It switches the mode if that was requested and is possible, assigns joints to the guests
+        that claim them, and blends and limits the targets of the owners.
+
+        Parameters
+        ----------
+        observation
+            Sensor values of the present period.
+
+        Returns
+        -------
+        JointTargets
+            Of all n joints, within their limits of range, velocity and effort.
+
+        """
         now_s = observation.time_s
         if self.is_leaving and self._mode.may_end():
             self._enter(self._next)

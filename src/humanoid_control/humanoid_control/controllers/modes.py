@@ -52,11 +52,27 @@ class Mode:
 
 
 def hold_mode(joints: Sequence[str]) -> Mode:
-    """Return the mode in which every joint stays where it is, and none is lent."""
+    """
+    Build the mode in which every joint is held and none is lent.
+
+    Parameters
+    ----------
+    joints
+        All joints of the robot, in the order of its targets.
+
+    """
     return Mode('hold', Hold(joints), ())
 
 
 def follow_mode(joints: Sequence[str]) -> Mode:
-    """Return the mode in which every joint stays where it is until somebody moves it."""
+    """
+    Build the mode in which every joint is lent, and held while nobody moves it.
+
+    Parameters
+    ----------
+    joints
+        All joints of the robot, in the order of its targets.
+
+    """
     hold = Hold(joints)
     return Mode('follow', hold, tuple(joints), hold.take_back)

@@ -35,7 +35,22 @@ class Silence:
         self._unheard = True
 
     def lasts(self, now_s: float) -> bool:
-        """Tell, at a moment of the robot's time, whether it has been silent for the timeout."""
+        """
+        Check whether the timeout has passed since something was heard.
+
+        Call it in every period: the timeout counts from the first call after `heard`.
+
+        Parameters
+        ----------
+        now_s
+            The robot's time.
+
+        Returns
+        -------
+        bool
+            True also if nothing was ever heard, or nothing since `end`.
+
+        """
         if self._fresh:
             self._fresh, self._heard_s = False, now_s
         if not self._unheard and now_s - self._heard_s >= self._timeout_s:

@@ -35,7 +35,22 @@ class Spline:
         return float(self._times_s[-1])
 
     def at(self, time_s: float) -> tuple[Array, Array]:
-        """Return positions and velocities, (joints,); before and after the points, as there."""
+        """
+        Evaluate the spline at a time.
+
+        Parameters
+        ----------
+        time_s
+            On the time axis of the points; a time before the first or after the last one counts as
+            that of the point.
+
+        Returns
+        -------
+        tuple[Array, Array]
+            Positions and velocities of the joints, (joints,) each; the latter in units of the
+            positions per s.
+
+        """
         time_s = min(max(time_s, float(self._times_s[0])), self.end_s)
         last = len(self._steps_s) - 1
         piece = min(int(np.searchsorted(self._times_s, time_s, side='right')) - 1, last)
@@ -47,13 +62,45 @@ class Spline:
 
 
 def cubic(p0: Array, p1: Array, v0: Array, v1: Array) -> Array:
-    """Return the six coefficients, the constant first, from position and velocity at 0 and 1."""
+    """
+    Compute the coefficients of cubic polynomials through two points, over a time from 0 to 1.
+
+    Parameters
+    ----------
+    p0, p1
+        Positions at the start and at the end, of any shape, such as (pieces, joints).
+    v0, v1
+        Velocities there, multiplied by the duration of the piece.
+
+    Returns
+    -------
+    Array
+        Six coefficients along a new first axis, the constant first; the last two are zero.
+
+    """
     way, none = p1 - p0, np.zeros_like(p0)
     return np.stack([p0, v0, 3 * way - 2 * v0 - v1, v0 + v1 - 2 * way, none, none])
 
 
 def quintic(p0: Array, p1: Array, v0: Array, v1: Array, a0: Array, a1: Array) -> Array:
-    """Return the coefficients from position, velocity and acceleration at 0 and 1."""
+    """
+    Compute the coefficients of quintic polynomials through two points, over a time from 0 to 1.
+
+    Parameters
+    ----------
+    p0, p1
+        Positions at the start and at the end, of any shape, such as (pieces, joints).
+    v0, v1
+        Velocities there, multiplied by the duration of the piece.
+    a0, a1
+        Accelerations there, multiplied by the square of the duration.
+
+    Returns
+    -------
+    Array
+        Six coefficients along a new first axis, the constant first.
+
+    """
     way = p1 - p0
     return np.stack(
         [
@@ -69,10 +116,23 @@ def quintic(p0: Array, p1: Array, v0: Array, v1: Array, a0: Array, a1: Array) ->
 
 def inner_velocities(times_s: Array, positions: Array) -> Array:
     """
-    Return velocities at points that give none: zero at both ends, and where a joint turns back.
+    Choose velocities at points that give none: zero at both ends, and where a joint turns back.
 
-    Elsewhere it is the harmonic mean of the speeds before and after, which keeps the way of a
+    Elsewhere it is the harmonic mean of the speeds before and after, which keeps the path of a
     cubic between its points (Fritsch and Butland, 1984).
+
+    Parameters
+    ----------
+    times_s
+        Of the k points (k,), growing strictly.
+    positions
+        Of the m joints at each point (k, m).
+
+    Returns
+    -------
+    Array
+        Velocities (k, m), in units of the positions per s.
+
     """
     speeds = np.diff(positions, axis=0) / np.diff(times_s)[:, None]
     before, after = speeds[:-1], speeds[1:]

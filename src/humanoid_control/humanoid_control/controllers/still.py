@@ -28,7 +28,20 @@ class Still(Hold):
         return False
 
     def wanted(self, now_s: float) -> Mask:
-        """Return all joints, or none."""
+        """
+        Claim all joints while it is switched on, else none.
+
+        Parameters
+        ----------
+        now_s
+            Not used.
+
+        Returns
+        -------
+        Mask
+            Over all joints (n,).
+
+        """
         return self._all if self.on else self._none
 
     def cancel(self) -> None:

@@ -50,7 +50,33 @@ def checked_trajectory(
     names: Sequence[str],
     points: Sequence[TrajectoryPoint],
 ) -> Trajectory:
-    """Return the trajectory, or refuse it as a whole with the first reason."""
+    """
+    Check a joint trajectory as a whole against names, times and joint limits.
+
+    Neither accelerations nor the motion from the present positions to the first point are limited
+    here.
+
+    Parameters
+    ----------
+    joints, limits
+        All joints of the robot, and what they can do, in the same order.
+    names
+        The m joints that the trajectory moves, in the order of the values of its points.
+    points
+        The k points, at times that grow.
+
+    Returns
+    -------
+    Trajectory
+        Its columns are in the order of `names`.
+
+    Raises
+    ------
+    CommandError
+        The first reason why it is rejected: names, number or times of points, values, or a
+        position or velocity beyond the limits.
+
+    """
     places = joints.places(names)
     if not points:
         raise CommandError('It has no points. Give at least one.')

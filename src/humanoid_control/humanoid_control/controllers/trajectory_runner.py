@@ -40,19 +40,50 @@ class TrajectoryRunner:
         return self._waiting is not None
 
     def accept(self, trajectory: Trajectory) -> None:
-        """Take a trajectory that has been checked; it starts with the next period."""
+        """
+        Accept a trajectory, which starts in the next period and replaces the one that runs.
+
+        Parameters
+        ----------
+        trajectory
+            A trajectory that has been checked; its times count from the start.
+
+        """
         self._waiting, self._spline = trajectory, None
         self._wanted = np.zeros(len(self.joints), dtype=np.bool_)
         self._wanted[trajectory.places] = True
 
     def wanted(self, now_s: float) -> Mask:
-        """Return for which joints a trajectory runs or is to start, (n,)."""
+        """
+        Compute which joints a trajectory moves or is about to move.
+
+        A trajectory whose last point has passed is dropped.
+
+        Parameters
+        ----------
+        now_s
+            The robot's time.
+
+        Returns
+        -------
+        Mask
+            Over all joints (n,).
+
+        """
         if self._spline is not None and now_s - self._start_s > self._spline.end_s:
             self.cancel()
         return self._wanted
 
     def start(self, observation: Observation, held: JointTargets) -> None:
-        """Begin from what the joints were told last."""
+        """
+        Start the accepted trajectory, if there is one, from the last targets of its joints.
+
+        Parameters
+        ----------
+        observation, held
+            As for `Controller.start`.
+
+        """
         if self._waiting is not None:
             trajectory, self._waiting = self._waiting, None
             self._start_s = observation.time_s
@@ -60,7 +91,20 @@ class TrajectoryRunner:
             self._spline = spline_from(trajectory, held)
 
     def update(self, observation: Observation) -> JointTargets:
-        """Return the targets of now; those of joints that it does not want mean nothing."""
+        """
+        Sample the trajectory that runs.
+
+        Parameters
+        ----------
+        observation
+            As for `Controller.update`; only its time is used.
+
+        Returns
+        -------
+        JointTargets
+            Of all n joints; the entries of joints that are not `wanted` mean nothing.
+
+        """
         if self._spline is not None:
             positions_rad, velocities_rad_s = self._spline.at(observation.time_s - self._start_s)
             self._targets.positions_rad[self._places] = positions_rad

@@ -26,11 +26,37 @@ class WalkingController:
         self.joints = walker.robot.joints
 
     def start(self, observation: Observation, held: JointTargets) -> None:
-        """Begin from where the feet are, without a velocity."""
+        """
+        Restart the walk from where the feet are at the next `update`, with zero velocity.
+
+        Parameters
+        ----------
+        observation, held
+            As for `Controller.start`; not used.
+
+        """
         self.walker.restart()
 
     def update(self, observation: Observation) -> JointTargets:
-        """Return the targets for the coming period."""
+        """
+        Compute the joint targets of the walk, as for `Controller.update`.
+
+        Parameters
+        ----------
+        observation
+            Sensor values of the present period.
+
+        Returns
+        -------
+        JointTargets
+            Of all n joints of the robot, those that are lent too.
+
+        Raises
+        ------
+        WalkingError
+            The observation has arrays of the wrong length or values that are not finite.
+
+        """
         return self.walker.update(observation)
 
     def is_at_rest(self) -> bool:
@@ -42,13 +68,29 @@ class WalkingController:
         return DOWN if self.walker.has_fallen else ''
 
     def drive(self, velocity: VelocityCommand) -> None:
-        """Walk at a velocity; the same one again costs nothing."""
+        """
+        Set the walking velocity; zero stops. The same velocity again costs nothing.
+
+        Parameters
+        ----------
+        velocity
+            Of the body in its own axes; the gait limits it to what it can do.
+
+        """
         if velocity != self.walker.velocity:
             self.walker.command(velocity)
 
 
 def walking_mode(controller: WalkingController) -> Mode:
-    """Return the mode in which the robot walks; legs are not lent."""
+    """
+    Build the mode in which the robot walks and lends all joints but those of the legs.
+
+    Parameters
+    ----------
+    controller
+        The controller of all joints of the robot.
+
+    """
     lent = tuple(joint for joint in controller.joints if any(part in joint for part in LENT))
     return Mode(
         controller.name,

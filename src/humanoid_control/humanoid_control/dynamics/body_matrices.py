@@ -108,10 +108,20 @@ class BodyMatrices:
 
     def forces_of(self, base: Array, joints_rad_s2: Array) -> Array:
         """
-        Return (n + 1, 4, 4) what `forces` are while the robot accelerates, too.
+        Compute `forces` for given accelerations of root and joints.
 
-        :param base: linear (m/s2) and angular (rad/s2) acceleration of the root, (6,)
-        :param joints_rad_s2: accelerations of the joints, (n,)
+        Parameters
+        ----------
+        base
+            Acceleration of the root (6,): linear in m/s2, then angular in rad/s2, in world axes.
+        joints_rad_s2
+            Accelerations of the joints (n,).
+
+        Returns
+        -------
+        Array
+            Forces (n + 1, 4, 4) on the bodies with all that hangs from each.
+
         """
         n = len(self.tree.joints)
         own = (self.screws * joints_rad_s2[:, None, None]).reshape(n, 16)
@@ -121,7 +131,20 @@ class BodyMatrices:
         return self._hanging((self.accelerations + added + root) @ self.inertias)
 
     def efforts(self, forces: Array) -> Array:
-        """Return what the joints exert, (n,), for forces (n + 1, 4, 4) on all that they carry."""
+        """
+        Project forces onto the joints.
+
+        Parameters
+        ----------
+        forces
+            On the bodies with all that hangs from each (n + 1, 4, 4), as in `forces`.
+
+        Returns
+        -------
+        Array
+            Joint torques (n,) in N m, without those that accelerate the armature.
+
+        """
         powers: Array = (self.screws * forces[1:]).reshape(-1, 16)
         return powers @ np.ones(16)
 
@@ -132,7 +155,22 @@ class BodyMatrices:
 
 
 def axial(moments: Array) -> Array:
-    """Return the integral of r x f (3,), of that of f r^T."""
+    """
+    Extract the total moment of forces from their matrix.
+
+    It is twice the axial vector of the antisymmetric part.
+
+    Parameters
+    ----------
+    moments
+        The integral of f r^T over forces f at points r: (3, 3), or (4, 4) for homogeneous r and f.
+
+    Returns
+    -------
+    Array
+        The integral of r x f (3,).
+
+    """
     return np.array(
         [
             moments[2, 1] - moments[1, 2],

@@ -46,12 +46,25 @@ class BodyModel:
         gravity_m_s2: float = GRAVITY_M_S2,
     ) -> BodyModel:
         """
-        Return the model of a robot whose joints have this order in all arrays.
+        Build the model of a robot from its description.
 
-        :param joints: joints that turn; others are taken as fixed at zero
-        :param armature_kgm2: inertia of the rotors seen at the joints: one, or (n,)
-        :raises DynamicsError: if the robot is no tree of links and turning joints, or the armature
-            is none
+        Parameters
+        ----------
+        robot
+            A tree of links with one root.
+        joints
+            Joints that turn, in the order of all arrays; others are taken as fixed at zero.
+        armature_kgm2
+            Inertia of the rotors as seen at the joints: one for all, or (n,).
+        gravity_m_s2
+            Along -z of the world.
+
+        Raises
+        ------
+        DynamicsError
+            As for `Tree.of`, or the armature has another number of values, or one that is negative
+            or not finite.
+
         """
         tree = Tree.of(robot, tuple(joints))
         return cls(tree, _armature(tree.joints, armature_kgm2), gravity_m_s2)
@@ -77,12 +90,38 @@ class BodyModel:
         return ForwardKinematics.of(self.tree)
 
     def group(self, joints: Sequence[str]) -> JointGroup:
-        """Return some joints, for which a state has the inertia."""
+        """
+        Select joints whose inertia or Jacobian a state is to compute.
+
+        Parameters
+        ----------
+        joints
+            Names of k joints, in the order that the group is to have.
+
+        Raises
+        ------
+        DynamicsError
+            The model has no such joint.
+
+        """
         indices = np.array([self.index(joint) for joint in joints], dtype=np.intp)
         return JointGroup.of(tuple(joints), indices, self.tree.moves, self.armature_kgm2)
 
     def index(self, joint: str) -> int:
-        """Return the place of a joint in all arrays."""
+        """
+        Look up the index of a joint in all arrays (n,).
+
+        Parameters
+        ----------
+        joint
+            Its name.
+
+        Raises
+        ------
+        DynamicsError
+            The model has no such joint.
+
+        """
         if joint not in self.joints:
             raise DynamicsError(
                 f"The model has no joint '{joint}'. {did_you_mean(joint, self.joints)}".rstrip()
@@ -97,16 +136,25 @@ class BodyModel:
         velocities_rad_s: Array,
     ) -> BodyState:
         """
-        Return the robot in a posture and motion; nothing is computed that is not asked for.
+        Describe the robot in a posture and motion; what is not asked for is not computed.
 
         The origin of the root is at zero and does not move: add its position and velocity. The
         arrays are not copied: leave them as they are while the state is in use.
 
-        :param rotation: of the root in the world, (3, 3)
-        :param angular_velocity_rad_s: of the root in its own axes, (3,), as a gyroscope has it
-        :param positions_rad: (n,)
-        :param velocities_rad_s: (n,)
-        :raises DynamicsError: if an array has another shape or holds what is no finite number
+        Parameters
+        ----------
+        rotation
+            Of the root in the world (3, 3).
+        angular_velocity_rad_s
+            Of the root (3,), in its own axes, as a gyroscope measures it.
+        positions_rad, velocities_rad_s
+            Of the joints, (n,) each.
+
+        Raises
+        ------
+        DynamicsError
+            An array has another shape, or holds a value that is not finite.
+
         """
         n = len(self.joints)
         given = (

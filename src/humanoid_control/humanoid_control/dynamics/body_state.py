@@ -25,7 +25,8 @@ class BodyState:
 
     `BodyModel.state` makes it. Points, vectors and wrenches are in the axes of the world; points
     are seen from the origin of the root. Each quantity is computed when it is first asked for;
-    those that are kept cannot be written to (copy them).
+    those that are kept cannot be written to (copy them). A method that is asked about a link
+    raises `DynamicsError` if the model does not have it.
     """
 
     tree: Tree
@@ -49,31 +50,80 @@ class BodyState:
         return self.matrices.velocities_rad_s
 
     def pose(self, link: str) -> Array:
-        """Return where a link is, and how it is turned, as (4, 4)."""
+        """
+        Compute the pose of a link.
+
+        Parameters
+        ----------
+        link
+            Its name.
+
+        Returns
+        -------
+        Array
+            Homogeneous transform (4, 4) from the link to the axes of the world, with the origin of
+            the root at zero.
+
+        """
         mount = self._mount(link)
         pose: Array = self.matrices.poses[mount.body] @ mount.pose
         return pose
 
     def position_m(self, link: str) -> Array:
-        """Return where the origin of a link is, (3,)."""
+        """
+        Compute the position (3,) of the origin of a link.
+
+        Parameters
+        ----------
+        link
+            Its name.
+
+        """
         mount = self._mount(link)
         position: Array = (self.matrices.poses[mount.body] @ mount.pose[:, 3])[:3]
         return position
 
     def rotation(self, link: str) -> Array:
-        """Return how a link is turned, (3, 3)."""
+        """
+        Compute the rotation (3, 3) of a link in the world.
+
+        Parameters
+        ----------
+        link
+            Its name.
+
+        """
         mount = self._mount(link)
         rotation: Array = self.matrices.poses[mount.body, :3, :3] @ mount.pose[:3, :3]
         return rotation
 
     def velocity_m_s(self, link: str, point_m: Array | None = None) -> Array:
-        """Return the velocity (3,) of a point (3,) of a link; without a point of its origin."""
+        """
+        Compute the velocity (3,) of a point of a link.
+
+        Parameters
+        ----------
+        link
+            Its name.
+        point_m
+            The point (3,), in the axes of the world from the origin of the root; without one, the
+            origin of the link.
+
+        """
         mount = self._mount(link)
         velocity: Array = self.matrices.twists[mount.body, :3] @ self._point(mount, point_m)
         return velocity
 
     def angular_velocity_rad_s(self, link: str) -> Array:
-        """Return the angular velocity (3,) of a link."""
+        """
+        Compute the angular velocity (3,) of a link, in the axes of the world.
+
+        Parameters
+        ----------
+        link
+            Its name.
+
+        """
         twist = self.matrices.twists[self._mount(link).body]
         return np.array([twist[2, 1], twist[0, 2], twist[1, 0]])
 
@@ -110,13 +160,23 @@ class BodyState:
 
     def required(self, base: Array, joints_rad_s2: Array) -> tuple[Array, Array]:
         """
-        Return what accelerates the robot: the wrench (6,) on its root, and the efforts (n,).
+        Compute inverse dynamics: the root wrench and joint torques that accelerate the robot.
 
-        This is inverse dynamics, with the armature. The wrench is force and torque at the origin
-        of the root; without accelerations the answer is the bias.
+        The armature is included. Without accelerations the result is the bias.
 
-        :param base: linear (m/s2) and angular (rad/s2) acceleration of the root, (6,)
-        :param joints_rad_s2: accelerations of the joints, (n,)
+        Parameters
+        ----------
+        base
+            Acceleration of the root (6,): linear in m/s2, then angular in rad/s2, in world axes.
+        joints_rad_s2
+            Accelerations of the joints (n,).
+
+        Returns
+        -------
+        tuple[Array, Array]
+            The wrench (6,) on the root: force in N, then torque in N m about its origin; and the
+            joint torques (n,) in N m.
+
         """
         forces = self.matrices.forces_of(base, joints_rad_s2)
         efforts = self.matrices.efforts(forces) + self.armature_kgm2 * joints_rad_s2
@@ -142,9 +202,20 @@ class BodyState:
 
     def drift(self, link: str) -> Array:
         """
-        Return the acceleration (6,) of a link while neither the root nor the joints accelerate.
+        Compute the acceleration bias of a link, the product of Jacobian derivative and velocities.
 
-        Linear (m/s2) of its origin, then angular (rad/s2): what their Jacobians leave out.
+        It is how the link accelerates while neither the root nor the joints do.
+
+        Parameters
+        ----------
+        link
+            Its name.
+
+        Returns
+        -------
+        Array
+            Acceleration (6,): linear in m/s2 of its origin, then angular in rad/s2.
+
         """
         mount = self._mount(link)
         acceleration = self.matrices.accelerations[mount.body]
@@ -154,10 +225,22 @@ class BodyState:
 
     def jacobian(self, link: str, point_m: Array | None = None) -> Array:
         """
-        Return the Jacobian (3, 6 + n) of the velocity of a point (3,) of a link.
+        Compute the Jacobian of the velocity of a point of a link.
 
-        Without a point it is the origin of the link. Columns: the linear velocity of the root,
-        its angular velocity (both in the axes of the world), the joints.
+        Parameters
+        ----------
+        link
+            Its name.
+        point_m
+            The point (3,), in the axes of the world from the origin of the root; without one, the
+            origin of the link.
+
+        Returns
+        -------
+        Array
+            Jacobian (3, 6 + n). Columns: the linear velocity of the root, its angular velocity
+            (both in the axes of the world), the joints.
+
         """
         mount = self._mount(link)
         point = self._point(mount, point_m)
@@ -170,7 +253,20 @@ class BodyState:
         return jacobian
 
     def angular_jacobian(self, link: str) -> Array:
-        """Return the Jacobian (3, 6 + n) of the angular velocity of a link; columns as above."""
+        """
+        Compute the Jacobian of the angular velocity of a link.
+
+        Parameters
+        ----------
+        link
+            Its name.
+
+        Returns
+        -------
+        Array
+            Jacobian (3, 6 + n), with the columns of `jacobian`.
+
+        """
         n = len(self.tree.joints)
         jacobian = np.zeros((3, 6 + n))
         jacobian[:, 3:6] = np.eye(3)
@@ -181,9 +277,20 @@ class BodyState:
 
     def jacobian_of(self, group: JointGroup, link: str) -> Array:
         """
-        Return the Jacobian (6, k) of a link for the joints of a group alone.
+        Compute the Jacobian of a link for the joints of a group alone.
 
-        Rows: the linear velocity of its origin, then its angular velocity.
+        Parameters
+        ----------
+        group
+            The k joints, from `BodyModel.group`.
+        link
+            The name of the link.
+
+        Returns
+        -------
+        Array
+            Jacobian (6, k). Rows: the linear velocity of the origin, then the angular velocity.
+
         """
         mount, k = self._mount(link), len(group.indices)
         moved = self.matrices.screws[group.indices].reshape(-1, 4) @ self._point(mount, None)
@@ -197,10 +304,26 @@ class BodyState:
         self, link: str, point_m: Array, force_n: Array, torque_nm: Array | None = None
     ) -> Array:
         """
-        Return the efforts (n,) that a force (3,) on a point (3,) of a link has at the joints.
+        Map a force on a link to joint torques by the Jacobian transpose, without the Jacobian.
 
-        It is the Jacobian's transpose times the force, without the Jacobian. To stand on the
-        point, joints exert the bias less this. A torque (3,) on the link is added if given.
+        To stand on the point, the joints exert `bias_nm` less this.
+
+        Parameters
+        ----------
+        link
+            Its name.
+        point_m
+            Where the force acts (3,), in the axes of the world from the origin of the root.
+        force_n
+            On the link (3,), in the axes of the world.
+        torque_nm
+            A torque on the link in addition (3,), likewise.
+
+        Returns
+        -------
+        Array
+            Joint torques (n,) in N m that the force has at the joints.
+
         """
         mount = self._mount(link)
         point = self._point(mount, point_m)
@@ -214,10 +337,21 @@ class BodyState:
 
     def inertia_kgm2(self, group: JointGroup) -> Array:
         """
-        Return the inertia (k, k) of the joints of a group, with the armature.
+        Compute the joint-space inertia matrix of a group, with the armature.
 
-        It maps their accelerations to their efforts while the root and the other joints do not
+        It maps their accelerations to their torques while the root and the other joints do not
         accelerate (composite rigid bodies: Featherstone, Rigid Body Dynamics Algorithms, 6.2).
+
+        Parameters
+        ----------
+        group
+            The k joints, from `BodyModel.group`.
+
+        Returns
+        -------
+        Array
+            Symmetric matrix (k, k) in kg m2.
+
         """
         screws = self.matrices.screws[group.indices]
         momenta = screws @ self.matrices.composites[group.indices + 1]

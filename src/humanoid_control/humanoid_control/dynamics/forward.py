@@ -30,12 +30,36 @@ class ForwardKinematics:
 
     @classmethod
     def of(cls, tree: Tree) -> ForwardKinematics:
-        """Prepare the tables for a tree."""
+        """
+        Precompute the tables of a kinematic tree.
+
+        Parameters
+        ----------
+        tree
+            Its n joints and n + 1 bodies.
+
+        """
         at_rest = np.tile(np.eye(4), (len(tree.parents) + 1, 1, 1))
         return cls(_turned(tree.placements), _jumps(tree.parents), at_rest)
 
     def poses(self, rotation: Array, positions_rad: Array) -> Array:
-        """Return where the bodies are, (n + 1, 4, 4), for a rotation (3, 3) of the root."""
+        """
+        Compute the poses of all bodies.
+
+        Parameters
+        ----------
+        rotation
+            Of the root in the world (3, 3).
+        positions_rad
+            Of the joints (n,).
+
+        Returns
+        -------
+        Array
+            Homogeneous transforms (n + 1, 4, 4) from the bodies to the axes of the world, with the
+            origin of the root at zero.
+
+        """
         n = len(self.turned)
         factors = np.ones((n, 1, 3))
         np.sin(positions_rad, out=factors[:, 0, 1])

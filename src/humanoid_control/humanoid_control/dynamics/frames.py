@@ -20,7 +20,20 @@ class Frame:
     rotation: Array
 
     def seen_from(self, base: Frame) -> Frame:
-        """Return this frame in the axes of another; both are given in a third one."""
+        """
+        Express this frame relative to another.
+
+        Parameters
+        ----------
+        base
+            The other frame, in the same parent as this one.
+
+        Returns
+        -------
+        Frame
+            Position in m and rotation in the axes of `base`.
+
+        """
         inverse = base.rotation.T
         return Frame(inverse @ (self.position_m - base.position_m), inverse @ self.rotation)
 
@@ -34,9 +47,22 @@ class Twist:
 
     def seen_from(self, base: Frame, base_twist: Twist, position_m: Array) -> Twist:
         """
-        Return how the frame moves for one who moves with another, in the axes of that one.
+        Express the twist of a frame relative to another that moves as well.
 
-        All is given in a third frame; the position is that of the frame that moves.
+        All arguments and this twist are given in the axes of a common parent.
+
+        Parameters
+        ----------
+        base, base_twist
+            The other frame, and how it moves.
+        position_m
+            The origin of the frame that has this twist (3,).
+
+        Returns
+        -------
+        Twist
+            The motion as an observer who moves with `base` sees it, in the axes of `base`.
+
         """
         lever = position_m - base.position_m
         carried = base_twist.linear_m_s + skew(base_twist.angular_rad_s) @ lever

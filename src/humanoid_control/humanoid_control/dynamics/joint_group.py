@@ -32,12 +32,37 @@ class JointGroup:
         moves: Array,
         armature_kgm2: Array,
     ) -> JointGroup:
-        """Return the group; `moves` and the armature are those of all joints of the model."""
+        """
+        Build a group from the tables of a model; `BodyModel.group` calls it.
+
+        Parameters
+        ----------
+        joints, indices
+            Names of the k joints, and their indices (k,) in the model.
+        moves
+            Which joints move which bodies (n + 1, n), from `Tree.moves`.
+        armature_kgm2
+            Of all joints of the model (n,).
+
+        """
         carries = moves[indices + 1][:, indices].T.copy()
         return cls(joints, indices, carries, np.diag(armature_kgm2[indices]))
 
     def symmetric(self, below: Array) -> Array:
-        """Return the whole of a symmetric matrix (k, k) of which only `carries` is right."""
+        """
+        Complete a symmetric matrix of which only the elements in `carries` are right.
+
+        Parameters
+        ----------
+        below
+            The matrix (k, k); its other elements are ignored.
+
+        Returns
+        -------
+        Array
+            The whole (k, k), zero between joints of which neither carries the other.
+
+        """
         right = below * self._shares
         whole: Array = right + right.T
         return whole

@@ -49,9 +49,20 @@ class LegGeometry:
     @classmethod
     def of(cls, robot: Robot, side: str) -> LegGeometry:
         """
-        Return the left or right leg of a robot.
+        Read the geometry of a leg from the description of a robot.
 
-        :raises DynamicsError: if the robot has no such leg, or one of another build
+        Parameters
+        ----------
+        robot
+            Its links and joints.
+        side
+            `left` or `right`.
+
+        Raises
+        ------
+        DynamicsError
+            The side is another one, or the robot has no such leg, or one of another build.
+
         """
         sole = _sole(robot, side)
         joints = [joint for joint in chain(robot, sole) if joint.is_driven]

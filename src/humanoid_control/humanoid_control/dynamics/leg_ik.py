@@ -35,12 +35,28 @@ class LegPosture:
 
 def leg_posture(leg: LegGeometry, sole: Frame) -> LegPosture:
     """
-    Return the joints for a pose of the sole in the root.
+    Compute the inverse kinematics of a leg for a pose of its sole.
 
-    Beyond reach the leg is stretched towards the place where the ankle should be, and the sole
-    is turned as it should be. The way there is smooth: see `SOFT`.
+    Beyond reach the leg is stretched towards the place where the ankle should be, and the sole is
+    turned as it should be. The transition is smooth: see `SOFT`.
 
-    :raises DynamicsError: if the pose is not finite
+    Parameters
+    ----------
+    leg
+        Its geometry.
+    sole
+        The wanted pose of the sole, in the frame of the root.
+
+    Returns
+    -------
+    LegPosture
+        The six joint positions, and how far beyond reach the wanted pose is.
+
+    Raises
+    ------
+    DynamicsError
+        The pose is not finite.
+
     """
     (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = sole.rotation.tolist()
     px, py, pz = sole.position_m.tolist()

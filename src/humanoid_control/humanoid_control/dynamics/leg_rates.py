@@ -18,10 +18,25 @@ def leg_rates(
     leg: LegGeometry, posture: LegPosture, sole: Frame, twist: Twist
 ) -> tuple[float, ...]:
     """
-    Return the rates in rad/s of the joints for a motion of the sole, both seen from the root.
+    Compute the joint velocities of a leg for a twist of its sole.
 
-    It is the derivative of `leg_posture`, of which the posture is the answer for the same sole:
-    beyond reach the leg follows what of the motion it can follow.
+    It is the derivative of `leg_posture`: beyond reach the leg follows what of the motion it can
+    follow.
+
+    Parameters
+    ----------
+    leg
+        Its geometry.
+    posture
+        The result of `leg_posture` for the same leg and sole.
+    sole, twist
+        The wanted pose of the sole, and its motion as seen from the root, in the axes of the root.
+
+    Returns
+    -------
+    tuple[float, ...]
+        Six velocities in rad/s, in the order of the leg's joints.
+
     """
     hip_yaw, hip_roll, hip_pitch, knee, ankle_pitch, _ = posture.positions_rad
     wx, wy, wz = twist.angular_rad_s.tolist()

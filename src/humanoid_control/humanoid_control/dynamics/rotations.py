@@ -17,7 +17,20 @@ Array = NDArray[np.float64]
 
 
 def from_quaternion(quaternion: Sequence[float] | Array) -> Array:
-    """Return the rotation of a quaternion of any length but zero."""
+    """
+    Convert a quaternion to a rotation matrix (3, 3).
+
+    Parameters
+    ----------
+    quaternion
+        w, x, y, z, of any length but zero.
+
+    Raises
+    ------
+    ValueError
+        The length is zero or not finite.
+
+    """
     w, x, y, z = map(float, quaternion)
     square = w * w + x * x + y * y + z * z
     if not 0.0 < square < math.inf:
@@ -36,7 +49,15 @@ def from_quaternion(quaternion: Sequence[float] | Array) -> Array:
 
 
 def from_rpy(roll: float, pitch: float, yaw: float) -> Array:
-    """Return the rotation of roll, pitch and yaw in rad."""
+    """
+    Convert roll, pitch and yaw to a rotation matrix (3, 3).
+
+    Parameters
+    ----------
+    roll, pitch, yaw
+        Angles in rad about the fixed x, y and z, in this order.
+
+    """
     cr, sr = math.cos(roll), math.sin(roll)
     cp, sp = math.cos(pitch), math.sin(pitch)
     cy, sy = math.cos(yaw), math.sin(yaw)
@@ -50,36 +71,89 @@ def from_rpy(roll: float, pitch: float, yaw: float) -> Array:
 
 
 def about_x(angle: float) -> Array:
-    """Return the rotation about x by an angle in rad."""
+    """
+    Compute the rotation matrix (3, 3) about the x axis.
+
+    Parameters
+    ----------
+    angle
+        In rad, by the right-hand rule.
+
+    """
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
 def about_y(angle: float) -> Array:
-    """Return the rotation about y by an angle in rad."""
+    """
+    Compute the rotation matrix (3, 3) about the y axis.
+
+    Parameters
+    ----------
+    angle
+        In rad, by the right-hand rule.
+
+    """
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
 
 
 def about_z(angle: float) -> Array:
-    """Return the rotation about z by an angle in rad."""
+    """
+    Compute the rotation matrix (3, 3) about the z axis.
+
+    Parameters
+    ----------
+    angle
+        In rad, by the right-hand rule.
+
+    """
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def to_rpy(rotation: Array) -> tuple[float, float, float]:
-    """Return roll, pitch and yaw in rad; the pitch is within a quarter of a turn."""
+    """
+    Convert a rotation matrix to roll, pitch and yaw.
+
+    Parameters
+    ----------
+    rotation
+        The matrix (3, 3).
+
+    Returns
+    -------
+    tuple[float, float, float]
+        Angles in rad about the fixed x, y and z; the pitch is within a quarter of a turn.
+
+    """
     (r00, _, _), (r10, _, _), (r20, r21, r22) = rotation.tolist()
     return math.atan2(r21, r22), math.atan2(-r20, math.hypot(r21, r22)), math.atan2(r10, r00)
 
 
 def yaw_of(rotation: Array) -> float:
-    """Return the yaw in rad: where x points, seen from above."""
+    """
+    Extract the yaw of a rotation in rad: where its x axis points, seen from above.
+
+    Parameters
+    ----------
+    rotation
+        The matrix (3, 3).
+
+    """
     return math.atan2(rotation[1, 0], rotation[0, 0])
 
 
 def exp(rotation_vector: Array) -> Array:
-    """Return the rotation about a vector by its length in rad (Rodrigues)."""
+    """
+    Convert a rotation vector to a rotation matrix (3, 3) by Rodrigues' formula.
+
+    Parameters
+    ----------
+    rotation_vector
+        The axis (3,); its length is the angle in rad.
+
+    """
     angle = math.sqrt(rotation_vector @ rotation_vector)
     turn = skew(rotation_vector)
     # sin(a) / a and (1 - cos(a)) / a^2, which numpy's sinc gives at zero as well.
@@ -90,7 +164,20 @@ def exp(rotation_vector: Array) -> Array:
 
 
 def log(rotation: Array) -> Array:
-    """Return the vector (3,) about which a rotation turns by its length, at most half a turn."""
+    """
+    Convert a rotation matrix to a rotation vector.
+
+    Parameters
+    ----------
+    rotation
+        The matrix (3, 3).
+
+    Returns
+    -------
+    Array
+        The axis (3,); its length is the angle in rad, at most half a turn.
+
+    """
     (a, b, c), (d, e, f), (g, h, i) = rotation.tolist()
     # The quaternion from its largest component, so that no root of a small number is taken.
     candidates = (
@@ -108,11 +195,27 @@ def log(rotation: Array) -> Array:
 
 
 def skew(vector: Array) -> Array:
-    """Return the matrix (3, 3) that multiplies by the cross product with a vector."""
+    """
+    Build the skew-symmetric matrix (3, 3) that takes the cross product with a vector.
+
+    Parameters
+    ----------
+    vector
+        The left factor (3,): `skew(a) @ b` is a x b.
+
+    """
     x, y, z = vector.tolist()
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
 def wrap_angle(angle: float) -> float:
-    """Return the same direction as an angle in rad from -pi (included) to pi."""
+    """
+    Wrap an angle to the range from -pi (included) to pi (excluded).
+
+    Parameters
+    ----------
+    angle
+        In rad.
+
+    """
     return (angle + math.pi) % (2.0 * math.pi) - math.pi

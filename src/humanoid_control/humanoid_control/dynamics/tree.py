@@ -46,7 +46,23 @@ class Tree:
 
     @classmethod
     def of(cls, robot: Robot, joints: tuple[str, ...]) -> Tree:
-        """Return the tables of a robot; joints that are not named are fixed at zero."""
+        """
+        Build the tables of a robot's bodies and joints.
+
+        Parameters
+        ----------
+        robot
+            Its links and joints.
+        joints
+            Joints that turn, in the order of the tables; others are taken as fixed at zero.
+
+        Raises
+        ------
+        DynamicsError
+            The robot has not exactly one root or weighs nothing, or a joint is unknown, repeated,
+            does not turn or mimics another.
+
+        """
         _check(robot, joints)
         mounts = _mounts(robot, joints)
         above = [mounts[robot.joint[joint].parent] for joint in joints]

@@ -13,7 +13,20 @@ class Brain(Protocol):
     """What decides where the joints of one robot go."""
 
     def update(self, observation: Observation) -> JointTargets:
-        """Return the targets of all joints for the coming period."""
+        """
+        Compute the joint targets of the coming control period.
+
+        Parameters
+        ----------
+        observation
+            What the sensors of the robot measured at the start of the period.
+
+        Returns
+        -------
+        JointTargets
+            Targets of all n joints of the robot, each array (n,), in the order of the observation.
+
+        """
 
     def reset(self) -> None:
         """Begin anew with the next observation."""
@@ -42,12 +55,28 @@ class ControlLoop:
         return observations
 
     def reset(self, keyframe: str = 'home') -> None:
-        """Put all robots where they began, in a posture that has a name; time goes on."""
+        """
+        Reset all robots to a named posture at their start pose; time goes on.
+
+        Parameters
+        ----------
+        keyframe
+            Name of a posture that the backend knows; it raises an error for any other.
+
+        """
         self.backend.reset(keyframe)
         for brain in self._brains.values():
             brain.reset()
 
     def begin_anew(self, robot: str) -> None:
-        """Tell a robot that it was put somewhere else."""
+        """
+        Restart the control of a robot that was moved from outside, as by a teleport.
+
+        Parameters
+        ----------
+        robot
+            Name of the robot; one without a brain is ignored.
+
+        """
         if robot in self._brains:
             self._brains[robot].reset()

@@ -33,7 +33,15 @@ class ControllerActions:
         self._due = Every(FEEDBACK_RATE_HZ)
 
     def tell(self, time_s: float) -> None:
-        """Take note of the robot's time; publish how goals go, if it is time."""
+        """
+        Update the time of the action servers, and publish feedback of their goals at its rate.
+
+        Parameters
+        ----------
+        time_s
+            The robot's time, that of the newest observation.
+
+        """
         is_due = self._due.is_due(time_s)
         for server in self._servers:
             server.time_s = time_s

@@ -44,16 +44,40 @@ class ControllerInfo:
 
 
 def interfaces_of(joints: Sequence[str]) -> list[str]:
-    """Name the interfaces of joints; to command and to read them are the same."""
+    """
+    Name the ros2_control interfaces of joints; command and state interfaces are the same.
+
+    Parameters
+    ----------
+    joints
+        Names of joints.
+
+    Returns
+    -------
+    list of str
+        Three a joint: `joint/position`, `joint/velocity` and `joint/effort`.
+
+    """
     return [f'{joint}/{quantity}' for joint in joints for quantity in QUANTITIES]
 
 
 def controllers_of(control: RobotControl) -> list[ControllerInfo]:
     """
-    List all that can own a joint of a robot.
+    List the controllers of a robot, with their states and the joints that they claim.
 
-    First come those that take goals, then the modes, of which one is active, and then those that
-    move what they are told to on a topic. At each moment, every joint is claimed by one of them.
+    Each joint is claimed by exactly one of them at any moment.
+
+    Parameters
+    ----------
+    control
+        The control of the robot.
+
+    Returns
+    -------
+    list of ControllerInfo
+        First those that take goals, then the modes, of which one is active, and then those that
+        move joints as commanded on a topic.
+
     """
     manager = control.manager
     lends = any(manager.is_lent(controller.places) for controller in control.controllers.values())

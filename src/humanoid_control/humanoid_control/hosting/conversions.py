@@ -18,16 +18,38 @@ MOST_POINTS = 1000
 
 
 def velocity_of(message: Twist) -> VelocityCommand:
-    """Return the velocity in the plane, or raise WalkingError; the rest of it means nothing."""
+    """
+    Convert a Twist to a planar velocity command; its other components are ignored.
+
+    Parameters
+    ----------
+    message
+        Velocity in the axes of the body: `linear.x`, `linear.y` (m/s) and `angular.z` (rad/s).
+
+    Raises
+    ------
+    WalkingError
+        One of the three is not finite.
+
+    """
     return VelocityCommand(message.linear.x, message.linear.y, message.angular.z)
 
 
 def body_pose_of(message: Pose) -> BodyPose:
     """
-    Return how the body is to be held, or raise WalkingError.
+    Convert a Pose to the height and pitch of the body of a standing robot.
 
-    Of the position the height counts, compared to that of a robot that stands upright, and of the
-    orientation the pitch.
+    Parameters
+    ----------
+    message
+        `position.z` is the height (m) relative to that of an upright robot, negative is lower. Of
+        the orientation the pitch counts, positive bends forward. All else is ignored.
+
+    Raises
+    ------
+    WalkingError
+        The orientation is no rotation: its length is zero or not finite.
+
     """
     turn = message.orientation
     try:
@@ -38,12 +60,33 @@ def body_pose_of(message: Pose) -> BodyPose:
 
 
 def seconds(time: Any) -> float:
-    """Return a time or a duration of `builtin_interfaces` in seconds."""
+    """
+    Convert a ROS time or duration to seconds.
+
+    Parameters
+    ----------
+    time
+        A `Time` or `Duration` of `builtin_interfaces`.
+
+    """
     return float(time.sec + time.nanosec * 1e-9)
 
 
 def points_of(message: JointTrajectory) -> list[TrajectoryPoint]:
-    """Return the points of a trajectory, or raise CommandError if they are too many."""
+    """
+    Convert the points of a JointTrajectory, without checking their values.
+
+    Parameters
+    ----------
+    message
+        The trajectory; positions are in rad, or m for prismatic joints.
+
+    Raises
+    ------
+    CommandError
+        It has more than `MOST_POINTS` points.
+
+    """
     count = len(message.points)
     if count > MOST_POINTS:
         raise CommandError(

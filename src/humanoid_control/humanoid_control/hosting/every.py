@@ -15,7 +15,17 @@ class Every:
         self._next_s = float('-inf') if rate_hz > 0.0 else float('inf')
 
     def is_due(self, now_s: float) -> bool:
-        """Tell whether it is time; times that were missed are left out, and time may go back."""
+        """
+        Whether the next period has come; a call that returns True starts the following one.
+
+        Periods that were missed are skipped; a clock that was set back starts the schedule anew.
+
+        Parameters
+        ----------
+        now_s
+            The robot's time.
+
+        """
         if now_s < self._next_s - self._period_s - _ROUNDING_S:
             self._next_s = now_s
         if now_s < self._next_s - _ROUNDING_S:

@@ -15,10 +15,26 @@ class Log(Protocol):
     """What sentences are told to."""
 
     def error(self, message: str) -> object:
-        """Say what is bad."""
+        """
+        Log an error message.
+
+        Parameters
+        ----------
+        message
+            What is wrong, and what to do.
+
+        """
 
     def info(self, message: str) -> object:
-        """Say what is good to know."""
+        """
+        Log an informational message.
+
+        Parameters
+        ----------
+        message
+            What is good to know.
+
+        """
 
 
 class FallReport:
@@ -31,7 +47,15 @@ class FallReport:
         self._was_down = False
 
     def look(self, is_down: bool) -> None:
-        """Take note of whether the robot is down."""
+        """
+        Log a fall, or that the robot stands again, when that has changed since the last call.
+
+        Parameters
+        ----------
+        is_down
+            Whether the robot lies, falls or is being put onto its feet.
+
+        """
         if is_down == self._was_down:
             return
         self._was_down = is_down

@@ -57,12 +57,43 @@ class FollowJointTrajectoryServer(GoalServer[TrajectoryGoal, GoalResult]):
         goal.publish_feedback(feedback)
 
     def checked(self, goal: FollowJointTrajectory.Goal) -> TrajectoryGoal:
-        """Return what a goal asks of the controller, or raise CommandError."""
+        """
+        Check a FollowJointTrajectory goal against the joints and limits of the controller.
+
+        Parameters
+        ----------
+        goal
+            The trajectory and its tolerances. If the stamp of its header is zero, it starts now.
+
+        Returns
+        -------
+        TrajectoryGoal
+            As for `GoalServer.checked`.
+
+        Raises
+        ------
+        CommandError
+            As for `GoalServer.checked`.
+
+        """
         request = _request(goal, self.time_s)
         return self._control.checked_goal(self._controller.name, request)
 
     def finished(self, handle: ServerGoalHandle, end: GoalResult) -> tuple[Any, str]:
-        """Set how a goal ended; return its result, and a sentence if that is a failure."""
+        """
+        Set the status of a goal that has ended, and build its FollowJointTrajectory result.
+
+        Parameters
+        ----------
+        handle, end
+            As for `GoalServer.finished`; an error code other than zero aborts the goal.
+
+        Returns
+        -------
+        tuple
+            As for `GoalServer.finished`.
+
+        """
         trouble = ''
         if end.is_canceled:
             handle.canceled()

@@ -69,11 +69,44 @@ class GoalServer(ABC, Generic[GoalT, ResultT]):
 
     @abstractmethod
     def checked(self, goal: Any) -> GoalT:
-        """Return what a goal asks of the controller, or raise CommandError."""
+        """
+        Check a goal, and convert it to what the controller accepts.
+
+        Parameters
+        ----------
+        goal
+            The goal of the action, as the client sent it.
+
+        Returns
+        -------
+        GoalT
+            The goal for `GoalController.accept`.
+
+        Raises
+        ------
+        CommandError
+            The goal cannot be done; the text says why, and what to do.
+
+        """
 
     @abstractmethod
     def finished(self, handle: ServerGoalHandle, end: ResultT) -> tuple[Any, str]:
-        """Set how a goal ended; return its result, and a sentence if that is a failure."""
+        """
+        Set the status of a goal that has ended, and build its result.
+
+        Parameters
+        ----------
+        handle
+            The goal; it is set to succeeded, canceled or aborted here.
+        end
+            How the controller ended it.
+
+        Returns
+        -------
+        tuple
+            The result message of the action, and the error message to log, '' without a failure.
+
+        """
 
     def _check(self, goal: Any) -> GoalResponse:
         """Accept a goal that can be done; say why another is rejected."""

@@ -41,14 +41,46 @@ class GripperCommandServer(GoalServer[Grip, GripResult]):
             self.current.publish_feedback(_filled(feedback, self._controller.state))
 
     def checked(self, goal: GripperCommand.Goal) -> Grip:
-        """Return what a goal asks of the controller, or raise CommandError."""
+        """
+        Check a GripperCommand goal against the range of the gripper.
+
+        Parameters
+        ----------
+        goal
+            Its `position` is the gap between the fingers in m, its `max_effort` the greatest force
+            in N; 0 is all that the drive has.
+
+        Returns
+        -------
+        Grip
+            As for `GoalServer.checked`.
+
+        Raises
+        ------
+        CommandError
+            As for `GoalServer.checked`.
+
+        """
         command = goal.command
         return self._control.checked_grip(
             self._controller.name, command.position, command.max_effort
         )
 
     def finished(self, handle: ServerGoalHandle, end: GripResult) -> tuple[Any, str]:
-        """Set how a goal ended; return its result, and a sentence if that is a failure."""
+        """
+        Set the status of a goal that has ended, and build its GripperCommand result.
+
+        Parameters
+        ----------
+        handle, end
+            As for `GoalServer.finished`; fingers that stall at what they hold succeed, too.
+
+        Returns
+        -------
+        tuple
+            As for `GoalServer.finished`.
+
+        """
         trouble = ''
         if end.is_canceled:
             handle.canceled()

@@ -68,7 +68,17 @@ class Host:
         return self._owed > 0
 
     def pause(self, paused: bool) -> None:
-        """Stop the time, or let it go on; periods that were still to pass do not."""
+        """
+        Pause or resume the control loop.
+
+        Steps that `tick_in_pause` still owes are dropped in both cases.
+
+        Parameters
+        ----------
+        paused
+            Whether to pause. When time goes on, the pause is not caught up with.
+
+        """
         self._paused = paused
         self._settle()
         if not paused:
@@ -76,7 +86,15 @@ class Host:
         self._set_timer()
 
     def change(self, interval_s: float) -> None:
-        """Tick at another interval; the pace has been told already."""
+        """
+        Change the real time between two ticks; call it after the pace itself has been changed.
+
+        Parameters
+        ----------
+        interval_s
+            Real time between two ticks at the pace; 0 is as fast as possible.
+
+        """
         self._interval_s = interval_s
         self._set_timer()
 
@@ -87,16 +105,32 @@ class Host:
 
     def tick_in_pause(self, periods: int, done: Callable[[], None]) -> None:
         """
-        Let so many periods pass in a pause, as fast as possible, with callbacks between them.
+        Step the paused control loop, as fast as possible, with callbacks of the node in between.
 
-        :param done: called when they have passed, or when `pause` has ended that
+        Returns at once. Steps that an earlier call still owes are dropped.
+
+        Parameters
+        ----------
+        periods
+            How many control periods to run.
+        done
+            Called once: after the last step, or when `pause` or another call has dropped the rest.
+
         """
         self._settle()
         self._owed, self._done = periods, done
         self._set_timer()
 
     def reset(self, keyframe: str = 'home') -> None:
-        """Put all robots where they began, in a posture that has a name; time goes on."""
+        """
+        Reset all robots to a named posture at their start pose; time goes on.
+
+        Parameters
+        ----------
+        keyframe
+            As for `ControlLoop.reset`.
+
+        """
         self._loop.reset(keyframe)
 
     def _run(self) -> None:

@@ -68,7 +68,15 @@ class HostedRobots:
         self.change(parameters)
 
     def change(self, parameters: HostParameters) -> None:
-        """Go over to another mode, other rates and another patience."""
+        """
+        Apply changed parameters: the mode, the publishing rates and the heartbeat timeout.
+
+        Parameters
+        ----------
+        parameters
+            The new values; those that are read-only have their effect at the start alone.
+
+        """
         for robot in self._robots.values():
             robot.control.manager.switch(parameters.mode)
         for inputs in self._inputs.values():
@@ -82,7 +90,15 @@ class HostedRobots:
             inputs.look()
 
     def tell(self, observations: Mapping[str, Observation]) -> None:
-        """Publish what is due, after each tick."""
+        """
+        Publish the topics, action feedback and log messages that are due; call it after each tick.
+
+        Parameters
+        ----------
+        observations
+            The observation of each robot at this tick, by name; its time stamps the messages.
+
+        """
         for name, outputs in self._outputs.items():
             outputs.publish(observations[name])
             self.time_s = observations[name].time_s

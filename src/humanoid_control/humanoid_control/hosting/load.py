@@ -26,11 +26,27 @@ class Load:
         self._took_s: list[float] = []
 
     def add(self, took_s: float) -> None:
-        """Take note of a tick."""
+        """
+        Record the computing time of one tick.
+
+        Parameters
+        ----------
+        took_s
+            How long the tick took, in real time.
+
+        """
         self._took_s.append(took_s)
 
     def report(self, now_s: float) -> LoadReport:
-        """Return what was measured since the last report, and begin anew."""
+        """
+        Summarise the load since the last report, and start a new measurement.
+
+        Parameters
+        ----------
+        now_s
+            Time of the steady clock that the measurement was started with.
+
+        """
         passed_s, took_s = now_s - self._since_s, self._took_s
         self._since_s, self._took_s = now_s, []
         busy_s = sum(took_s)

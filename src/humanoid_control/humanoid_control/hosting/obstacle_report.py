@@ -15,7 +15,15 @@ class Log(Protocol):
     """What sentences are told to."""
 
     def warning(self, message: str) -> object:
-        """Say what limits the robot."""
+        """
+        Log a warning message.
+
+        Parameters
+        ----------
+        message
+            What limits the robot, and what to do.
+
+        """
 
 
 class ObstacleReport:
@@ -28,7 +36,15 @@ class ObstacleReport:
         self._was_blocked = False
 
     def look(self, is_blocked: bool) -> None:
-        """Take note of whether something is in the way."""
+        """
+        Log a warning when the robot becomes blocked.
+
+        Parameters
+        ----------
+        is_blocked
+            Whether something is in the way now.
+
+        """
         if is_blocked and not self._was_blocked:
             self._log.warning(f'{self._who} {BLOCKED}')
         self._was_blocked = is_blocked

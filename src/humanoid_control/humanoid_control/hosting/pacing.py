@@ -10,13 +10,42 @@ class Pace(Protocol):
     """Says when to let a period pass."""
 
     def wait_s(self, now_s: float) -> float:
-        """Return for how long the next tick is not due yet; zero if it is."""
+        """
+        Compute the time until the next tick is due.
+
+        Parameters
+        ----------
+        now_s
+            Time of a steady clock.
+
+        Returns
+        -------
+        float
+            Real time in s; zero if the tick is due.
+
+        """
 
     def ticked(self, now_s: float) -> None:
-        """Take note of a tick."""
+        """
+        Schedule the next tick after one that was just done.
+
+        Parameters
+        ----------
+        now_s
+            Time of the steady clock at the end of the tick.
+
+        """
 
     def restart(self, now_s: float) -> None:
-        """Go on after a pause, from now."""
+        """
+        Schedule the next tick for now, as after a pause: what was missed is not caught up with.
+
+        Parameters
+        ----------
+        now_s
+            Time of the steady clock.
+
+        """
 
 
 class RealTimePace:
@@ -33,13 +62,44 @@ class RealTimePace:
         self._next_s = float('-inf')
 
     def wait_s(self, now_s: float) -> float:
-        """Return for how long the next tick is not due yet."""
+        """
+        Compute the time until the next tick is due.
+
+        Parameters
+        ----------
+        now_s
+            As for `Pace.wait_s`.
+
+        Returns
+        -------
+        float
+            As for `Pace.wait_s`.
+
+        """
         return max(self._next_s - now_s, 0.0)
 
     def ticked(self, now_s: float) -> None:
-        """Take note of a tick."""
+        """
+        Schedule the next tick one period after the last one was due.
+
+        A delay beyond `most_behind_s` is not caught up with.
+
+        Parameters
+        ----------
+        now_s
+            As for `Pace.ticked`.
+
+        """
         self._next_s = max(self._next_s, now_s - self._most_behind_s) + self._period_s
 
     def restart(self, now_s: float) -> None:
-        """Go on after a pause, from now."""
+        """
+        Schedule the next tick for now.
+
+        Parameters
+        ----------
+        now_s
+            As for `Pace.restart`.
+
+        """
         self._next_s = now_s

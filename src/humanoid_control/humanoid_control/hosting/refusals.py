@@ -25,7 +25,18 @@ class Refusals:
         self._since_s, self._count = clock(), 0
 
     def add(self, sentence: str) -> None:
-        """Say the sentence, unless it was heard a short while ago."""
+        """
+        Log the rejection of a command, unless the same message came a short while ago.
+
+        A message that comes again within `QUIET_S` is dropped, and of different ones no more than
+        `MOST` are logged in that time.
+
+        Parameters
+        ----------
+        sentence
+            Why the command is rejected, and what to do.
+
+        """
         now_s = self._clock()
         is_new = now_s - self._heard_s.get(sentence, -math.inf) >= QUIET_S
         if len(self._heard_s) > MOST:

@@ -37,7 +37,15 @@ class Rivals:
 
 
 def sentence(topics: Sequence[str]) -> str:
-    """Return what is wrong, and what to do."""
+    """
+    Build the warning about topics that have more than one publisher.
+
+    Parameters
+    ----------
+    topics
+        Full names of the topics.
+
+    """
     names = ', '.join(f"'{topic}'" for topic in topics)
     return (
         f'Another node publishes {names}, too: who listens gets a mixture. Perhaps a second robot '

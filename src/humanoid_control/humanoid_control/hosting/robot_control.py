@@ -93,28 +93,110 @@ class RobotControl:
         velocities_rad_s: Sequence[float] = (),
         efforts_nm: Sequence[float] = (),
     ) -> None:
-        """Move some joints as commanded, or raise CommandError."""
+        """
+        Command joints to positions, from the next control period on.
+
+        While the robot must hold still, a sound command is dropped.
+
+        Parameters
+        ----------
+        names
+            The joints, m of them, each once.
+        positions_rad
+            Target positions (m,); in m if prismatic.
+        velocities_rad_s, efforts_nm
+            Target velocities and additional efforts (m,), or empty for zero; in m/s and N if
+            prismatic.
+
+        Raises
+        ------
+        CommandError
+            The command is unsound, or the joints belong to the mode or to a controller of higher
+            priority.
+
+        """
         command = self._names.targets(names, positions_rad, velocities_rad_s, efforts_nm)
         if not self.must_hold:
             self.manager.check(self._follower, command.places)
             self._follower.accept(command)
 
     def run(self, names: Sequence[str], points: Sequence[TrajectoryPoint]) -> None:
-        """Move some joints along a trajectory, or raise CommandError."""
+        """
+        Move joints along a trajectory that starts with the next control period.
+
+        While the robot must hold still, a sound trajectory is dropped.
+
+        Parameters
+        ----------
+        names
+            The joints, m of them, each once.
+        points
+            Where they are to be, and when; each point has m values, in the order of the names.
+
+        Raises
+        ------
+        CommandError
+            The joints cannot follow it, or belong to the mode or to a controller of higher
+            priority.
+
+        """
         trajectory = checked_trajectory(self._names, self._limits, names, points)
         if not self.must_hold:
             self.manager.check(self._runner, trajectory.places)
             self._runner.accept(trajectory)
 
     def checked_goal(self, controller: str, request: TrajectoryRequest) -> TrajectoryGoal:
-        """Return a goal that a controller can be given now, or raise CommandError."""
+        """
+        Check a trajectory goal of a controller of arms, head or waist.
+
+        Parameters
+        ----------
+        controller
+            Name of the controller, one of `trajectory_controllers`.
+        request
+            What its client asks for.
+
+        Returns
+        -------
+        TrajectoryGoal
+            The goal, which the controller can be given now.
+
+        Raises
+        ------
+        CommandError
+            The joints cannot do it, the controller is inactive, the robot must hold still, or the
+            joints belong to the mode or to a controller of higher priority.
+
+        """
         wanted = self.trajectory_controllers[controller]
         goal = checked_goal(controller, wanted.own, self._names, self._limits, request)
         self._check_free(wanted)
         return goal
 
     def checked_grip(self, controller: str, gap_m: float, most_n: float) -> Grip:
-        """Return a grip that the controller of a gripper can be given now, or CommandError."""
+        """
+        Check a goal of a gripper controller.
+
+        Parameters
+        ----------
+        controller
+            Name of the controller, one of `gripper_controllers`.
+        gap_m
+            Gap between the fingers.
+        most_n
+            The greatest force; 0 is all that the drive has.
+
+        Returns
+        -------
+        Grip
+            The goal within the limits of the gripper, which the controller can be given now.
+
+        Raises
+        ------
+        CommandError
+            The gap or the force is out of range, or the reasons of `checked_goal`.
+
+        """
         wanted = self.gripper_controllers[controller]
         grip = wanted.checked(gap_m, most_n)
         self._check_free(wanted)
@@ -132,21 +214,63 @@ class RobotControl:
         self.manager.check(controller, controller.places)
 
     def walk(self, velocity: VelocityCommand) -> None:
-        """Walk at a velocity until the timeout, or raise CommandError."""
+        """
+        Command a walking velocity, which expires unless it is repeated within the timeout.
+
+        While the robot must hold still, the command is dropped.
+
+        Parameters
+        ----------
+        velocity
+            The velocity in the axes of the body.
+
+        Raises
+        ------
+        CommandError
+            The robot does not walk.
+
+        """
         if self._drive is None:
             raise CommandError('This robot does not walk: nothing in it takes a velocity.')
         if not self.must_hold:
             self._velocity.accept(velocity)
 
     def hold_body(self, pose: BodyPose) -> None:
-        """Hold the body in a pose until the robot walks, or raise CommandError."""
+        """
+        Command the height and pitch of the body, which it keeps until the robot walks.
+
+        While the robot must hold still, the command is dropped.
+
+        Parameters
+        ----------
+        pose
+            How the pelvis is to be held; the gait limits what it cannot do.
+
+        Raises
+        ------
+        CommandError
+            The robot cannot bend its body.
+        WalkingError
+            The pose is not finite.
+
+        """
         if self._hold_body is None:
             raise CommandError('This robot does not bend: nothing in it takes a pose of the body.')
         if not self.must_hold:
             self._hold_body(pose)
 
     def hold_still(self, must: bool) -> None:
-        """Begin to hold still, or be released; what was commanded before is forgotten."""
+        """
+        Stop the robot, or release it.
+
+        A stop drops all commands, aborts the goals, and keeps the body as it is bent now.
+
+        Parameters
+        ----------
+        must
+            Whether the robot must hold still; the same value again changes nothing.
+
+        """
         if must and not self.must_hold:
             self._forget()
             if self._hold_body is not None:
@@ -156,7 +280,22 @@ class RobotControl:
         self.still.on = must
 
     def update(self, observation: Observation) -> JointTargets:
-        """Return the targets of all joints for the coming period."""
+        """
+        Compute the joint targets of the coming control period; call it once per period.
+
+        While the robot must hold still or is leaving its mode, the velocity is zero.
+
+        Parameters
+        ----------
+        observation
+            What the sensors of the robot measured at the start of the period.
+
+        Returns
+        -------
+        JointTargets
+            Targets of all n joints, each array (n,), within their limits.
+
+        """
         if self._drive is not None:
             velocity = self._velocity.at(observation.time_s)
             must_stand = self.must_hold or self.manager.is_leaving

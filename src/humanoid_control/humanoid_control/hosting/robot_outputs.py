@@ -35,14 +35,30 @@ class RobotOutputs:
         self.change(parameters)
 
     def change(self, parameters: HostParameters) -> None:
-        """Publish at other rates."""
+        """
+        Set the publishing rates; each topic is due at once after it.
+
+        Parameters
+        ----------
+        parameters
+            Their rates in Hz; 0 is never.
+
+        """
         self._joints_due = Every(parameters.joint_states_rate_hz)
         self._imu_due = Every(parameters.imu_rate_hz)
         self._odometry_due = Every(parameters.odometry_rate_hz)
         self._debug_due = Every(parameters.debug_rate_hz)
 
     def publish(self, observation: Observation) -> None:
-        """Publish what is due at the time of an observation."""
+        """
+        Publish the topics of the robot that are due.
+
+        Parameters
+        ----------
+        observation
+            The newest observation; its time decides what is due, and stamps the messages.
+
+        """
         now_s = observation.time_s
         if self._joints_due.is_due(now_s):
             self._joint_states.publish(observation)

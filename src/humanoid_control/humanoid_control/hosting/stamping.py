@@ -18,7 +18,26 @@ class Stamps:
         self._clock_s = 0.0
 
     def stamp_s(self, robot_s: float, clock_s: float) -> Optional[float]:
-        """Return the stamp of a moment, None while the clock stands still or has no time yet."""
+        """
+        Convert the robot's time to a message stamp of a clock.
+
+        Stamps keep the regular spacing of the robot's time. Where the two times are more than
+        `MOST_OFF_S` apart, they jump to the clock.
+
+        Parameters
+        ----------
+        robot_s
+            The moment to stamp, in the robot's time.
+        clock_s
+            What the clock says now.
+
+        Returns
+        -------
+        float or None
+            The stamp in s of the clock. None before the clock has a time, and once a clock that
+            stands still is more than `MOST_OFF_S` behind.
+
+        """
         stands, self._clock_s = clock_s == self._clock_s, clock_s
         if clock_s <= 0.0:
             return None

@@ -18,7 +18,15 @@ class VelocityInput:
         self._newest = STANDING
 
     def accept(self, velocity: VelocityCommand) -> None:
-        """Take a velocity."""
+        """
+        Take a velocity command, and restart the timeout.
+
+        Parameters
+        ----------
+        velocity
+            The velocity in the axes of the body.
+
+        """
         self._newest = velocity
         self._silence.heard()
 
@@ -27,5 +35,14 @@ class VelocityInput:
         self._silence.end()
 
     def at(self, now_s: float) -> VelocityCommand:
-        """Return the velocity at a moment of the robot's time."""
+        """
+        Look up the velocity command in force; zero once the last one has expired.
+
+        Parameters
+        ----------
+        now_s
+            The robot's time. A command expires when the timeout has passed by it and by the
+            computer's clock, if one was given.
+
+        """
         return STANDING if self._silence.lasts(now_s) else self._newest

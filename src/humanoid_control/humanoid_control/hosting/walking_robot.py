@@ -45,13 +45,26 @@ class WalkingRobotControl:
         imu: ImuNoise = ImuNoise(),
     ) -> WalkingRobotControl:
         """
-        Return the control of a robot that begins in the mode `walking`.
+        Build the walker and the controllers of a robot, which starts in the mode `walking`.
 
-        :param drives: of all joints, in the order of observations and targets
-        :param clock: the computer's, by which commands time out beside the robot's own time
-        :param say: gets a sentence when a controller is at fault
-        :param able: makes of a velocity that is wanted what the robot can do, within the gait
-        :param imu: how far the inertial sensor is off
+        Parameters
+        ----------
+        robot
+            The model from its URDF.
+        drives
+            The drives of all joints, in the order of observations and targets.
+        scale
+            Size of the robot, by which the parameters of the gait are scaled.
+        clock
+            The computer's clock: commands expire when the timeout has passed by it and by the
+            robot's time; by default the robot's time alone counts.
+        say
+            Receives a message when a controller asks for targets that are not finite.
+        able
+            Maps a commanded velocity to what the robot can do, before the limits of the gait.
+        imu
+            Errors of the inertial sensor, which make the odometry uncertain.
+
         """
         joints = tuple(drives)
         walker = Walker.of(robot, drives, joints, WalkParameters().scaled(scale), imu)

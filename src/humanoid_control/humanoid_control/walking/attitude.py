@@ -32,9 +32,27 @@ def hip_efforts(
     pitch_rate_rad_s: float = 0.0,
 ) -> Array:
     """
-    Return efforts (3,) of hip yaw, roll and pitch of a leg that carries all of the weight.
+    Compute the hip torques that hold the pelvis upright and on its heading.
 
-    :param turning, pitch_rad, pitch_rate_rad_s: how the pelvis is to be turned, and to turn
+    A PD law on the attitude for a leg that carries all of the weight: scale it by the share of
+    the load on each leg.
+
+    Parameters
+    ----------
+    parameters
+        Stiffness and damping of the attitude, and the fraction of both that acts on the heading.
+    attitude
+        Measured attitude of base_link in the odom frame, and rates in its own axes.
+    turning
+        Wanted heading of the pelvis in the odom frame, and its rate.
+    pitch_rad, pitch_rate_rad_s
+        Wanted pitch of the pelvis, positive when it is bent forward, and its rate.
+
+    Returns
+    -------
+    Array
+        Torques (3,) of hip yaw, roll and pitch in N m.
+
     """
     stiffness, damping = (
         parameters.attitude_stiffness_nm_rad,

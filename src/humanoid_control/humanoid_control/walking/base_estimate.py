@@ -34,14 +34,40 @@ class BaseEstimate:
     """(3,)"""
 
     def motion(self, state: BodyState) -> BaseMotion:
-        """Return how the base moves, with its turning."""
+        """
+        Combine the estimated position and velocity with the measured rotation of the base.
+
+        Parameters
+        ----------
+        state
+            State of the robot, which holds the rotation and the angular velocity of the base.
+
+        Returns
+        -------
+        BaseMotion
+            Pose and twist of base_link, both in the odom frame.
+
+        """
         return BaseMotion(
             Frame(self.position_m, state.base_rotation),
             Twist(self.velocity_m_s, state.base_angular_velocity_rad_s),
         )
 
     def com_motion(self, state: BodyState) -> Motion:
-        """Return the motion of the centre of mass over the ground."""
+        """
+        Compute the horizontal motion of the centre of mass.
+
+        Parameters
+        ----------
+        state
+            State of the robot, with the centre of mass relative to the origin of base_link.
+
+        Returns
+        -------
+        Motion
+            Position in m and velocity in m/s, in the plane of the odom frame.
+
+        """
         position = self.position_m + state.com_m
         velocity = self.velocity_m_s + state.com_velocity_m_s
         return Motion(complex(position[0], position[1]), complex(velocity[0], velocity[1]))
@@ -49,12 +75,23 @@ class BaseEstimate:
 
 def carrying(shares: tuple[float, float], loads: tuple[float, float]) -> tuple[float, float]:
     """
-    Return how much each foot says of where the base is; the parts sum up to 1.
+    Compute how much each foot contributes to leg odometry, from the load that it carries.
 
-    A foot that is told to carry weight but does not need not be where it is told to stand.
+    A foot that should carry weight but does not may be off its foothold: below a fifth of the
+    weight of the robot its contribution fades out.
 
-    :param shares: of the feet in the weight, as commanded
-    :param loads: the weight on the soles as measured, as shares of the robot's
+    Parameters
+    ----------
+    shares
+        Commanded load distribution, left and right; the sum is 1.
+    loads
+        Measured normal forces on the soles, as fractions of the weight of the robot.
+
+    Returns
+    -------
+    tuple of float
+        Weights of the left and the right foot, which sum to 1; `shares` if neither carries load.
+
     """
     left, right = (
         share * limited(load / _SURE_LOAD, 0.0, 1.0) for share, load in zip(shares, loads)
@@ -67,9 +104,24 @@ def base_on(
     footing: Footing, shares: tuple[float, float], robot: WalkingRobot, state: BodyState
 ) -> BaseEstimate:
     """
-    Return where the base is if the feet that carry weight stand still where they landed.
+    Estimate the position and velocity of the base by leg odometry.
 
-    :param shares: of the feet in the weight; they sum up to 1
+    The feet that carry weight are assumed to stand still on their footholds.
+
+    Parameters
+    ----------
+    footing
+        Footholds of both feet, in the odom frame.
+    shares
+        Weights of the left and the right foot, which sum to 1; see `carrying`.
+    robot, state
+        The robot and its measured state, whose points are relative to the origin of base_link.
+
+    Returns
+    -------
+    BaseEstimate
+        Position and velocity of the origin of base_link in the odom frame.
+
     """
     position, velocity = np.zeros(3), np.zeros(3)
     for side in SIDES:

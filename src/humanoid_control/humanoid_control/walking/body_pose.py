@@ -29,12 +29,17 @@ class BodyPose:
 
     def within(self, parameters: WalkParameters) -> BodyPose:
         """
-        Return what of it the robot can do.
+        Clamp the pose to the range that the robot can reach.
+
+        Parameters
+        ----------
+        parameters
+            Limits of the pitch (`bend_rad`, `bend_back_rad`) and of the height (`lower_m`).
 
         Raises
         ------
         WalkingError
-            It is no finite pose.
+            The pose is not finite.
 
         """
         if not (math.isfinite(self.pitch_rad) and math.isfinite(self.height_m)):
@@ -70,7 +75,17 @@ class BodyPoseFollower:
         )
 
     def update(self, wanted: BodyPose, passed_s: float) -> None:
-        """Let time pass."""
+        """
+        Move the body pose towards a wanted one at limited rates. Call once per control period.
+
+        Parameters
+        ----------
+        wanted
+            Pose to reach, within the limits (see `BodyPose.within`).
+        passed_s
+            Time since the last call.
+
+        """
         p = self.parameters
         pitch_rad = _towards(self.pose.pitch_rad, wanted.pitch_rad, p.bend_rad_s * passed_s)
         height_m = _towards(self.pose.height_m, wanted.height_m, p.lower_m_s * passed_s)

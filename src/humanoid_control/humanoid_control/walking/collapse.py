@@ -32,7 +32,23 @@ class Collapse:
         self._posture_rad = _protective_posture(robot)
 
     def targets(self, time_s: float, positions_rad: Array) -> JointTargets:
-        """Return the targets at a time; positions are those measured, (n,)."""
+        """
+        Compute the joint targets of a compliant fall.
+
+        Parameters
+        ----------
+        time_s
+            Time of the observation, on the same clock as the start of the fall.
+        positions_rad
+            Measured joint positions (n,).
+
+        Returns
+        -------
+        JointTargets
+            Positions a fraction of the way from the measured ones to a protective posture, which
+            acts as a lower stiffness (none after `collapse_s`); velocities and efforts are zero.
+
+        """
         p, zeros = self._parameters, np.zeros(len(positions_rad))
         falls = time_s - self._start_s < p.collapse_s
         share = p.collapse_stiffness if falls else 0.0

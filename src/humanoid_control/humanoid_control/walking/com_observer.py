@@ -24,7 +24,24 @@ class ComObserver:
     motion: Motion | None = None
 
     def update(self, measured: Motion, zmp: Point, passed_s: float) -> Motion:
-        """Return the motion now; the first one is what is measured."""
+        """
+        Predict the motion of the centre of mass, and correct it with the measured one.
+
+        Parameters
+        ----------
+        measured
+            Motion of the centre of mass by leg odometry, in the odom frame.
+        zmp
+            Zero-moment point (m) that was commanded since the last call, in the odom frame.
+        passed_s
+            Time since the last call.
+
+        Returns
+        -------
+        Motion
+            Estimated motion in the odom frame; the first call returns `measured`.
+
+        """
         if self.motion is None:
             self.motion = measured
             return measured
@@ -34,7 +51,17 @@ class ComObserver:
 
 
 def blended(a: Motion, b: Motion, share: float) -> Motion:
-    """Return the motion between two, at a share of the way to the second."""
+    """
+    Interpolate linearly between two motions of the centre of mass.
+
+    Parameters
+    ----------
+    a, b
+        The two motions, in the same frame.
+    share
+        How far to go from `a` (0) to `b` (1).
+
+    """
     return Motion(
         a.position_m + share * (b.position_m - a.position_m),
         a.velocity_m_s + share * (b.velocity_m_s - a.velocity_m_s),

@@ -25,7 +25,27 @@ class ComReference:
     motion: Motion | None = None
 
     def update(self, measured: Motion, zmp: Point, passed_s: float) -> Motion:
-        """Return the motion wanted now; it begins at rest where the robot is."""
+        """
+        Advance the reference motion of the centre of mass by one control period.
+
+        It starts at rest at the estimated position, and stays within `most_distance_m` of it along
+        each axis of the odom frame.
+
+        Parameters
+        ----------
+        measured
+            Estimated motion of the centre of mass, in the odom frame.
+        zmp
+            Commanded zero-moment point (m), in the odom frame.
+        passed_s
+            Time since the last call.
+
+        Returns
+        -------
+        Motion
+            Reference position in m and velocity in m/s, in the odom frame.
+
+        """
         if self.motion is None:
             self.motion = Motion(measured.position_m)
         driven = self.pendulum.after(self.motion, zmp, passed_s)

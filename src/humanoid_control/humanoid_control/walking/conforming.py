@@ -36,10 +36,21 @@ class Conforming:
         passed_s: float,
     ) -> None:
         """
-        Let time pass.
+        Adapt the footholds to the measured tilt and height of the ground.
 
-        :param shares: of the feet in the weight, as commanded
-        :param in_air: the side whose foot swings
+        Parameters
+        ----------
+        footing
+            Footholds in the odom frame; those of the feet on the ground are updated.
+        soles
+            Measured poses and loads of the soles, left and right, in the odom frame.
+        shares
+            Commanded load distribution, left and right; the sum is 1.
+        in_air
+            Side of the swing foot, which is not adapted; None if both feet are on the ground.
+        passed_s
+            Time since the last call.
+
         """
         for side in SIDES:
             if side == in_air:

@@ -28,7 +28,23 @@ class Course:
         self._middle = None
 
     def corrected(self, middle: PlanarPose) -> PlanarPose:
-        """Return where to plan a step from while the robot is in a place, nearer to the course."""
+        """
+        Correct the start of the next step towards the reference path.
+
+        The first call starts the path. It is kept within `course_distance_m` and `course_turn_rad`
+        of the robot, so that large pushes are not made up for.
+
+        Parameters
+        ----------
+        middle
+            Middle between the feet at the start of the step, in the odom frame.
+
+        Returns
+        -------
+        PlanarPose
+            Pose to plan from, in the odom frame: a fraction `course_gain` of the way to the path.
+
+        """
         p = self._planner.parameters
         if self._middle is None:
             self._middle = middle
@@ -42,6 +58,18 @@ class Course:
         )
 
     def advance(self, support: int, command: VelocityCommand, time_s: float) -> None:
-        """Go on by a step on the foot of a side that took some time."""
+        """
+        Advance the reference path by one step; without effect before the path has started.
+
+        Parameters
+        ----------
+        support
+            Side of the foot that carried the robot during the step.
+        command
+            Velocity of the step, in the axes of the robot.
+        time_s
+            Actual duration of the step.
+
+        """
         if self._middle is not None:
             self._middle = self._planner.next_middle(self._middle, support, command, time_s)

@@ -59,7 +59,20 @@ class DcmPlan:
         return sum(segment.duration_s for segment in self._segments)
 
     def at(self, time_s: float) -> BalanceReference:
-        """Return the reference at a time since the start; before and after it stands still."""
+        """
+        Evaluate the DCM and ZMP trajectories at a time.
+
+        Parameters
+        ----------
+        time_s
+            Time since the start of the plan; outside its duration the first or last point holds.
+
+        Returns
+        -------
+        BalanceReference
+            Divergent component of motion and zero-moment point in m, in the frame of the segments.
+
+        """
         time_s = max(0.0, time_s)
         for segment, dcm_at_end in zip(self._segments, self._dcm_at_end):
             if time_s < segment.duration_s:

@@ -29,10 +29,22 @@ class ForceObserver:
 
     def update(self, velocity_m_s: Point, ground_n: Point, passed_s: float) -> Point:
         """
-        Return the force after a tick.
+        Estimate the horizontal external force with a momentum observer.
 
-        :param velocity_m_s: of the centre of mass, as measured
-        :param ground_n: what acts on both feet, as measured
+        Parameters
+        ----------
+        velocity_m_s
+            Measured velocity of the centre of mass, in the odom frame.
+        ground_n
+            Measured horizontal force of the ground on the feet, in the axes of the odom frame.
+        passed_s
+            Time since the last call.
+
+        Returns
+        -------
+        Point
+            Low-pass filtered force in N, in the axes of the odom frame; zero at the first call.
+
         """
         last, self._velocity_m_s = self._velocity_m_s, velocity_m_s
         if last is not None and passed_s > 0.0:

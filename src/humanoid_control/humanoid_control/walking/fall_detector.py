@@ -27,7 +27,17 @@ class Stance:
 
     @classmethod
     def of(cls, robot: WalkingRobot, sensed: Sensed) -> Stance:
-        """Return how upright the robot is that senses this."""
+        """
+        Measure how upright the robot is.
+
+        Parameters
+        ----------
+        robot
+            The robot, whose legs name the links of its soles.
+        sensed
+            What its sensors say at the moment.
+
+        """
         _, _, z = sensed.state.base_rotation.T.tolist()
         sine = math.hypot(z[0], z[1])
         rates = sensed.state.base_angular_velocity_rad_s.tolist()
@@ -51,9 +61,15 @@ class FallDetector:
 
     def is_falling(self, stance: Stance) -> bool:
         """
-        Tell whether the robot falls: it leans, or soon will lean, too much, or is too low.
+        Check whether the robot is falling: it leans too far, soon will, or its base is too low.
 
-        How fast an upright robot tilts says nothing: the landing of a foot jerks it.
+        The tilt rate of an upright robot is ignored, since the landing of a foot jerks it.
+
+        Parameters
+        ----------
+        stance
+            How upright the robot is.
+
         """
         p = self.parameters
         foresight_s = p.fall_foresight_s if stance.tilt_rad > p.upright_tilt_rad else 0.0
@@ -63,7 +79,15 @@ class FallDetector:
         )
 
     def can_stand(self, stance: Stance) -> bool:
-        """Tell whether the base is upright and the legs are below it."""
+        """
+        Check whether the base is upright and high enough above the soles to stand up from there.
+
+        Parameters
+        ----------
+        stance
+            How upright the robot is.
+
+        """
         p = self.parameters
         return (
             stance.tilt_rad < p.upright_tilt_rad

@@ -18,10 +18,25 @@ def ground_efforts(
     robot: WalkingRobot, state: BodyState, base_m: Array, loads: Loads, reaction: GroundReaction
 ) -> Array:
     """
-    Return the efforts (n,) that the ground has on the joints through the feet.
+    Map the ground reaction to joint torques with the transposed Jacobians of the feet.
 
-    :param base_m: the origin of the base (3,) in the frame of the load points
-    :param loads: how the feet share what the ground does
+    Parameters
+    ----------
+    robot, state
+        The robot and its measured state.
+    base_m
+        Origin of base_link (3,): x and y in the odom frame, z above the ground.
+    loads
+        Load distribution, and the centre of pressure under each foot in the odom frame.
+    reaction
+        Total force of the ground, and its torque about the vertical.
+
+    Returns
+    -------
+    Array
+        Torques (n,) in N m that the ground exerts on the joints. Subtract them from those of
+        inverse dynamics to get what the actuators have to exert.
+
     """
     efforts: Array = np.zeros(len(robot.body.joints))
     turn = np.array([0.0, 0.0, reaction.turn_nm])

@@ -27,7 +27,27 @@ class FootShape:
 
     @classmethod
     def of(cls, robot: Robot, parameters: WalkParameters) -> FootShape:
-        """Measure the left foot of a robot; the right one is its mirror image."""
+        """
+        Measure the supporting rectangle of the left sole from the collision shapes of the foot.
+
+        Parameters
+        ----------
+        robot
+            Description of the robot; its link `l_sole` is fixed to the left foot.
+        parameters
+            Margins from the edges of the sole, and the offset of the planned load point.
+
+        Returns
+        -------
+        FootShape
+            Rectangle and load point in m, in the frame of the left sole; the right one mirrors it.
+
+        Raises
+        ------
+        WalkingError
+            No link of the foot has a collision shape.
+
+        """
         sole = robot.prefix + 'l_sole'
         way = chain(robot, sole)
         for start in reversed(range(len(way))):
@@ -54,10 +74,40 @@ class FootShape:
         )
 
     def load_point(self, side: int, sole: PlanarPose) -> Point:
-        """Return the point of the ground under which the load of a foot is planned."""
+        """
+        Compute the point at which the load of a foot is planned.
+
+        Parameters
+        ----------
+        side
+            Side of the foot.
+        sole
+            Pose of its sole in the odom frame.
+
+        Returns
+        -------
+        Point
+            Point of the ground in m, in the odom frame.
+
+        """
         return sole.at(self.load_m.real, outwards(side) * self.load_m.imag)
 
     def corners(self, side: int, sole: PlanarPose) -> list[Point]:
-        """Return the corners of the rectangle on the ground."""
+        """
+        Compute the corners of the supporting rectangle of a foot.
+
+        Parameters
+        ----------
+        side
+            Side of the foot.
+        sole
+            Pose of its sole in the odom frame.
+
+        Returns
+        -------
+        list of Point
+            Front outer, front inner, back outer and back inner corner in m, in the odom frame.
+
+        """
         lefts = (outwards(side) * self.outer_m, outwards(side) * self.inner_m)
         return [sole.at(x, y) for x in (self.front_m, self.back_m) for y in lefts]

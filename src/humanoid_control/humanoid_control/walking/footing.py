@@ -45,20 +45,62 @@ class Footing:
         return self._footholds[side]
 
     def put(self, side: int, foothold: Foothold) -> None:
-        """Note where a foot has landed."""
+        """
+        Replace the foothold of a foot, as when it has landed.
+
+        Parameters
+        ----------
+        side
+            Side of the foot.
+        foothold
+            Where its sole stands, in the odom frame.
+
+        """
         self._footholds[side] = foothold
         self._polygons.clear()
 
     def pose(self, side: int) -> PlanarPose:
-        """Return where a foot is in the plane."""
+        """
+        Return the pose of a foothold in the plane of the odom frame.
+
+        Parameters
+        ----------
+        side
+            Side of the foot.
+
+        """
         return self._footholds[side].pose
 
     def conform(self, side: int, foothold: Foothold) -> None:
-        """Note how a foot stands that is where it was in the plane."""
+        """
+        Adapt the height and tilt of a foothold that keeps its pose in the plane.
+
+        Parameters
+        ----------
+        side
+            Side of the foot.
+        foothold
+            Adapted foothold in the odom frame. Its pose must be the present one, since the support
+            polygon is not computed again.
+
+        """
         self._footholds[side] = foothold
 
     def height_m(self, shares: tuple[float, float]) -> float:
-        """Return how high the feet are, by their shares in the weight."""
+        """
+        Compute the mean height of the footholds, weighted by the load on the feet.
+
+        Parameters
+        ----------
+        shares
+            Load distribution, left and right; the sum is 1.
+
+        Returns
+        -------
+        float
+            Height in m, in the odom frame.
+
+        """
         left, right = self._footholds
         return shares[LEFT] * left.facet.height_m + shares[RIGHT] * right.facet.height_m
 
@@ -74,7 +116,22 @@ class Footing:
         return (left.facet.tilt + right.facet.tilt) / 2
 
     def load_point(self, side: int, pose: PlanarPose | None = None) -> Point:
-        """Return where the load of a foot is planned, here or where the foot will be."""
+        """
+        Compute the point at which the load of a foot is planned.
+
+        Parameters
+        ----------
+        side
+            Side of the foot.
+        pose
+            Pose of its sole in the odom frame; by default that of its foothold.
+
+        Returns
+        -------
+        Point
+            Point of the ground in m, in the odom frame.
+
+        """
         return self._shape.load_point(side, pose or self.pose(side))
 
     @property
@@ -83,7 +140,20 @@ class Footing:
         return (self.load_point(LEFT) + self.load_point(RIGHT)) / 2
 
     def polygon(self, sides: Sequence[int] = SIDES) -> SupportPolygon:
-        """Return the area in which the feet of these sides can carry the robot."""
+        """
+        Compute the support polygon of the feet on the ground.
+
+        Parameters
+        ----------
+        sides
+            Sides of the feet that carry the robot; both by default.
+
+        Returns
+        -------
+        SupportPolygon
+            Convex hull of the supporting rectangles of these feet, in the odom frame.
+
+        """
         key = tuple(sides)
         if key not in self._polygons:
             self._polygons[key] = SupportPolygon(
@@ -102,10 +172,25 @@ class Loads:
 
 def loads_for(footing: Footing, sides: Sequence[int], zmp: Point) -> Loads:
     """
-    Return loads of the feet that make up a zero-moment point.
+    Compute the load distribution of the feet for a zero-moment point.
 
-    On both feet the shares follow from where the point projects on the line between the load
-    points; what is left of it moves the loads of both alike.
+    On both feet the shares follow from the projection of the point onto the line between the load
+    points; the rest of its offset moves the centres of pressure of both feet alike.
+
+    Parameters
+    ----------
+    footing
+        Footholds of both feet, in the odom frame.
+    sides
+        Sides of the feet that carry the robot: one or both.
+    zmp
+        Zero-moment point (m) in the odom frame.
+
+    Returns
+    -------
+    Loads
+        Shares, which sum to 1, and centres of pressure in m, in the odom frame.
+
     """
     if len(sides) == 1:
         return Loads((1.0, 0.0) if sides[0] == LEFT else (0.0, 1.0), (zmp, zmp))

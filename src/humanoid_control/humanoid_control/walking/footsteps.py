@@ -29,12 +29,44 @@ class FootstepPlanner:
     parameters: WalkParameters
 
     def next_foot(self, support: PlanarPose, side: int, command: VelocityCommand) -> PlanarPose:
-        """Return where the foot lands that swings while the foot of a side supports the robot."""
+        """
+        Plan the landing of the swing foot at a velocity.
+
+        Parameters
+        ----------
+        support
+            Pose of the support foot, in the odom frame.
+        side
+            Side of the support foot.
+        command
+            Velocity in the axes of the robot.
+
+        Returns
+        -------
+        PlanarPose
+            Pose of the swing foot after landing, in the odom frame.
+
+        """
         start = self.middle_beside(support, side)
         return self.landing(support, side, self.next_middle(start, side, command))
 
     def middle_beside(self, support: PlanarPose, side: int) -> PlanarPose:
-        """Return the middle between the feet if the other one stood beside a support."""
+        """
+        Compute the middle between the feet as if the swing foot stood beside the support foot.
+
+        Parameters
+        ----------
+        support
+            Pose of the support foot, in the odom frame.
+        side
+            Side of the support foot.
+
+        Returns
+        -------
+        PlanarPose
+            Middle between the feet in the odom frame, with the heading of the support foot.
+
+        """
         half_width_m = self.parameters.step_width_m / 2 * outwards(side)
         return PlanarPose(support.at(0.0, -half_width_m), support.yaw_rad)
 
@@ -46,12 +78,27 @@ class FootstepPlanner:
         time_s: float | None = None,
     ) -> PlanarPose:
         """
-        Return where the middle between the feet goes in a step on the foot of a side.
+        Compute where one step at a velocity moves the middle between the feet.
 
-        Sideways and in turns the foot on the side of the motion does the whole way of two
-        steps, and the other one closes up: so they never cross.
+        Sideways and in turns the foot on the side of the motion covers the distance of two steps,
+        and the other one closes up: so they never cross.
 
-        :param time_s: how long the step takes; without it, as long as planned
+        Parameters
+        ----------
+        middle
+            Middle between the feet before the step, in the odom frame.
+        side
+            Side of the support foot.
+        command
+            Velocity in the axes of the robot.
+        time_s
+            Duration of the step; by default the planned one.
+
+        Returns
+        -------
+        PlanarPose
+            Middle between the feet after the step, in the odom frame.
+
         """
         step_s = self.parameters.step_s if time_s is None else time_s
         leads = outwards(other(side))
@@ -64,14 +111,48 @@ class FootstepPlanner:
         return PlanarPose(middle.position_m + way_m * heading, middle.yaw_rad + turn_rad)
 
     def landing(self, support: PlanarPose, side: int, middle: PlanarPose) -> PlanarPose:
-        """Return where the foot lands so that the middle is in a place, as far as it can."""
+        """
+        Compute the landing of the swing foot that puts the middle between the feet at a pose.
+
+        The position is clamped to what the foot can reach; the heading is that of `middle`.
+
+        Parameters
+        ----------
+        support
+            Pose of the support foot, in the odom frame.
+        side
+            Side of the support foot.
+        middle
+            Wanted middle between the feet, in the odom frame.
+
+        Returns
+        -------
+        PlanarPose
+            Pose of the swing foot after landing, in the odom frame.
+
+        """
         half_width_m = self.parameters.step_width_m / 2 * outwards(side)
         place = support.local(middle.at(0.0, -half_width_m))
         reached = self.reachable(place, side)
         return PlanarPose(support.at(reached.real, reached.imag), middle.yaw_rad)
 
     def reachable(self, place: Point, side: int) -> Point:
-        """Return the place closest to one where a foot can go, seen from the support's side."""
+        """
+        Clamp a landing position to the rectangle that the swing foot can reach.
+
+        Parameters
+        ----------
+        place
+            Position (m) in the frame of the support sole: ahead (real), to the left (imaginary).
+        side
+            Side of the support foot.
+
+        Returns
+        -------
+        Point
+            Closest reachable position in m, in the frame of the support sole.
+
+        """
         p, inwards = self.parameters, -outwards(side)
         width_m = limited(inwards * place.imag, p.least_width_m, p.most_width_m)
         length_m = limited(place.real, -p.most_length_m, p.most_length_m)
@@ -80,14 +161,43 @@ class FootstepPlanner:
     def footsteps(
         self, landing: PlanarPose, support: int, command: VelocityCommand
     ) -> Iterator[Footstep]:
-        """Yield the landing of the foot that swings now and those that follow, without end."""
+        """
+        Generate the footsteps from the swing foot's landing on, without end.
+
+        Parameters
+        ----------
+        landing
+            Pose at which the swing foot lands, in the odom frame.
+        support
+            Side of the foot that carries the robot until then.
+        command
+            Velocity of all the steps that follow, in the axes of the robot.
+
+        Yields
+        ------
+        Footstep
+            Landings of the swing foot and of those after it, in the odom frame.
+
+        """
         step = Footstep(other(support), landing)
         while True:
             yield step
             step = Footstep(other(step.side), self.next_foot(step.pose, step.side, command))
 
     def is_parallel(self, support: PlanarPose, side: int, foot: PlanarPose) -> bool:
-        """Tell whether the other foot stands beside the support so that the robot may stop."""
+        """
+        Check whether the feet stand side by side, so that the robot may stop.
+
+        Parameters
+        ----------
+        support
+            Pose of the support foot, in the odom frame.
+        side
+            Side of the support foot.
+        foot
+            Pose of the other foot, in the odom frame.
+
+        """
         place = support.local(foot.position_m)
         width_m = -outwards(side) * place.imag
         return (

@@ -54,11 +54,33 @@ class Gait:
         return self._gear.guard.blockage is not None
 
     def command(self, velocity: VelocityCommand) -> None:
-        """Go at another velocity, as soon as the limits allow."""
+        """
+        Set the velocity to walk at, which the gait approaches with limited accelerations.
+
+        Parameters
+        ----------
+        velocity
+            Velocity in the axes of the robot; it is clamped to the limits of the gait.
+
+        """
         self._gear.wanted = self._gear.parameters.velocity_limits.applied(velocity)
 
     def update(self, now: GaitInput) -> GaitOutput:
-        """Let time pass."""
+        """
+        Advance the gait by one control period.
+
+        Parameters
+        ----------
+        now
+            Estimates and measurements of this control period; points are in the odom frame.
+
+        Returns
+        -------
+        GaitOutput
+            References of balance, heading and swing foot in the odom frame, the zero-moment point
+            with feedback of the DCM, and the sides that carry the robot.
+
+        """
         if self._gear.heed_obstacles(now, self._phase.leg_in_air(now)):
             self._phase.replan(now)
         self._phase = phase = self._phase.advance(now)

@@ -78,9 +78,22 @@ class Gear:
 
     def heed_obstacles(self, now: GaitInput, leg: LegInAir | None) -> bool:
         """
-        Set the target to what obstacles leave of the wanted velocity; return whether one is new.
+        Set the target velocity to what obstacles allow of the wanted one, or to a retreat.
 
-        :param leg: the leg in the air, if one is
+        At a new obstacle the present velocity becomes zero and the reference path starts anew.
+
+        Parameters
+        ----------
+        now
+            Estimates and measurements of this control period.
+        leg
+            The leg in the air whose contacts count; None if there is none.
+
+        Returns
+        -------
+        bool
+            Whether a new obstacle was met.
+
         """
         left, right = (self.planner.middle_beside(self.footing.pose(side), side) for side in SIDES)
         going = self.command if self.command.linear_m_s else self.wanted
@@ -97,11 +110,27 @@ class Gear:
         return met
 
     def approach_target(self, time_s: float) -> None:
-        """Bring the velocity nearer to what is wanted, by what is allowed in a time."""
+        """
+        Accelerate towards the target velocity, within the acceleration limits.
+
+        Parameters
+        ----------
+        time_s
+            Duration over which to accelerate: a control period, or a step.
+
+        """
         self.command = self.command.towards(self.target, self.parameters.velocity_change(time_s))
 
     def learn_slope(self, tilt: Point) -> None:
-        """Expect that the ground ahead is tilted like that under a foot, by and by."""
+        """
+        Low-pass filter the ground slope measured at a foothold.
+
+        Parameters
+        ----------
+        tilt
+            Horizontal part of the unit normal of the ground under the foot, in the odom frame.
+
+        """
         self.slope += self.parameters.slope_share * (tilt - self.slope)
 
     @property
@@ -110,15 +139,38 @@ class Gear:
         return self.command.is_zero and self.target.is_zero
 
     def plan(self, segments: list[ZmpSegment]) -> DcmPlan:
-        """Return the way of the divergent component for one of the zero-moment point."""
+        """
+        Compute the DCM trajectory that belongs to a ZMP trajectory.
+
+        Parameters
+        ----------
+        segments
+            ZMP trajectory (m) in the odom frame; it ends where the robot comes to rest.
+
+        Raises
+        ------
+        WalkingError
+            There are no segments.
+
+        """
         return DcmPlan(segments, self.pendulum.rate_1_s)
 
     def footsteps(self, landing: PlanarPose, support: int) -> list[Footstep]:
         """
-        Return the steps planned, from the one that is under way to where the robot rests.
+        Plan the footsteps from the one that is under way until the robot rests.
 
-        :param landing: where the foot in the air lands, in the plane of the odometry (m, rad)
-        :param support: the side of the foot that carries the robot
+        Parameters
+        ----------
+        landing
+            Pose at which the swing foot lands, in the odom frame.
+        support
+            Side of the foot that carries the robot.
+
+        Returns
+        -------
+        list of Footstep
+            The step under way and those that follow, at most `preview_steps` altogether.
+
         """
         steps: list[Footstep] = []
         before = Footstep(support, self.footing.pose(support))
@@ -136,12 +188,25 @@ class Gear:
         self, support: int, steps: list[Footstep], start_m: Point, shift_s: float
     ) -> list[ZmpSegment]:
         """
-        Return the way of the zero-moment point from the begin of a step to rest.
+        Compute the ZMP trajectory from the start of a step until the robot rests.
 
-        :param support: the side of the foot that carries the robot during the step
-        :param steps: the steps planned, from this one on
-        :param start_m: where the zero-moment point is now, in the plane of the odometry
-        :param shift_s: the time in which it goes to the support
+        Parameters
+        ----------
+        support
+            Side of the foot that carries the robot during the step.
+        steps
+            Planned footsteps, from this one on; at least one.
+        start_m
+            Zero-moment point at the start of the step, in the odom frame.
+        shift_s
+            Duration of the weight shift to the support foot.
+
+        Returns
+        -------
+        list of ZmpSegment
+            Trajectory in the odom frame; it ends in the middle between the load points of the last
+            two footholds.
+
         """
         p, load = self.parameters, self.footing.load_point(support)
         segments = [

@@ -24,9 +24,23 @@ class GroundReaction:
     @classmethod
     def of(cls, wrench: Array, base_m: Array) -> GroundReaction:
         """
-        Return what of the ground amounts to a wrench (6,) on the base, force and torque.
+        Compute the ground reaction that is equivalent to a wrench on the base.
 
-        The point is the centre of pressure: other torques the ground cannot have.
+        The force acts at the centre of pressure, where the ground exerts no torque but about the
+        vertical.
+
+        Parameters
+        ----------
+        wrench
+            Force (N) and torque (N m) at the origin of base_link (6,), in the axes of odom.
+        base_m
+            Origin of base_link (3,): x and y in the odom frame, z above the ground.
+
+        Returns
+        -------
+        GroundReaction
+            Its point is in the odom frame.
+
         """
         x, y, z, about_x, about_y, about_z = wrench.tolist()
         down_m = -float(base_m[2])
@@ -36,9 +50,18 @@ class GroundReaction:
 
     def within(self, polygon: SupportPolygon, most_turn_nm: float) -> GroundReaction:
         """
-        Return what of it the feet on the ground can do: the same force, at a point below them.
+        Clamp the reaction to what the feet on the ground can exert.
 
-        The torque that is cut thereby turns the robot, but does not move its centre of mass.
+        The force is kept; its point moves into the support polygon. The torque that is cut turns
+        the robot, but does not move its centre of mass.
+
+        Parameters
+        ----------
+        polygon
+            Support polygon of the feet on the ground, in the odom frame.
+        most_turn_nm
+            Greatest torque about the vertical, in N m.
+
         """
         turn_nm = limited(self.turn_nm, -most_turn_nm, most_turn_nm)
         return GroundReaction(self.force_n, polygon.clamped(self.point_m), turn_nm)

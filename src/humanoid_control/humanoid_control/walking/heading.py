@@ -23,7 +23,27 @@ class HeadingFrame:
         self._turn: Array = np.eye(3)
 
     def base_rotation(self, orientation: Sequence[float] | Array) -> Array:
-        """Return the rotation (3, 3) of the base for what the sensor says, w, x, y, z."""
+        """
+        Compute the rotation of the base from the orientation that the IMU measures.
+
+        The first call sets the zero of the heading: later ones are relative to it.
+
+        Parameters
+        ----------
+        orientation
+            Of the IMU in the world: a quaternion w, x, y, z of any length.
+
+        Returns
+        -------
+        Array
+            Rotation matrix (3, 3) from base_link to the odom frame.
+
+        Raises
+        ------
+        ValueError
+            The quaternion is zero or not finite, or it does not have four components.
+
+        """
         rotation: Array = from_quaternion(orientation) @ self._base_in_imu
         if self._offset_rad is None:
             self._offset_rad = yaw_of(rotation)
@@ -32,13 +52,39 @@ class HeadingFrame:
         return turned
 
     def base_rates(self, angular_velocity_rad_s: Array) -> Array:
-        """Return the angular velocity (3,) that the sensor says, in the axes of the base."""
+        """
+        Rotate an angular velocity from the axes of the IMU into those of the base.
+
+        Parameters
+        ----------
+        angular_velocity_rad_s
+            As the gyroscope measures it (3,), in the axes of imu_link.
+
+        Returns
+        -------
+        Array
+            Angular velocity (3,) in rad/s, in the axes of base_link.
+
+        """
         rates: Array = self._base_in_imu.T @ angular_velocity_rad_s
         return rates
 
 
 def quaternion_of(rotation: Array) -> tuple[float, float, float, float]:
-    """Return a rotation (3, 3) as w, x, y, z."""
+    """
+    Convert a rotation matrix to a unit quaternion.
+
+    Parameters
+    ----------
+    rotation
+        The rotation matrix (3, 3).
+
+    Returns
+    -------
+    tuple of float
+        The quaternion w, x, y, z, with w not negative.
+
+    """
     turn = log(rotation)
     half_rad = math.sqrt(turn @ turn) / 2.0
     x, y, z = (turn * (float(np.sinc(half_rad / math.pi)) / 2.0)).tolist()

@@ -31,7 +31,22 @@ class HomePosture:
 
     @classmethod
     def of(cls, robot: WalkingRobot, parameters: WalkParameters) -> HomePosture:
-        """Find the posture of a robot."""
+        """
+        Compute the posture in which a robot stands, ready to walk.
+
+        Moving the feet shifts the centre of mass as well: they are put below it iteratively.
+
+        Parameters
+        ----------
+        robot, parameters
+            The robot, and the gait of its size, which has the crouch, the step width and the arms.
+
+        Raises
+        ------
+        DynamicsError
+            The robot lacks an elbow or a shoulder roll joint.
+
+        """
         height_m = _stretched_height(robot) - parameters.crouch_m
         positions = np.zeros(len(robot.body.joints))
         _place_arms(robot, parameters, positions)

@@ -52,11 +52,29 @@ class InverseDynamics:
         body: BodyPoseFollower,
     ) -> Exertion:
         """
-        Return the efforts that move the robot as planned and keep its body as it is to be held.
+        Compute the joint torques that realise the planned accelerations and hold the pelvis.
 
-        What the ground cannot do is cut: it pushes below the feet only.
+        The ground reaction that this needs is cut to what the feet can exert: a centre of pressure
+        within the support polygon, and a bounded torque about the vertical.
 
-        :param base_m: the base (3,) above the level of the ground
+        Parameters
+        ----------
+        sensed
+            The estimated state of the robot.
+        base_m
+            Position (3,) of the base: x and y in the odom frame, z above the level of the ground.
+        output
+            The gait now: which feet carry the robot, and where the pelvis is to face.
+        plan
+            The planned accelerations, in the axes of the odom frame.
+        body
+            The pitch at which the pelvis is to be held, and its rate.
+
+        Returns
+        -------
+        Exertion
+            The feed-forward torques (n,) in N m, and the load distribution over the feet.
+
         """
         p, state = self.parameters, sensed.state
         maps = leg_maps(self.robot.legs, state)

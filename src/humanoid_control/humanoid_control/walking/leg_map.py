@@ -35,13 +35,41 @@ class LegMap:
     """(6,) the acceleration of the sole while base and joints do not accelerate"""
 
     def accelerations(self, sole: Array, base: Array) -> Array:
-        """Return how the joints accelerate (6,) for accelerations of sole and base."""
+        """
+        Compute the joint accelerations of the leg for given accelerations of sole and base.
+
+        Parameters
+        ----------
+        sole, base
+            Accelerations (6,): linear in m/s2, then angular in rad/s2, in the axes of the world.
+
+        Returns
+        -------
+        Array
+            Accelerations (6,) of the joints in rad/s2, from the hip down.
+
+        """
         accelerations: Array = self.inverse @ (sole - self.drift - self.carry @ base)
         return accelerations
 
 
 def leg_maps(legs: Sequence[Leg], state: BodyState) -> list[LegMap]:
-    """Return the maps of legs in the posture that is measured."""
+    """
+    Compute the acceleration maps of legs by damped least squares.
+
+    Parameters
+    ----------
+    legs
+        The legs, in the order of the result.
+    state
+        The measured posture and motion of the robot.
+
+    Returns
+    -------
+    list of LegMap
+        One for each leg.
+
+    """
     jacobians = np.array([state.jacobian_of(leg.group, leg.sole) for leg in legs])
     turned = jacobians.transpose(0, 2, 1)
     damping = np.array([(_DAMPING * leg.geometry.length_m) ** 2 for leg in legs])

@@ -18,10 +18,26 @@ def reachable_height_m(
     base: Frame, legs: Sequence[LegGeometry], soles_m: Sequence[Array], reach: float
 ) -> float:
     """
-    Return the height of the base, at most that which it has, at which legs reach their soles.
+    Compute the height of the base at which all legs reach their soles.
 
-    :param soles_m: where the soles (3,) stand, level, one a leg
-    :param reach: the share of its length to which a leg may be stretched
+    The base is moved along the vertical only, and never up.
+
+    Parameters
+    ----------
+    base
+        Its pose, in the same frame as the soles.
+    legs
+        The geometry of the legs on the ground.
+    soles_m
+        Positions (3,) of their soles, which are level, one for each leg.
+    reach
+        The share of its length to which a leg may be stretched.
+
+    Returns
+    -------
+    float
+        Height of the base in m, in the frame of the soles.
+
     """
     height_m = float(base.position_m[2])
     for leg, sole in zip(legs, soles_m):

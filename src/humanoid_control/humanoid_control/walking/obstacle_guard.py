@@ -116,13 +116,29 @@ class ObstacleGuard:
         passed_s: float,
     ) -> bool:
         """
-        Take note of what happened since the tick before; return whether something is newly met.
+        Detect whether the robot has met an obstacle since the last control period.
 
-        :param contact: what is felt of things around
-        :param stands: where the robot would stand beside its left and its right foot
-        :param wanted: the velocity that is asked for
-        :param going: the velocity at which the robot goes now
-        :param error_m: how far the divergent component is from its reference
+        A new obstacle becomes the `blockage`. From a known one the robot retreats; it is forgotten
+        when the robot is elsewhere or when no velocity towards it has been commanded for a while.
+
+        Parameters
+        ----------
+        contact
+            The forces and moments that act on the robot, in the axes of the odom frame.
+        stands
+            Where the robot would stand beside its left and its right foot, in the odom frame.
+        wanted, going
+            The velocity that is asked for, and that at which the robot goes, in its own axes.
+        error_m
+            The error of the divergent component of motion (DCM), in the axes of the odom frame.
+        passed_s
+            The time since the last control period.
+
+        Returns
+        -------
+        bool
+            Whether the robot has just met an obstacle that it did not know.
+
         """
         p, body = self._parameters, stands[0].halfway(stands[1])
         fading = math.exp(-passed_s / p.bump_memory_s)
@@ -145,7 +161,20 @@ class ObstacleGuard:
         return True
 
     def kept_off(self, foot_m: Point) -> Point:
-        """Return the point nearest to one where a foot is to land that is before the obstacle."""
+        """
+        Move a foothold to the near side of the obstacle that a leg has met.
+
+        Parameters
+        ----------
+        foot_m
+            Where the foot is to land, in the plane of the odom frame (m).
+
+        Returns
+        -------
+        Point
+            The foothold, moved straight back from the obstacle if it was too near to it or beyond.
+
+        """
         blockage = self.blockage
         if blockage is None or blockage.leg is None:
             return foot_m
@@ -156,10 +185,24 @@ class ObstacleGuard:
 
     def allowed(self, wanted: VelocityCommand, heading_rad: float) -> VelocityCommand:
         """
-        Return the velocity at which the robot may go, of the one that is asked for.
+        Limit the velocity to what the obstacle allows.
 
-        :param wanted: the velocity that is asked for, in the axes of the robot
-        :param heading_rad: how the robot is turned in the plane of the odometry
+        While the robot retreats, the result is the velocity of stepping back, or zero if the robot
+        leans towards the obstacle. Afterwards the part that leads into the obstacle is cut, and
+        the whole linear velocity if little of it leads past the obstacle; the turn is kept.
+
+        Parameters
+        ----------
+        wanted
+            The velocity that is asked for, in the axes of the robot.
+        heading_rad
+            The yaw of the robot in the odom frame.
+
+        Returns
+        -------
+        VelocityCommand
+            In the axes of the robot; unchanged without an obstacle, or if it leads away from it.
+
         """
         blockage = self.blockage
         if blockage is None:

@@ -69,10 +69,17 @@ class Uncertainty:
 
     def update(self, pose: PlanarPose, time_s: float) -> None:
         """
-        Take where the base is at a time.
+        Propagate the covariance to a new pose of the base.
 
-        :param pose: in the plane of the odometry (m, rad)
-        :param time_s: of the same clock each time; it never goes back
+        Small changes are accumulated until they are worth a step of the propagation.
+
+        Parameters
+        ----------
+        pose
+            Of the base, in the plane of the odom frame (m, rad).
+        time_s
+            When it was there, by a clock that never goes back.
+
         """
         if self._last is None:
             self._last, self._last_s = pose, time_s

@@ -268,7 +268,25 @@ class WalkParameters:
     """How many radians a shoulder turns for a foot that is a leg's length ahead."""
 
     def scaled(self, scale: float) -> WalkParameters:
-        """Return the gait of a robot of another size."""
+        """
+        Scale the gait to a robot of another size (Froude similarity).
+
+        Parameters
+        ----------
+        scale
+            The size of that robot, relative to the one of these parameters.
+
+        Returns
+        -------
+        WalkParameters
+            The gait of that robot; this one stays as it is.
+
+        Raises
+        ------
+        WalkingError
+            The scale is not positive and finite.
+
+        """
         if not (0.0 < scale < float('inf')):
             raise WalkingError(f'The scale {scale:g} is not a size. Give one as 0.65.')
         grown = {
@@ -295,7 +313,20 @@ class WalkParameters:
         )
 
     def velocity_change(self, time_s: float) -> VelocityCommand:
-        """Return by how much the velocity may change in so much time."""
+        """
+        Compute the largest change of the velocity in a given time.
+
+        Parameters
+        ----------
+        time_s
+            How long the robot accelerates at its limits.
+
+        Returns
+        -------
+        VelocityCommand
+            The largest change of each component.
+
+        """
         return VelocityCommand(
             self.forward_acceleration_m_s2 * time_s,
             self.left_acceleration_m_s2 * time_s,

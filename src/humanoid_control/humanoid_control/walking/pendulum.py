@@ -37,11 +37,38 @@ class Pendulum:
         return math.sqrt(GRAVITY_M_S2 / self.height_m)
 
     def dcm(self, motion: Motion) -> Point:
-        """Return the divergent component of motion."""
+        """
+        Compute the divergent component of motion (DCM, or capture point).
+
+        Parameters
+        ----------
+        motion
+            Position and velocity of the centre of mass over the ground.
+
+        Returns
+        -------
+        Point
+            In m, in the plane and the frame of the motion.
+
+        """
         return motion.position_m + motion.velocity_m_s / self.rate_1_s
 
     def after(self, motion: Motion, zmp: Point, time_s: float) -> Motion:
-        """Return the motion after a time in which the zero-moment point stands still (exact)."""
+        """
+        Predict the motion of the centre of mass over a zero-moment point that stands still.
+
+        The solution is exact, for any time.
+
+        Parameters
+        ----------
+        motion
+            Position and velocity of the centre of mass now.
+        zmp
+            The zero-moment point, in the frame of the motion (m).
+        time_s
+            How far ahead to predict.
+
+        """
         rate = self.rate_1_s
         cosh, sinh = math.cosh(rate * time_s), math.sinh(rate * time_s)
         lean = motion.position_m - zmp
@@ -51,5 +78,18 @@ class Pendulum:
         )
 
     def acceleration_m_s2(self, position: Point, zmp: Point) -> Point:
-        """Return how the centre of mass is accelerated over a zero-moment point."""
+        """
+        Compute the horizontal acceleration of the centre of mass over a zero-moment point.
+
+        Parameters
+        ----------
+        position, zmp
+            The centre of mass and the zero-moment point in the ground plane (m).
+
+        Returns
+        -------
+        Point
+            The acceleration in m/s2, in the same axes.
+
+        """
         return (position - zmp) * (GRAVITY_M_S2 / self.height_m)

@@ -46,19 +46,66 @@ class Phase(Protocol):
         """Return the steps that are planned."""
 
     def replan(self, now: GaitInput) -> None:
-        """Plan anew for a velocity that has changed at once."""
+        """
+        Replan for a velocity that has changed abruptly.
+
+        Parameters
+        ----------
+        now
+            What the gait knows of the robot at this tick.
+
+        """
 
     def leg_in_air(self, now: GaitInput) -> LegInAir | None:
-        """Return the leg in the air, if one is."""
+        """
+        Get the leg that swings freely, and what pushes it.
+
+        Parameters
+        ----------
+        now
+            What the gait knows of the robot at this tick.
+
+        Returns
+        -------
+        LegInAir or None
+            None unless a foot is in the air that only an obstacle can push.
+
+        """
 
     def advance(self, now: GaitInput) -> Phase:
-        """Let time pass; return the phase that is now: this one or one that follows."""
+        """
+        Advance the gait by one control period.
+
+        Parameters
+        ----------
+        now
+            What the gait knows of the robot at this tick.
+
+        Returns
+        -------
+        Phase
+            The phase from now on: this one or one that follows.
+
+        """
 
     def reference(self, now: GaitInput) -> BalanceReference:
-        """Return where the divergent component and the zero-moment point should be now."""
+        """
+        Compute the reference of the DCM and of the ZMP; call it after `advance`.
+
+        Parameters
+        ----------
+        now
+            What the gait knows of the robot at this tick.
+
+        Returns
+        -------
+        BalanceReference
+            Both points in the plane of the odom frame, in m.
+
+        """
 
     def swing(self) -> Swing | None:
-        """Return where the sole in the air is to be, if one is; to be asked once a tick."""
+        """Compute the swing foot target, or None without one; call it once per control period."""
 
 
 class _OnBothFeet:
@@ -95,7 +142,20 @@ class Standing(_OnBothFeet):
     name = STAND
 
     def advance(self, now: GaitInput) -> Phase:
-        """Go on standing, or step."""
+        """
+        Stand, or start a step if a velocity is commanded or the robot is pushed hard.
+
+        Parameters
+        ----------
+        now
+            As for `Phase.advance`.
+
+        Returns
+        -------
+        Phase
+            This phase, or `Stepping`.
+
+        """
         self._elapsed_s += now.passed_s
         self._gear.approach_target(now.passed_s)
         self._gear.course.restart()
@@ -113,7 +173,15 @@ class Standing(_OnBothFeet):
         return self
 
     def reference(self, now: GaitInput) -> BalanceReference:
-        """Return the point between the feet."""
+        """
+        Compute the reference of DCM and ZMP: both are at the rest point between the feet.
+
+        Parameters
+        ----------
+        now
+            As for `Phase.reference`; it does not matter here.
+
+        """
         rest_point = self._gear.footing.rest_point
         return BalanceReference(rest_point, rest_point)
 
@@ -159,15 +227,44 @@ class Stepping:
         return self._step.footsteps
 
     def replan(self, now: GaitInput) -> None:
-        """Plan the landing anew."""
+        """
+        Replan the landing of the swing foot.
+
+        Parameters
+        ----------
+        now
+            As for `Phase.replan`.
+
+        """
         self._step.replan(now)
 
     def leg_in_air(self, now: GaitInput) -> LegInAir | None:
-        """Return the leg in the air, if one is."""
+        """
+        Get the leg that swings freely, and what pushes it.
+
+        Parameters
+        ----------
+        now
+            As for `Phase.leg_in_air`, which also says what is returned.
+
+        """
         return self._step.leg_in_air(now)
 
     def advance(self, now: GaitInput) -> Phase:
-        """Go on with the step; when the foot has landed, with the next one, or stop."""
+        """
+        Advance the step; when the foot has landed, start the next one, or stop.
+
+        Parameters
+        ----------
+        now
+            As for `Phase.advance`.
+
+        Returns
+        -------
+        Phase
+            This phase, `Stepping` with the next step, or `Stopping`.
+
+        """
         step = self._step
         step.advance(now.passed_s)
         step.feel(now)
@@ -182,11 +279,19 @@ class Stepping:
         return Stepping(Step(self._gear, step.side, shift_s, now.zmp_m), self._gear)
 
     def reference(self, now: GaitInput) -> BalanceReference:
-        """Return the way of the plan."""
+        """
+        Compute the reference of DCM and ZMP from the plan of the step.
+
+        Parameters
+        ----------
+        now
+            As for `Phase.reference`.
+
+        """
         return self._step.reference(now)
 
     def swing(self) -> Swing | None:
-        """Return where the foot in the air is to be."""
+        """Compute the swing foot target, or None without one; call it once per control period."""
         return self._step.swing()
 
     def _may_rest(self) -> bool:
@@ -211,7 +316,20 @@ class Stopping(_OnBothFeet):
         self._plan = gear.plan([way])
 
     def advance(self, now: GaitInput) -> Phase:
-        """Go on, stand, or walk on if a velocity comes soon enough."""
+        """
+        Come to rest, or walk on if a velocity is commanded soon enough.
+
+        Parameters
+        ----------
+        now
+            As for `Phase.advance`.
+
+        Returns
+        -------
+        Phase
+            This phase, `Standing` when the robot is at rest, or `Stepping`.
+
+        """
         self._elapsed_s += now.passed_s
         p = self._gear.parameters
         if self._elapsed_s > p.stop_s + _REST_S:
@@ -223,5 +341,13 @@ class Stopping(_OnBothFeet):
         return self
 
     def reference(self, now: GaitInput) -> BalanceReference:
-        """Return the way to the middle."""
+        """
+        Compute the reference of DCM and ZMP on the way to the rest point between the feet.
+
+        Parameters
+        ----------
+        now
+            As for `Phase.reference`; it does not matter here.
+
+        """
         return self._plan.at(self._elapsed_s)

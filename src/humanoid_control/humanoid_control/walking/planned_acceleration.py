@@ -32,10 +32,28 @@ def whole_acceleration(
     state: BodyState, legs: Sequence[LegMap], plan: PlannedAcceleration, limit_rad_s2: float
 ) -> tuple[Array, Array]:
     """
-    Return accelerations of the root (6,) and of the joints (n,) that make up what is planned.
+    Compute the accelerations of root and joints that realise the planned ones.
 
     The legs follow the soles; the root moves so that the centre of mass, to which the legs in
     the air add their part, gets its acceleration.
+
+    Parameters
+    ----------
+    state
+        The measured posture and motion of the robot.
+    legs
+        The acceleration maps of the legs, left and right.
+    plan
+        What is planned.
+    limit_rad_s2
+        The greatest acceleration of a joint in the legs; they get no more.
+
+    Returns
+    -------
+    tuple of Array
+        The acceleration of the root (6,), linear in m/s2, then angular in rad/s2, in the axes of
+        the world; and those of the joints (n,) in rad/s2.
+
     """
     base, joints = np.zeros(6), plan.joints_rad_s2.copy()
     base[3:] = plan.turn_rad_s2
@@ -56,6 +74,16 @@ def whole_acceleration(
 
 
 def within(values: Array, limit: float) -> Array:
-    """Return values that are at most as large as a limit."""
+    """
+    Clip values to plus or minus a limit.
+
+    Parameters
+    ----------
+    values
+        An array of any shape.
+    limit
+        The greatest magnitude of an entry, in the same unit.
+
+    """
     limited: Array = np.minimum(np.maximum(values, -limit), limit)
     return limited

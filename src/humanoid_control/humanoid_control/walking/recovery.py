@@ -33,7 +33,24 @@ class Recovery:
         return self._action.name if self._action else None
 
     def update(self, time_s: float, stance: Stance, positions_rad: Array) -> JointTargets | None:
-        """Return what the joints (n,) are to do, or None if the robot stands by itself."""
+        """
+        Advance the recovery from a fall by one control period.
+
+        Parameters
+        ----------
+        time_s
+            The time of the robot's clock.
+        stance
+            How upright the robot is, and what its feet carry.
+        positions_rad
+            Of the joints (n,), as measured.
+
+        Returns
+        -------
+        JointTargets or None
+            What the joints (n,) are to do; None if the robot stands by itself.
+
+        """
         self._action = self._next(time_s, stance, positions_rad)
         if isinstance(self._action, Collapse):
             return self._action.targets(time_s, positions_rad)

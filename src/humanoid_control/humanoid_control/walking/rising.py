@@ -22,11 +22,32 @@ class Rising:
         self._start_s = time_s
 
     def is_done(self, time_s: float) -> bool:
-        """Tell whether the joints are told to be where they are when the robot stands."""
+        """
+        Check whether the targets have arrived at the standing posture.
+
+        Parameters
+        ----------
+        time_s
+            The time now, by the same clock as at the start.
+
+        """
         return time_s - self._start_s >= self._duration_s
 
     def targets(self, time_s: float) -> JointTargets:
-        """Return the targets at a time."""
+        """
+        Compute the joint targets of the minimum-jerk motion to the standing posture.
+
+        Parameters
+        ----------
+        time_s
+            The time now, by the same clock as at the start.
+
+        Returns
+        -------
+        JointTargets
+            Of the joints (n,), without efforts.
+
+        """
         t = min(1.0, (time_s - self._start_s) / self._duration_s)
         share = t**3 * (10.0 - 15.0 * t + 6.0 * t**2)
         rate_1_s = 30.0 * t**2 * (1.0 - t) ** 2 / self._duration_s

@@ -45,9 +45,24 @@ class Senses:
 
     def read(self, observation: Observation) -> Sensed:
         """
-        Return what an observation means.
+        Estimate the state of the robot from an observation.
 
-        :raises WalkingError: if it has the wrong lengths or holds what is no finite number
+        Parameters
+        ----------
+        observation
+            Of the n joints that count for walking, as `WalkingRobot.own` returns it.
+
+        Returns
+        -------
+        Sensed
+            The robot state in the axes of the odom frame: x is the first heading of the base.
+
+        Raises
+        ------
+        WalkingError
+            The orientation, the angular velocity, the forces on the feet, or the positions or
+            velocities of the joints have the wrong shape or are not finite.
+
         """
         _check('angular_velocity_rad_s', observation.angular_velocity_rad_s, (3,))
         _check('foot_forces_n', observation.foot_forces_n, (2, 3))

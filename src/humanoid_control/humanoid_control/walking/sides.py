@@ -9,10 +9,31 @@ NAMES = ('left', 'right')
 
 
 def other(side: int) -> int:
-    """Return the opposite side."""
+    """
+    Get the opposite side.
+
+    Parameters
+    ----------
+    side
+        `LEFT` or `RIGHT`.
+
+    """
     return 1 - side
 
 
 def outwards(side: int) -> float:
-    """Return the direction away from the body along y: 1 for the left, -1 for the right side."""
+    """
+    Get the direction away from the body along y.
+
+    Parameters
+    ----------
+    side
+        `LEFT` or `RIGHT`.
+
+    Returns
+    -------
+    float
+        1 for the left side, -1 for the right one.
+
+    """
     return 1.0 if side == LEFT else -1.0

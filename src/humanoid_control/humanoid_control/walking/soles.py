@@ -24,7 +24,24 @@ Array = NDArray[np.float64]
 def soles_below(
     base_m: Array, robot: WalkingRobot, sensed: Sensed, parameters: WalkParameters
 ) -> tuple[SoleReading, SoleReading]:
-    """Return both soles while the base is in a place (3,)."""
+    """
+    Compute the poses of both soles, and the loads on them, for a position of the base.
+
+    Parameters
+    ----------
+    base_m
+        Position (3,) of the base in the odom frame.
+    robot, sensed
+        The robot, and its estimated state.
+    parameters
+        The gait, which has the steepest tilt that counts as ground.
+
+    Returns
+    -------
+    tuple of SoleReading
+        Left and right, in the odom frame.
+
+    """
     left, right = (
         _reading(side, base_m, robot, sensed, parameters.most_tilt_rad) for side in (LEFT, RIGHT)
     )
@@ -38,7 +55,28 @@ def footing_below(
     parameters: WalkParameters,
     sensed: Sensed,
 ) -> Footing:
-    """Return the feet where they are while the base is above a point of level ground."""
+    """
+    Compute the footholds of both feet for a base above a point of level ground.
+
+    The middle between the heights of the soles counts as the level of the ground, zero.
+
+    Parameters
+    ----------
+    start_m
+        The point below the base, in the plane of the odom frame.
+    robot, shape
+        The robot, and the part of its soles that may carry load.
+    parameters
+        The gait, which has the steepest tilt that counts as ground.
+    sensed
+        The estimated state of the robot.
+
+    Returns
+    -------
+    Footing
+        The feet in the odom frame.
+
+    """
     base_m = np.array([start_m.real, start_m.imag, 0.0])
     soles = soles_below(base_m, robot, sensed, parameters)
     middle_m = sum(sole.facet.height_m for sole in soles) / len(soles)

@@ -79,10 +79,16 @@ class Step:
 
     def advance(self, passed_s: float) -> None:
         """
-        Let time pass.
+        Advance the clock of the step by one control period.
 
-        While control was away the foot in the air got no targets. It must not make up for that
-        in haste: the step waits for it.
+        While control was interrupted, the swing foot got no targets. It must not catch up in
+        haste: the step waits for it.
+
+        Parameters
+        ----------
+        passed_s
+            The time since the last control period.
+
         """
         p, before_s = self._gear.parameters, self.elapsed_s
         self._passed_s = min(passed_s, p.longest_tick_s)
@@ -93,7 +99,17 @@ class Step:
             self.elapsed_s = min(self.elapsed_s, max(self._shift_s, in_air_s))
 
     def replan(self, now: GaitInput) -> None:
-        """Plan the landing anew for a velocity that has changed at once."""
+        """
+        Replan the landing for a velocity that has changed abruptly.
+
+        Once the foot has touched the ground, or shortly before its landing, nothing changes.
+
+        Parameters
+        ----------
+        now
+            As for `Phase.replan`.
+
+        """
         if self._has_touched or self.elapsed_s > self._adjustable_until_s:
             return
         blockage = self._gear.guard.blockage
@@ -116,7 +132,20 @@ class Step:
         return PlanarPose(start_m + way_m * (most_m / abs(way_m)), landing.yaw_rad)
 
     def leg_in_air(self, now: GaitInput) -> LegInAir | None:
-        """Return the leg that swings, if nothing but an obstacle can push it now."""
+        """
+        Get the leg that swings, if only an obstacle can push it now.
+
+        Parameters
+        ----------
+        now
+            As for `Phase.leg_in_air`.
+
+        Returns
+        -------
+        LegInAir or None
+            None outside the swing and at its start, and once the foot bears load or has touched.
+
+        """
         p, sole = self._gear.parameters, now.soles[self.side]
         swings = p.leg_touch_from_phase < self.swing_phase < 1.0 and not self._has_touched
         if not swings or sole.load > p.touch_load:
@@ -125,9 +154,16 @@ class Step:
 
     def feel(self, now: GaitInput) -> None:
         """
-        Leave the foot where it touches the ground, early or late, until the step ends.
+        Detect the touchdown of the swing foot, early or late, and the loss of that contact.
 
-        What gives way under it, or was only grazed, was not the ground: the foot goes on.
+        The foot stays where it touches the ground until the step ends. What gives way under it, or
+        was only grazed, was not the ground: the foot goes on.
+
+        Parameters
+        ----------
+        now
+            What the gait knows of the robot at this tick.
+
         """
         sole = now.soles[self.side]
         if self._has_touched:
@@ -156,13 +192,29 @@ class Step:
             self._plan = self._planned(self.landing)
 
     def has_landed(self, now: GaitInput) -> bool:
-        """Tell whether the foot can take the weight, or should have long ago."""
+        """
+        Check whether the foot can take the weight, or should have long ago.
+
+        Parameters
+        ----------
+        now
+            What the gait knows of the robot at this tick.
+
+        """
         p, phase = self._gear.parameters, self.swing_phase
         bears = now.soles[self.side].load > p.touchdown_load or phase > 1.0
         return self._is_late or (self._has_touched and phase > p.landing_phase and bears)
 
     def reference(self, now: GaitInput) -> BalanceReference:
-        """Return where the divergent component and the zero-moment point should be now."""
+        """
+        Compute the reference of DCM and ZMP, and adjust the landing to the error of the DCM.
+
+        Parameters
+        ----------
+        now
+            As for `Phase.reference`, which also says what is returned.
+
+        """
         self._replan_if_stopping_changed()
         time_s = min(self.elapsed_s, self.end_s - _INSTANT_S)
         if self.elapsed_s < self._adjustable_until_s:
@@ -180,7 +232,7 @@ class Step:
         return Turning(turning.heading_rad, turning.rate_rad_s * self.rate)
 
     def swing(self) -> Swing | None:
-        """Return where the sole in the air is to be; to be asked once a tick."""
+        """Compute the swing foot target, or None without one; call it once per control period."""
         in_air_s = self.elapsed_s - self._shift_s
         if in_air_s <= 0.0 or self._has_touched:
             return None

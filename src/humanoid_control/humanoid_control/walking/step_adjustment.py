@@ -53,12 +53,27 @@ class StepAdjuster:
         rate: float,
     ) -> Adjustment:
         """
-        Return the landing that catches the robot.
+        Adjust where and when a step lands so that it catches the robot.
 
-        :param nominal: where the foot lands by plan
-        :param side: the side of the support
-        :param remaining_s: the time to the end of the step, as planned
-        :param rate: how much the step is hurried already; it is never slowed down
+        Parameters
+        ----------
+        nominal
+            Where the foot lands by plan, in the odom frame.
+        support, side
+            The pose of the foot that carries the robot, in the odom frame, and its side.
+        residual
+            The error of the DCM, and what the ZMP does against it.
+        remaining_s
+            The time to the end of the step, as planned.
+        rate
+            How many times faster than planned the step runs already; it is never slowed down.
+
+        Returns
+        -------
+        Adjustment
+            The landing in the odom frame, within reach and with the planned heading, and the rate
+            of the step.
+
         """
         for rate in (r for r in self.parameters.hurry_rates if r >= rate):
             growth = math.exp(self.rate_1_s * remaining_s / rate)
@@ -102,12 +117,26 @@ class Residual:
         support: PlanarPose,
     ) -> Residual:
         """
-        Compare the divergent component with its reference.
+        Compute the error of the DCM, and the shift of the ZMP against it.
 
-        :param dcm: the divergent component, in the plane of the odometry (m)
-        :param gain: how far the zero-moment point goes for each metre of the error
-        :param polygon: where the feet on the ground allow that point to be
-        :param support: the pose of the foot that carries the robot
+        Parameters
+        ----------
+        reference
+            Where DCM and ZMP should be, in the plane of the odom frame (m).
+        dcm
+            The divergent component of motion, in the same plane (m).
+        gain
+            How far the ZMP goes for each metre of the error.
+        polygon
+            Where the feet on the ground allow the ZMP to be.
+        support
+            The pose of the foot that carries the robot, in the odom frame.
+
+        Returns
+        -------
+        Residual
+            All in the axes of the support foot.
+
         """
         turn = cmath.rect(1.0, -support.yaw_rad)
         error = dcm - reference.dcm_m
@@ -116,10 +145,21 @@ class Residual:
 
     def at_landing(self, growth: float, parameters: WalkParameters) -> Point:
         """
-        Return the error that is left when it has grown by a factor, without a dead band.
+        Predict the part of the DCM error at the landing that the foothold has to make up for.
 
-        :param growth: the factor by which an error that nothing counters grows until the landing
-        :param parameters: they have the dead band
+        Parameters
+        ----------
+        growth
+            The factor by which an error that nothing counters grows until the landing.
+        parameters
+            The gait, which has the dead band.
+
+        Returns
+        -------
+        Point
+            What exceeds the dead band, in m, in the axes of the odom frame. Along an axis of the
+            support foot on which the feet do all that feedback asks for, it is zero.
+
         """
         left = self.error_m * growth - self.shift_m * (growth - 1.0)
         dead_band_m = parameters.adjust_dead_band_m

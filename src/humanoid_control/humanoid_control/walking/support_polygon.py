@@ -31,11 +31,32 @@ class SupportPolygon:
         return list(self._corners)
 
     def contains(self, point: Point) -> bool:
-        """Tell whether a point lies inside or on the edge."""
+        """
+        Check whether a point lies inside the polygon or on its edge.
+
+        Parameters
+        ----------
+        point
+            In the frame of the corners (m).
+
+        """
         return all(cross(edge, point - start) >= 0.0 for start, edge in self._edges)
 
     def clamped(self, point: Point) -> Point:
-        """Return the point of the polygon that is closest to a point."""
+        """
+        Project a point onto the polygon.
+
+        Parameters
+        ----------
+        point
+            In the frame of the corners (m).
+
+        Returns
+        -------
+        Point
+            The closest point of the polygon: the same one if it lies inside.
+
+        """
         if self.contains(point):
             return point
         return min((_on_edge(*edge, point) for edge in self._edges), key=lambda q: abs(q - point))

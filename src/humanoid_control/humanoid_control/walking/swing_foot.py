@@ -59,7 +59,19 @@ class SwingFoot:
     turn_rad_s2: float = 0.0
 
     def advance(self, landing: PlanarPose, remaining_s: float, passed_s: float) -> None:
-        """Let time pass; `remaining_s` is the time from its begin to the arrival."""
+        """
+        Advance the swing foot by one control period on its way to the landing.
+
+        Parameters
+        ----------
+        landing
+            Where the foot is to land, in the odom frame; it may change from call to call.
+        remaining_s
+            The time from the start of the control period to the arrival above the landing.
+        passed_s
+            The length of the control period.
+
+        """
         if remaining_s <= passed_s:
             self.pose = landing
             self.velocity_m_s = self.acceleration_m_s2 = 0j
@@ -89,9 +101,20 @@ class Lift:
 
     def at(self, time_s: float, rise_m: float = 0.0) -> tuple[float, float, float]:
         """
-        Return height, rate of climb and its rate at a time since lift-off.
+        Compute the height of the swing foot, its rate and its acceleration.
 
-        :param rise_m: how much higher the landing is expected than the lift-off
+        Parameters
+        ----------
+        time_s
+            The time since lift-off.
+        rise_m
+            How much higher the landing is expected than the lift-off.
+
+        Returns
+        -------
+        tuple of float
+            Height above the lift-off in m, rate in m/s, acceleration in m/s2; up is positive.
+
         """
         late_s = time_s - self.duration_s
         if late_s > 0.0:

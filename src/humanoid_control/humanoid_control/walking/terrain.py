@@ -26,7 +26,20 @@ class Facet:
     """The horizontal part of its unit normal: where water would run."""
 
     def rotation(self, yaw_rad: float) -> Array:
-        """Return how a sole is turned, (3, 3), that stands flat on it and faces a direction."""
+        """
+        Compute the rotation of a sole that stands flat on the plane.
+
+        Parameters
+        ----------
+        yaw_rad
+            The heading of the sole before it is tilted, in the odom frame.
+
+        Returns
+        -------
+        Array
+            Rotation matrix (3, 3) from the sole to the odom frame.
+
+        """
         x, y = self.tilt.real, self.tilt.imag
         z = math.sqrt(max(0.0, 1.0 - x * x - y * y))
         k = 1.0 / (1.0 + z)
@@ -38,7 +51,22 @@ class Facet:
         return rotation
 
     def height_beside(self, offset_m: Point, tilt: Point) -> float:
-        """Return how high ground of a tilt is that goes on from here, somewhere beside."""
+        """
+        Extrapolate the height of the ground to a point beside the plane's origin.
+
+        Parameters
+        ----------
+        offset_m
+            How far away the point is, horizontally, in the axes of the odom frame.
+        tilt
+            Of the ground between the two, as `Facet.tilt`.
+
+        Returns
+        -------
+        float
+            Height in m, from the same zero as that of the plane.
+
+        """
         return self.height_m - dot(tilt, offset_m)
 
 
@@ -46,7 +74,22 @@ LEVEL = Facet()
 
 
 def tilt_of(rotation: Array, most_rad: float) -> Point:
-    """Return the tilt of a sole, cut to what ground may have."""
+    """
+    Compute the tilt of a sole, limited to what ground may have.
+
+    Parameters
+    ----------
+    rotation
+        Rotation matrix (3, 3) from the sole to the odom frame.
+    most_rad
+        The steepest angle between the sole and the horizontal.
+
+    Returns
+    -------
+    Point
+        As `Facet.tilt`, in the axes of the odom frame.
+
+    """
     tilt = complex(rotation[0, 2], rotation[1, 2])
     size = abs(tilt)
     return tilt * min(1.0, math.sin(most_rad) / size) if size > 0.0 else tilt
@@ -69,10 +112,17 @@ class GroundLevel:
 
     def update(self, feet_m: float, below_com_m: float, passed_s: float) -> None:
         """
-        Let time pass.
+        Low-pass filter the height of the ground below the pendulum.
 
-        :param feet_m: the height of the feet that carry
-        :param below_com_m: where the ground would be if the centre of mass were as high as planned
+        Parameters
+        ----------
+        feet_m
+            The height of the feet that carry.
+        below_com_m
+            Where the ground would be if the centre of mass were as high as planned.
+        passed_s
+            The time since the last control period.
+
         """
         to_feet = 1.0 - math.exp(-self.rate_1_s * passed_s)
         to_com = 1.0 - math.exp(-self.leak_1_s * passed_s)
@@ -105,10 +155,15 @@ class LevelFloor:
 
     def update(self, heights_m: Sequence[float], in_air: int | None) -> None:
         """
-        Take note of where the feet are.
+        Learn the drift of the height from a foot that has just taken the weight.
 
-        :param heights_m: of both feet, left and right, as odometry has them
-        :param in_air: the side whose foot swings: that of the other one is known then
+        Parameters
+        ----------
+        heights_m
+            Of both feet, left and right, as odometry has them.
+        in_air
+            The side whose foot swings, so that the other one carries; None on both feet.
+
         """
         if in_air is None or self._support == other(in_air):
             return
@@ -119,5 +174,18 @@ class LevelFloor:
         self._before_m[side] = heights_m[side]
 
     def rise_m(self, shares: Sequence[float]) -> float:
-        """Return by how much all is higher than odometry has it, by the feet that carry."""
+        """
+        Compute the correction that cancels the drift of the height.
+
+        Parameters
+        ----------
+        shares
+            Of the feet in the weight, left and right; they sum up to 1.
+
+        Returns
+        -------
+        float
+            In m, to be added to a height that odometry has.
+
+        """
         return sum(share * rise_m for share, rise_m in zip(shares, self._rise_m))

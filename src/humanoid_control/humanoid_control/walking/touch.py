@@ -56,13 +56,36 @@ class TouchObserver:
         """(n,) what arms bore while the robot stood: a load, and a hand that is bent."""
 
     def rest(self, sensed: Sensed) -> None:
-        """Learn what arms bear; one who stands walks into nothing, so all else is forgotten."""
+        """
+        Learn what load the arms bear while the robot stands.
+
+        All other contacts are forgotten: a robot that stands cannot walk into anything.
+
+        Parameters
+        ----------
+        sensed
+            The estimated state of the robot.
+
+        """
         self._follow(self._borne_nm, sensed, self._parameters.touch_load_rate_1_s)
         self._outside_nm[:] = 0.0
         self._outside_nm[self._arms] = self._borne_nm[self._arms]
 
     def update(self, sensed: Sensed) -> Touch:
-        """Return what the limbs feel now."""
+        """
+        Estimate the moments of external contacts about hips and shoulders.
+
+        Parameters
+        ----------
+        sensed
+            The estimated state of the robot.
+
+        Returns
+        -------
+        Touch
+            In the plane of the odom frame; zero at the first observation and after a gap.
+
+        """
         if not self._follow(self._outside_nm, sensed, self._parameters.touch_rate_1_s):
             return NOTHING
         ahead = cmath.rect(1.0, sensed.attitude.yaw_rad)

@@ -38,13 +38,31 @@ class VelocityCommand:
         return not (self.forward_m_s or self.left_m_s or self.turn_rad_s)
 
     def times(self, factor: float) -> VelocityCommand:
-        """Return the same direction at another speed."""
+        """
+        Scale all components of the velocity.
+
+        Parameters
+        ----------
+        factor
+            What they are multiplied by.
+
+        """
         return VelocityCommand(
             self.forward_m_s * factor, self.left_m_s * factor, self.turn_rad_s * factor
         )
 
     def towards(self, target: VelocityCommand, most: VelocityCommand) -> VelocityCommand:
-        """Return the next command on the way to a target; `most` is the change allowed."""
+        """
+        Approach a target velocity by a limited change of each component.
+
+        Parameters
+        ----------
+        target
+            The velocity to go to; it is reached exactly.
+        most
+            The largest change of each component, not negative.
+
+        """
         return VelocityCommand(
             _nearer(self.forward_m_s, target.forward_m_s, most.forward_m_s),
             _nearer(self.left_m_s, target.left_m_s, most.left_m_s),
@@ -66,7 +84,17 @@ class VelocityLimits:
     sum_of_shares: float
 
     def applied(self, command: VelocityCommand) -> VelocityCommand:
-        """Return the command within the limits; one that asks too much keeps its direction."""
+        """
+        Limit a velocity to what the gait can do.
+
+        Each component is clamped; if the shares then sum up to too much, all are scaled alike.
+
+        Parameters
+        ----------
+        command
+            The velocity that is asked for.
+
+        """
         single = VelocityCommand(
             limited(command.forward_m_s, -self.backward_m_s, self.forward_m_s),
             limited(command.left_m_s, -self.left_m_s, self.left_m_s),
@@ -76,7 +104,20 @@ class VelocityLimits:
         return single if asked <= self.sum_of_shares else single.times(self.sum_of_shares / asked)
 
     def shares(self, command: VelocityCommand) -> float:
-        """Return the sum of what a command takes of each limit."""
+        """
+        Compute the sum of the shares that a velocity takes of the limits.
+
+        Parameters
+        ----------
+        command
+            The velocity, in the axes of the robot.
+
+        Returns
+        -------
+        float
+            1 for a single component at its limit.
+
+        """
         ahead = self.forward_m_s if command.forward_m_s >= 0 else self.backward_m_s
         return (
             abs(command.forward_m_s) / ahead

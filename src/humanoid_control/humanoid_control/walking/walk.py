@@ -97,9 +97,17 @@ class Walk:
 
     def command(self, velocity: VelocityCommand, pose: BodyPose) -> None:
         """
-        Go at a velocity, or stand with the body in a pose.
+        Set the velocity at which to go, and the pose in which to hold the body while standing.
 
-        Who goes is upright: a robot that is bent comes up before its first step.
+        A robot that is bent straightens up before its first step.
+
+        Parameters
+        ----------
+        velocity
+            In the axes of the robot; the gait keeps its limits.
+        pose
+            How the pelvis is to be held, within what the robot can do.
+
         """
         self._velocity, self._wanted_pose = velocity, pose
         self._obey()
@@ -117,7 +125,20 @@ class Walk:
             self._obey()
 
     def update(self, sensed: Sensed) -> JointTargets:
-        """Return what the joints are to do next."""
+        """
+        Compute the joint targets of the next control period.
+
+        Parameters
+        ----------
+        sensed
+            The estimated state of the robot.
+
+        Returns
+        -------
+        JointTargets
+            Of the n joints that count for walking, with feed-forward torques.
+
+        """
         passed_s = sensed.time_s - self._last_s
         self._last_s, self.sensed = sensed.time_s, sensed
         self._estimate(passed_s)
@@ -154,9 +175,15 @@ class Walk:
 
     def lie(self, sensed: Sensed) -> None:
         """
-        Note that the robot does not walk now: it is where it was last, turned as it is.
+        Update the base estimate of a robot that is down.
 
-        Its lowest link is on the ground.
+        It stays where it was in the plane, turned as measured, with its lowest link on the ground.
+
+        Parameters
+        ----------
+        sensed
+            The estimated state of the robot.
+
         """
         self._last_s, self.sensed = sensed.time_s, sensed
         state = sensed.state

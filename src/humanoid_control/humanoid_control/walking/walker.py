@@ -65,11 +65,26 @@ class Walker:
         imu: ImuNoise = ImuNoise(),
     ) -> Walker:
         """
-        Return the walker of a robot.
+        Build the walker of a robot.
 
-        :param joints: all driven joints, in the order of observations and targets
-        :param parameters: the gait; `WalkParameters().scaled(scale)` for a robot of another size
-        :param imu: how far the inertial sensor is off, which makes odometry uncertain
+        Parameters
+        ----------
+        robot, drives
+            The robot, and the drives of its joints by their names.
+        joints
+            All driven joints, in the order of observations and targets.
+        parameters
+            The gait; `WalkParameters().scaled(scale)` for a robot of another size.
+        imu
+            How far the inertial sensor is off, which makes odometry uncertain.
+
+        Raises
+        ------
+        WalkingError
+            A joint has no drive, or a foot has no collision shape.
+        DynamicsError
+            The robot lacks a joint that walking needs, or has legs of another build.
+
         """
         walking = WalkingRobot.of(robot, drives, joints)
         return cls(
@@ -104,9 +119,15 @@ class Walker:
 
     def command(self, velocity: VelocityCommand) -> None:
         """
-        Go at a velocity, within the limits of the gait; zero stops.
+        Set the velocity at which to go.
 
-        Who is to go forgets how its body was to be held.
+        Any velocity but zero also resets the pose of the body to upright.
+
+        Parameters
+        ----------
+        velocity
+            In the axes of the robot; it is limited to what the gait can do, and zero stops.
+
         """
         self._velocity = velocity
         if not velocity.is_zero:
@@ -121,9 +142,18 @@ class Walker:
 
     def hold(self, pose: BodyPose) -> None:
         """
-        Hold the body in a pose, within what it can do, until the robot is to go somewhere.
+        Hold the body in a pose until the robot is to go somewhere.
 
-        :raises WalkingError: if the pose is not finite
+        Parameters
+        ----------
+        pose
+            How the pelvis is to be held; it is limited to what the robot can do.
+
+        Raises
+        ------
+        WalkingError
+            The pose is not finite.
+
         """
         self._body = pose.within(self.parameters)
         if self._walk:
@@ -131,9 +161,25 @@ class Walker:
 
     def update(self, observation: Observation) -> JointTargets:
         """
-        Return what the joints are to do until the next tick.
+        Compute the joint targets until the next control period.
 
-        :raises WalkingError: if the observation has the wrong lengths or is not finite
+        An observation that is not newer than the last one gives the same targets again.
+
+        Parameters
+        ----------
+        observation
+            Of all driven joints.
+
+        Returns
+        -------
+        JointTargets
+            Of all driven joints, in the same order.
+
+        Raises
+        ------
+        WalkingError
+            The observation has the wrong lengths, or what `Senses.read` needs of it is not finite.
+
         """
         last_s = self._walk.sensed.time_s if self._walk else None
         if self._targets and last_s is not None and observation.time_s <= last_s:

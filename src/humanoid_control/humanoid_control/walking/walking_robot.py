@@ -31,7 +31,22 @@ class Leg:
 
     @classmethod
     def of(cls, robot: Robot, body: BodyModel, side: int) -> Leg:
-        """Return the leg of a side."""
+        """
+        Build the leg of a side.
+
+        Parameters
+        ----------
+        robot, body
+            The robot, and the model of its dynamics.
+        side
+            `LEFT` or `RIGHT`.
+
+        Raises
+        ------
+        DynamicsError
+            The robot has no such leg, or one of another build.
+
+        """
         geometry = LegGeometry.of(robot, NAMES[side])
         return cls(body.group(geometry.joints), geometry)
 
@@ -68,11 +83,22 @@ class WalkingRobot:
     @classmethod
     def of(cls, robot: Robot, drives: Mapping[str, Drive], joints: Sequence[str]) -> WalkingRobot:
         """
-        Return what walking needs of a robot.
+        Build the model of a robot that walking needs.
 
-        :param joints: all driven joints, in the order of observations and targets
-        :raises WalkingError: if a joint has no drive
-        :raises DynamicsError: if the robot lacks a leg, or has legs of another build
+        Parameters
+        ----------
+        robot, drives
+            The robot, and the drives of its joints by their names: they have the armatures.
+        joints
+            All driven joints, in the order of observations and targets.
+
+        Raises
+        ------
+        WalkingError
+            A joint has no drive.
+        DynamicsError
+            The robot lacks a leg, or has legs of another build.
+
         """
         undriven = [name for name in joints if name not in drives]
         if undriven:
@@ -88,9 +114,23 @@ class WalkingRobot:
 
     def own(self, observation: Observation) -> Observation:
         """
-        Return what the sensors say of the joints that count for walking.
+        Select the joints that count for walking from an observation.
 
-        :raises WalkingError: if the observation is not one of all joints
+        Parameters
+        ----------
+        observation
+            Of all driven joints.
+
+        Returns
+        -------
+        Observation
+            Of the n joints that count for walking.
+
+        Raises
+        ------
+        WalkingError
+            The observation is not one of all joints.
+
         """
         whole, count = len(self.joints), len(self.places)
         for name in ('positions_rad', 'velocities_rad_s', 'efforts_nm'):
@@ -109,7 +149,20 @@ class WalkingRobot:
         )
 
     def whole(self, targets: JointTargets) -> JointTargets:
-        """Return targets of all joints; those that do not count for walking go to zero."""
+        """
+        Expand the targets of the walk to all driven joints.
+
+        Parameters
+        ----------
+        targets
+            Of the n joints that count for walking.
+
+        Returns
+        -------
+        JointTargets
+            Of all driven joints; those that do not count for walking go to zero.
+
+        """
         if len(self.places) == len(self.joints):
             return targets
         return JointTargets(
@@ -119,11 +172,37 @@ class WalkingRobot:
         )
 
     def spread(self, values: Array) -> Array:
-        """Return values (n,) among those of all joints; the others are zero."""
+        """
+        Expand values of the joints that count for walking to all driven joints.
+
+        Parameters
+        ----------
+        values
+            Of the joints that count for walking (n,).
+
+        Returns
+        -------
+        Array
+            One value for each of `joints`; the others are zero.
+
+        """
         spread = np.zeros(len(self.joints))
         spread[self.places] = values
         return spread
 
     def index(self, joint: str) -> int:
-        """Return the place of a joint, named without the prefix, among all."""
+        """
+        Find the index of a joint in the arrays (n,) of the walk.
+
+        Parameters
+        ----------
+        joint
+            Its name without the prefix of the robot.
+
+        Raises
+        ------
+        DynamicsError
+            There is no such joint, or it does not count for walking.
+
+        """
         return self.body.index(self.prefix + joint)

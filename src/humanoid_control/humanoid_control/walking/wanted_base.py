@@ -29,12 +29,27 @@ def base_below(
     pitch_rate_rad_s: float = 0.0,
 ) -> BaseMotion:
     """
-    Return the base that faces a heading and has the centre of mass where wanted.
+    Compute the motion of the base that puts the centre of mass where it is wanted.
 
-    :param height_m: of the centre of mass
-    :param com: its motion as estimated; with the base it says where in the robot it is
-    :param pitch_rad: how far the base is bent forward; upright by default
-    :param pitch_rate_rad_s: how fast that changes
+    Parameters
+    ----------
+    wanted
+        The motion of the centre of mass over the ground, in the odom frame.
+    height_m
+        How high the centre of mass is to be, in the odom frame.
+    turning
+        Where the base is to face, and the rate of that.
+    com, base, state
+        The estimates of the centre of mass, the base and the posture: they say where in the robot
+        its centre of mass is.
+    pitch_rad, pitch_rate_rad_s
+        How far the base is bent forward, and how fast that changes; upright by default.
+
+    Returns
+    -------
+    BaseMotion
+        Pose and twist of the base, in the odom frame.
+
     """
     heading = about_z(turning.heading_rad)
     rotation = heading @ about_y(pitch_rad)
@@ -56,7 +71,26 @@ def base_below(
 def within_reach(
     base: BaseMotion, robot: WalkingRobot, footing: Footing, sides: Sequence[int], reach: float
 ) -> BaseMotion:
-    """Return the base so low that the legs on the ground are stretched to a share at most."""
+    """
+    Lower the base until the legs on the ground reach their footholds.
+
+    Parameters
+    ----------
+    base
+        The motion that is wanted, in the odom frame.
+    robot
+        The robot, which has the geometry of the legs.
+    footing, sides
+        Where the feet are, and the sides of those that carry the robot.
+    reach
+        The share of its length to which a leg may be stretched.
+
+    Returns
+    -------
+    BaseMotion
+        The same motion, lower if need be.
+
+    """
     legs = [robot.legs[side].geometry for side in sides]
     soles = [footing[side].sole_m for side in sides]
     x, y, _ = base.frame.position_m.tolist()

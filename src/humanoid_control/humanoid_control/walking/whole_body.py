@@ -48,10 +48,20 @@ class WholeBody:
         self, wanted: BaseMotion, measured: BaseMotion, footing: Footing, swing: Swing | None
     ) -> JointMotion:
         """
-        Return how the joints are to move.
+        Compute the motion of all joints: inverse kinematics of the legs, and swinging arms.
 
-        Feet on the ground move the pelvis where it is wanted. A foot in the air is placed from
-        where the pelvis is, so that it lands where planned even if the pelvis is elsewhere.
+        Legs on the ground move the pelvis where it is wanted. A foot in the air is placed relative
+        to the measured pelvis, so that it lands where planned even if the pelvis is elsewhere.
+
+        Parameters
+        ----------
+        wanted, measured
+            How the base is to move, and how it moves, in the odom frame.
+        footing
+            Where the feet stand.
+        swing
+            The target of the foot in the air, if one is.
+
         """
         positions: Array = self._home.positions_rad.copy()
         joints = JointMotion(positions, np.zeros_like(positions), np.zeros_like(positions))

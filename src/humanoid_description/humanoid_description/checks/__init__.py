@@ -18,7 +18,21 @@ __all__ = ['Outcome', 'check_robot']
 
 
 def check_robot(robot: Robot) -> list[Outcome]:
-    """Check what makes sense for a robot; later checks build on what earlier ones have shown."""
+    """
+    Run the checks on a robot model; later ones build on what earlier ones have shown.
+
+    Parameters
+    ----------
+    robot
+        The model as it was parsed, sound or not.
+
+    Returns
+    -------
+    list of Outcome
+        One for each check, in the order of the report. Checks are skipped after defects, and
+        those of the humanoid for any other robot.
+
+    """
     outcomes = [check(robot) for check in STRUCTURE]
     for group in (BODIES + JOINTS + MESHES, NAMES, SHAPE):
         outcomes += _checked(robot, group, _obstacle(robot, group, outcomes))

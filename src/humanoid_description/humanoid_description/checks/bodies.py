@@ -14,7 +14,20 @@ ROUNDING = 1e-3
 
 
 def look_at_masses(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Add the masses, and find those that are not positive."""
+    """
+    Sum the link masses, and find those that are not positive.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The total mass (kg) for the report, and a message for each defect.
+
+    """
     defects = [
         f'{named(link)} has a mass of {link.body.mass_kg:g} kg. Give it a positive one, or '
         'leave out <inertial> if it is a mere frame.'
@@ -26,7 +39,22 @@ def look_at_masses(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def look_at_inertia(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Find inertia that no real body has."""
+    """
+    Find inertia tensors that no rigid body has.
+
+    The principal moments must be positive and obey the triangle inequality.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The number of bodies for the report, and a message for each defect.
+
+    """
     bodies = [(link, link.body) for link in robot.links if link.body]
     defects = [defect for link, body in bodies for defect in _wrong_moments(link, body)]
     return f'{len(bodies)} ' + ('body' if len(bodies) == 1 else 'bodies'), defects
@@ -48,7 +76,20 @@ def _wrong_moments(link: Link, body: Body) -> Iterator[str]:
 
 
 def look_at_moving_links(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Find links that a joint moves although there is no mass in them."""
+    """
+    Find links that a joint moves although they have no mass.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The number of moving links for the report, and a message for each defect.
+
+    """
     moved = [joint for joint in robot.joints if joint.is_driven]
     return count(len(moved), 'moving link'), [
         f"{named(robot.link[joint.child])} is moved by joint '{joint.name}', but has no mass, nor "

@@ -38,25 +38,63 @@ HANDS_KG = 0.5
 
 
 def has_legs(robot: Robot) -> bool:
-    """Tell whether there is any part of a leg."""
+    """
+    Whether the model has any joint of a leg.
+
+    Parameters
+    ----------
+    robot
+        The model, whose joint names are searched for hip, knee and ankle.
+
+    """
     names = [joint.name for joint in robot.joints]
     return any(part in name for name in names for part in LEG_JOINTS)
 
 
 def has_hands(robot: Robot) -> bool:
-    """Tell whether there is any part of a hand."""
+    """
+    Whether the model has any driven joint of a wrist or gripper.
+
+    Parameters
+    ----------
+    robot
+        The model, whose joint names are searched.
+
+    """
     driven = [joint.name for joint in robot.joints if joint.is_driven]
     return any(part in name for name in driven for part in HAND_JOINTS)
 
 
 def build_of(robot: Robot) -> Build:
-    """Return what a robot should be."""
+    """
+    Return the nominal height, mass and frames, at scale 1, of a humanoid of this build.
+
+    Parameters
+    ----------
+    robot
+        The model, whose joints tell whether it has legs and hands.
+
+    """
     build = WHOLE if has_legs(robot) else UPPER_BODY
     return replace(build, mass_kg=build.mass_kg + HANDS_KG) if has_hands(robot) else build
 
 
 def ground_contact(robot: Robot) -> Array:
-    """Return the corners at which the robot stands on the ground, all joints at zero."""
+    """
+    Compute the corners at which the robot stands on the ground, with all joints at zero.
+
+    Parameters
+    ----------
+    robot
+        A model whose links and joints make a tree.
+
+    Returns
+    -------
+    Array
+        The lowest corners (n, 3) in m of the collision shapes of the feet, or of the base without
+        legs, in the frame of the root. Meshes have none.
+
+    """
     at = poses(robot)
     names = {_rigid(robot, robot.prefix + name) for name in build_of(robot).stands_on}
     corners = np.vstack([outline(robot.link[name].collisions, at[name]) for name in names])
@@ -74,7 +112,15 @@ def _rigid(robot: Robot, link: str) -> str:
 
 
 def height_m(robot: Robot) -> float:
-    """Return the height from the ground to the crown, all joints at zero."""
+    """
+    Compute the height in m from the ground to the crown, with all joints at zero.
+
+    Parameters
+    ----------
+    robot
+        A model with ground contact, whose visual shapes are not all meshes.
+
+    """
     at, ground = poses(robot), ground_contact(robot)
     corners = np.vstack([outline(link.visuals, at[link.name]) for link in robot.links])
     return float(corners[:, 2].max() - ground[:, 2].min())

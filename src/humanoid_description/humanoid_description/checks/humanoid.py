@@ -27,7 +27,20 @@ TOLERANCE = 0.01
 
 
 def look_at_frames(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Find the frames that REP 120 names."""
+    """
+    Find frames of REP 120 that are missing.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        How many of the frames there are, for the report, and a message for each missing one.
+
+    """
     wanted = [robot.prefix + name for name in build_of(robot).frames]
     missing = [name for name in wanted if name not in robot.link]
     return f'{len(wanted) - len(missing)} of {len(wanted)}', [
@@ -38,7 +51,20 @@ def look_at_frames(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def look_at_driven_joints(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Find the joints that joints.yaml drives."""
+    """
+    Find driven joints of config/joints.yaml that are missing.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        How many of the joints there are, for the report, and a message for each missing one.
+
+    """
     wanted = load_drives(
         prefix=robot.prefix, upper_body_only=not has_legs(robot), hands=has_hands(robot)
     )
@@ -52,7 +78,20 @@ def look_at_driven_joints(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def look_at_ground_contact(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Find an area to stand on."""
+    """
+    Check that there is a support polygon: more than two lowest corners.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The number of corners for the report, and a message if there are too few.
+
+    """
     corners = len(ground_contact(robot))
     defect = (
         'There is nothing flat to stand on: add a <collision> that is no mesh to the links of '
@@ -62,7 +101,20 @@ def look_at_ground_contact(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def look_at_height(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Measure the height, and refuse what no scale gives."""
+    """
+    Check that the height is one that the model can have at some scale.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The height (m) for the report, and a message if it is out of range.
+
+    """
     height, rules = height_m(robot), load_scaling()
     low, high = (build_of(robot).height_m * scale for scale in (rules.smallest, rules.largest))
     defect = (
@@ -73,7 +125,20 @@ def look_at_height(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def look_at_mass(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Compare the mass with what a robot of this height weighs."""
+    """
+    Compare the total mass with that of the humanoid scaled to this height.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The mass (kg) for the report, and a message if it is off by more than 1 %.
+
+    """
     build, height = build_of(robot), height_m(robot)
     power = load_scaling().exponents['mass']
     wanted = build.mass_kg * (height / build.height_m) ** power
@@ -86,7 +151,20 @@ def look_at_mass(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def look_at_stand(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Find out whether the robot stands, all joints at zero."""
+    """
+    Check static stability: the centre of mass above the support polygon, all joints at zero.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The margin (mm) for the report, and a message if the robot tips over.
+
+    """
     ground = ground_contact(robot)
     centre = centre_of_mass(robot, poses(robot))
     margin_mm = 1000 * margin_inside(centre[:2], ground[:, :2])

@@ -15,7 +15,20 @@ LIMITED = ('revolute', 'prismatic')
 
 
 def look_at_kinds(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Find joints of a type that does not exist, or with an axis that points nowhere."""
+    """
+    Find joints of an unknown type, or whose axis is zero.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The number of driven joints for the report, and a message for each defect.
+
+    """
     driven = sum(joint.is_driven for joint in robot.joints)
     return f'{driven} driven', [d for joint in robot.joints for d in _wrong_kind(joint)]
 
@@ -31,7 +44,20 @@ def _wrong_kind(joint: Joint) -> Iterator[str]:
 
 
 def look_at_limits(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Find limits that are missing, exchanged, or let nothing move."""
+    """
+    Find joint limits that are missing, exchanged, or let nothing move.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The number of revolute and prismatic joints for the report, and a message for each defect.
+
+    """
     limited = [joint for joint in robot.joints if joint.kind in LIMITED]
     return count(len(limited), 'range'), [d for joint in limited for d in _wrong_limits(joint)]
 
@@ -64,7 +90,20 @@ def _shown(value: float | None) -> str:
 
 
 def look_at_mimics(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Find joints that follow what does not move, or each other."""
+    """
+    Find mimic joints whose leader does not move, and circles of them.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The number of mimic joints for the report, and a message for each defect.
+
+    """
     mimics = {joint.name: joint.mimics.joint for joint in robot.joints if joint.mimics}
     defects = [d for name, leader in mimics.items() for d in _wrong_leader(robot, name, leader)]
     return count(len(mimics), 'follower'), [*defects, *_circles(robot, mimics)]

@@ -14,7 +14,20 @@ from humanoid_description.robot import line_of, Link, Robot, Shape
 
 
 def look_at_meshes(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Find meshes that are not there; those on other machines are not looked for."""
+    """
+    Find mesh files that are missing; those on other machines are not looked for.
+
+    Parameters
+    ----------
+    robot
+        The model to check; relative paths start in its folder.
+
+    Returns
+    -------
+    tuple
+        The number of files for the report, and a message for each missing one of a link.
+
+    """
     files = {shape.file for link in robot.links for shape in _meshes(link)}
     remote = sum(_is_remote(file) for file in files)
     found = count(len(files), 'file') + (f', {remote} not looked for' if remote else '')

@@ -14,7 +14,20 @@ TOLERANCE = 1e-6
 
 
 def look_at_mirror(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Compare every joint and link of the left side with its counterpart."""
+    """
+    Compare each link and joint of the left side with its mirror image on the right.
+
+    Parameters
+    ----------
+    robot
+        The model to check; its frames are mirrored in y.
+
+    Returns
+    -------
+    tuple
+        The number of pairs for the report, and a message for each difference.
+
+    """
     links, joints = set(robot.link), set(robot.joint)
     defects = [*_alone(robot, links, 'link'), *_alone(robot, joints, 'joint')]
     link_pairs, joint_pairs = list(_pairs(robot, links)), list(_pairs(robot, joints))
@@ -26,7 +39,17 @@ def look_at_mirror(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def counterpart(name: str, prefix: str) -> str | None:
-    """Return the name of the same part on the other side; None for a part of the middle."""
+    """
+    Return the name of the same part on the other side; None for a part of the middle.
+
+    Parameters
+    ----------
+    name
+        That of a link or joint.
+    prefix
+        The prefix of all names of the robot, which comes before `left_`, `l_` and their like.
+
+    """
     own = name.removeprefix(prefix)
     for left, right in SIDES:
         if own.startswith(left):

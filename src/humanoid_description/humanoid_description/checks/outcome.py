@@ -10,7 +10,17 @@ from humanoid_description.robot import Robot
 
 
 def count(number: int, noun: str) -> str:
-    """Return a number with its noun."""
+    """
+    Format a number with its noun, such as '1 link' or '2 links'.
+
+    Parameters
+    ----------
+    number
+        How many there are.
+    noun
+        The singular, whose plural has an s.
+
+    """
     return f'{number} {noun}' + ('' if number == 1 else 's')
 
 
@@ -44,5 +54,18 @@ class Check:
         return Outcome(self.title, found, tuple(defects))
 
     def skip(self, why: str) -> Outcome:
-        """Leave the question open."""
+        """
+        Leave the check undone.
+
+        Parameters
+        ----------
+        why
+            The reason that the report gives.
+
+        Returns
+        -------
+        Outcome
+            The outcome of a skipped check.
+
+        """
         return Outcome(self.title, skipped=why)

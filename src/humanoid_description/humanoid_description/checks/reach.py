@@ -26,7 +26,21 @@ class Reach:
 
 
 def look_at_reach(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Try many postures of each arm, within the limits."""
+    """
+    Sample postures of each arm within its joint limits, and measure how far the hands reach.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The reach (m) forward of the shoulder, that of the worse arm, for the report; and a message
+        for each hand that reaches too little forward, or not to the middle.
+
+    """
     reaches = {side: _reach(robot, frame, sign) for side, frame, sign in ARMS}
     found = min(reach.forward_m for reach in reaches.values())
     defects = [d for side, reach in reaches.items() for d in _too_short(side, reach)]

@@ -11,7 +11,20 @@ from humanoid_description.robot import line_of, repeated, Robot
 
 
 def look_at_names(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Count the parts, and find names that are not unique or name nothing."""
+    """
+    Count links and joints, and find names that are not unique or name nothing.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The counts for the report, and a message for each defect.
+
+    """
     found = f'{count(len(robot.links), "link")}, {count(len(robot.joints), "joint")}'
     return found, [*_repeated_names(robot), *_unknown_links(robot)]
 
@@ -36,7 +49,20 @@ def _unknown_links(robot: Robot) -> Iterator[str]:
 
 
 def look_at_root(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Find the one link that hangs from no joint."""
+    """
+    Find the root: the one link that is no joint's child.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The name of the root for the report, and a message if there are none or several.
+
+    """
     roots = robot.roots
     if len(roots) == 1:
         return roots[0], ()
@@ -54,7 +80,20 @@ def look_at_root(robot: Robot) -> tuple[str, Iterable[str]]:
 
 
 def look_at_tree(robot: Robot) -> tuple[str, Iterable[str]]:
-    """Find links with several parents, and loops."""
+    """
+    Find links with several parents, and kinematic loops.
+
+    Parameters
+    ----------
+    robot
+        The model to check.
+
+    Returns
+    -------
+    tuple
+        The depth of the tree for the report, and a message for each defect.
+
+    """
     depths = [depth for link in robot.links if (depth := _depth(robot, link.name)) is not None]
     return f'{count(max(depths, default=0), "joint")} deep', [
         *_several_parents(robot),

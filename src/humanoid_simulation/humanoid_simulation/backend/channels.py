@@ -25,7 +25,20 @@ class Channels:
 
 
 def channels_of(joints: int) -> Channels:
-    """Return the parts for a robot with so many joints."""
+    """
+    Divide the measurements of a robot among the slices of one array.
+
+    Parameters
+    ----------
+    joints
+        Number n of driven joints.
+
+    Returns
+    -------
+    Channels
+        Slices of an array (3 n + 18,).
+
+    """
     parts = []
     at = 0
     for length in (joints, joints, joints, 3, 3, 6, 6):

@@ -29,7 +29,22 @@ class Contact:
 
 
 def contacts_in(model: Any, data: Any, names: Sequence[str]) -> Iterator[Contact]:
-    """Yield the contacts of a world; the names are those of its bodies."""
+    """
+    Iterate over the contacts of the last physics step.
+
+    Parameters
+    ----------
+    model, data
+        The MuJoCo model, and its state.
+    names
+        Names of all bodies, in the order of the model.
+
+    Yields
+    ------
+    Contact
+        One for each contact point.
+
+    """
     wrench = np.empty(6)
     bodies = model.geom_bodyid
     for number in range(data.ncon):

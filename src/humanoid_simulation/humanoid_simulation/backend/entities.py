@@ -83,13 +83,39 @@ class Entities:
         return tuple(self._bodies)
 
     def named(self, name: str) -> str:
-        """Return the entity that is meant, or raise SimulationError."""
+        """
+        Resolve the name of an entity.
+
+        Parameters
+        ----------
+        name
+            Name of a robot or an object; '' is the robot without a name.
+
+        Returns
+        -------
+        str
+            The name that the other methods take.
+
+        Raises
+        ------
+        SimulationError
+            There is no such entity.
+
+        """
         name = name or ALONE
         named('entity', name, self._bodies)
         return name
 
     def state(self, name: str) -> EntityState:
-        """Return where an entity is."""
+        """
+        Measure the true pose, velocity and acceleration of an entity, in the world frame.
+
+        Parameters
+        ----------
+        name
+            Name of the entity, as from `named`; one that is fixed is at rest.
+
+        """
         data = self._data
         if name not in self._floating:
             body = self._bodies[name]
@@ -106,7 +132,20 @@ class Entities:
         )
 
     def box(self, name: str) -> tuple[Array, Array]:
-        """Return two corners, (3,), of the box around an entity, in its axes."""
+        """
+        Compute the bounding box of an entity, links included, along the axes of its body.
+
+        Parameters
+        ----------
+        name
+            Name of the entity, as from `named`; the body of a robot is its base.
+
+        Returns
+        -------
+        tuple[Array, Array]
+            Lower and upper corner (3,) in m, in the frame of that body.
+
+        """
         model, data, body = self._model, self._data, self._bodies[name]
         of_body = model.body_rootid[model.geom_bodyid] == model.body_rootid[body]
         geoms = np.flatnonzero(of_body & (model.geom_rbound > 0.0))
@@ -117,7 +156,22 @@ class Entities:
         return own.min(axis=0), own.max(axis=0)
 
     def put(self, name: str, state: EntityState) -> None:
-        """Put an entity somewhere; refuse what the physics could not go on from."""
+        """
+        Set the pose and the velocity of an entity; what follows from them is left to be computed.
+
+        Parameters
+        ----------
+        name
+            Name of the entity, as from `named`.
+        state
+            The state of its origin in the world frame; accelerations are ignored.
+
+        Raises
+        ------
+        SimulationError
+            The state is out of bounds, or the entity cannot be moved.
+
+        """
         check_bounds(state)
         at = named('entity that can be moved', name, self._floating)
         qpos, qvel = self._data.qpos, self._data.qvel
@@ -129,7 +183,20 @@ class Entities:
 
 
 def check_bounds(state: EntityState) -> None:
-    """Refuse a state that is beyond what can be computed."""
+    """
+    Check that a state is within what the physics can compute with.
+
+    Parameters
+    ----------
+    state
+        Up to `FARTHEST_M`, `FASTEST_M_S` and `FASTEST_RAD_S` along each axis.
+
+    Raises
+    ------
+    SimulationError
+        It is beyond one of them.
+
+    """
     for kind, array, most in (
         ('position_m', state.position_m, FARTHEST_M),
         ('linear_velocity_m_s', state.linear_velocity_m_s, FASTEST_M_S),

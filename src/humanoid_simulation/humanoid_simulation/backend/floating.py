@@ -18,7 +18,17 @@ class Floating:
 
 
 def floating_body(model: Any, joint: str) -> Floating:
-    """Find the body that a free joint lets float."""
+    """
+    Find the coordinates of a floating body in `qpos` and `qvel`.
+
+    Parameters
+    ----------
+    model
+        The MuJoCo model.
+    joint
+        Name of the free joint in it.
+
+    """
     found = model.joint(joint)
     at, rate_at = int(found.qposadr[0]), int(found.dofadr[0])
     return Floating(

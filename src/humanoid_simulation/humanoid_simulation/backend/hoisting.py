@@ -28,17 +28,33 @@ class Hoists:
         self._working: dict[int, tuple[Hoist, Callable[[], EntityState]]] = {}
 
     def enter(self, model: Any, data: Any, numbers: Mapping[int, int]) -> None:
-        """Go on in a world in which the links that are lifted have other numbers."""
+        """
+        Switch to another model, in which the bases of the robots may have other ids.
+
+        Parameters
+        ----------
+        model, data
+            The new MuJoCo model, and its state.
+        numbers
+            New ids of the bodies, by the old ones.
+
+        """
         self._model, self._data = model, data
         self._working = {numbers[base]: hoist for base, hoist in self._working.items()}
 
     def begin(self, base: int, standing_m: float, state: Callable[[], EntityState]) -> None:
         """
-        Lift a robot.
+        Start to lift a robot, in place of a hoist that has it already.
 
-        :param base: the number of its floating link
-        :param standing_m: how high the base is above the ground when the robot stands
-        :param state: returns where the base is
+        Parameters
+        ----------
+        base
+            Id of its floating body.
+        standing_m
+            Height of the base above the ground when the robot stands.
+        state
+            Returns the state of the base, in the world frame.
+
         """
         mass_kg = float(self._model.body_subtreemass[base])
         now = state()
@@ -50,11 +66,32 @@ class Hoists:
         self._working = {}
 
     def is_lifting(self, base: int) -> bool:
-        """Tell whether a robot hangs on a hoist."""
+        """
+        Whether a robot hangs on a hoist.
+
+        Parameters
+        ----------
+        base
+            Id of its floating body.
+
+        """
         return base in self._working
 
     def act(self, period_s: float) -> None:
-        """Pull for the coming period."""
+        """
+        Apply the wrenches of all hoists in the coming period, and drop those that are done.
+
+        Parameters
+        ----------
+        period_s
+            Length of a control period.
+
+        Raises
+        ------
+        SimulationError
+            Too many wrenches act already.
+
+        """
         for base, (hoist, state) in list(self._working.items()):
             force, torque = hoist.wrench(state(), period_s)
             if hoist.is_done:

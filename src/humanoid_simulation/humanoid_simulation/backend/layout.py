@@ -40,7 +40,24 @@ class Layout:
 
 
 def layout_of(model: Any, description: RobotDescription, robot: str) -> Layout:
-    """Find a robot in a world."""
+    """
+    Find the indices of a robot in the arrays of a MuJoCo model.
+
+    Parameters
+    ----------
+    model
+        The compiled world.
+    description
+        The kind of the robot.
+    robot
+        Its name; '' if it has none.
+
+    Raises
+    ------
+    SimulationError
+        The inertial measurement unit is not fixed to the base.
+
+    """
 
     def body(name: str) -> int:
         return int(model.body(in_world(robot, name)).id)

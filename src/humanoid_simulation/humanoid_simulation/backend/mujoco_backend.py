@@ -114,10 +114,21 @@ class MujocoBackend:
 
     def step(self, targets: Mapping[str, JointTargets]) -> None:
         """
-        Let a period pass; a robot without targets keeps those that it had.
+        Advance the simulation by one control period, as `Backend.step` says.
 
-        Targets that are wrong are refused, all of them, and no time passes. If the physics becomes
-        unstable, that is an error, and the last state that meant something is there again.
+        Targets are checked first: if some are wrong, none are taken, and no time passes. If the
+        physics becomes unstable, the last state that was stable is restored.
+
+        Parameters
+        ----------
+        targets
+            By the names of robots; a robot without any keeps those that it had.
+
+        Raises
+        ------
+        SimulationError
+            There is no such robot, its targets are wrong, or the physics has become unstable.
+
         """
         for name, wanted in targets.items():
             named('robot', name, self._robots).check(wanted)
@@ -132,7 +143,20 @@ class MujocoBackend:
         self._measure()
 
     def reset(self, keyframe: str = 'home') -> None:
-        """Put all where it began, at rest, robots in a posture that has a name; time goes on."""
+        """
+        Reset robots and objects to where they began, at rest; time goes on.
+
+        Parameters
+        ----------
+        keyframe
+            Name of the posture in which the robots begin again.
+
+        Raises
+        ------
+        SimulationError
+            There is no such keyframe; all is as before then.
+
+        """
         posture = named('keyframe', keyframe, self._keyframes)
         positions = {name: robot.posture(posture) for name, robot in self._robots.items()}
         mujoco.mj_resetData(self._model, self._data)
@@ -144,12 +168,17 @@ class MujocoBackend:
 
     def change_scene(self, scene: Scene) -> None:
         """
-        Go on in another scene; robots, and things that are in both scenes, stay as they are.
+        Switch to another scene; robots, and objects that are in both of them, stay as they are.
+
+        Parameters
+        ----------
+        scene
+            The new scene. An object is in both if it has the same name, and can be moved.
 
         Raises
         ------
         SimulationError
-            If there can be no such world; all is as before then.
+            There can be no such world; all is as before then.
 
         """
         before = self._model, self._data
@@ -170,27 +199,92 @@ class MujocoBackend:
         self._robots = {}
 
     def entity(self, name: str) -> str:
-        """Return the entity that is meant; '' is the robot that is alone. Or SimulationError."""
+        """
+        Resolve the name of an entity.
+
+        Parameters
+        ----------
+        name
+            Name of a robot or an object; '' is the robot without a name.
+
+        Raises
+        ------
+        SimulationError
+            There is no such entity.
+
+        """
         return self._entities.named(name)
 
     def entity_state(self, entity: str) -> EntityState:
-        """Return where an entity truly is."""
+        """
+        Measure the true pose, velocity and acceleration of an entity, in the world frame.
+
+        Parameters
+        ----------
+        entity
+            A name, as for `entity`.
+
+        Raises
+        ------
+        SimulationError
+            There is no such entity.
+
+        """
         return self._entities.state(self.entity(entity))
 
     def entity_box(self, entity: str) -> tuple[Array, Array]:
         """
-        Return the lower and the upper corner, (3,) each, of the box around an entity.
+        Compute the bounding box of an entity, along its own axes.
 
-        The box lies along the axes of the entity; that of a robot changes with its posture.
+        That of a robot includes all links, so that it changes with the posture.
+
+        Parameters
+        ----------
+        entity
+            A name, as for `entity`.
+
+        Returns
+        -------
+        tuple[Array, Array]
+            Lower and upper corner (3,) in m; for a robot in base_link.
+
+        Raises
+        ------
+        SimulationError
+            There is no such entity.
+
         """
         return self._entities.box(self.entity(entity))
 
     def ground_truth(self, robot: str = '') -> EntityState:
-        """Return where the base of a robot truly is."""
+        """
+        Measure the true state of the base of a robot, in the world frame.
+
+        Parameters
+        ----------
+        robot
+            Name of the robot; '' if it has none.
+
+        """
         return self._entities.state(robot or ALONE)
 
     def set_entity_state(self, entity: str, state: EntityState) -> None:
-        """Put a robot or a thing somewhere; the joints of a robot stay as they are."""
+        """
+        Move a robot or an object; the joints of a robot stay as they are.
+
+        Parameters
+        ----------
+        entity
+            A name, as for `entity`.
+        state
+            Pose and velocity in the world frame; accelerations are ignored.
+
+        Raises
+        ------
+        SimulationError
+            There is no such entity, it is fixed, or the state is out of bounds.
+
+        """
         self._entities.put(self.entity(entity), state)
         self._look_again()
 
@@ -203,12 +297,24 @@ class MujocoBackend:
         point_m: Sequence[float] | Array = (0.0, 0.0, 0.0),
     ) -> None:
         """
-        Push a body from the coming period on.
+        Apply a wrench to a body from the coming period on; several on one body add up.
 
-        :param body: the name of a link, with that of its robot and '/' in front if robots have
-            names, or of a thing
-        :param force_n: in world axes
-        :param point_m: where the force acts, in the axes of the body
+        Parameters
+        ----------
+        body
+            Name of an object or of a link, the latter as `robot/link` if robots have names.
+        force_n, torque_nm
+            Force, and torque about its point (3,), in world axes.
+        duration_s
+            How long they act, in simulated time.
+        point_m
+            The point at which the force acts (3,), from the origin of the body in its axes.
+
+        Raises
+        ------
+        SimulationError
+            There is no such body, a number is out of range, or too many wrenches act already.
+
         """
         self._wrenches.add(
             Wrench(
@@ -221,12 +327,38 @@ class MujocoBackend:
         )
 
     def hoist(self, robot: str = '') -> None:
-        """Begin to lift a robot onto its feet, as if by a rope and by hand, where it is."""
+        """
+        Start to lift a robot onto its feet, as if by a rope and by hand, where it is.
+
+        Parameters
+        ----------
+        robot
+            Name of the robot; '' if it has none.
+
+        Raises
+        ------
+        SimulationError
+            There is no such robot.
+
+        """
         fallen = named('robot', robot, self._robots)
         self._hoists.begin(fallen.base, self._standing_m[robot], lambda: self.ground_truth(robot))
 
     def is_hoisted(self, robot: str = '') -> bool:
-        """Tell whether a robot is still being lifted onto its feet."""
+        """
+        Whether a robot is still being lifted onto its feet.
+
+        Parameters
+        ----------
+        robot
+            Name of the robot; '' if it has none.
+
+        Raises
+        ------
+        SimulationError
+            There is no such robot.
+
+        """
         return self._hoists.is_lifting(named('robot', robot, self._robots).base)
 
     def contacts(self) -> Iterator[Contact]:
@@ -239,18 +371,50 @@ class MujocoBackend:
 
     def body(self, entity: str, link: str = '') -> str:
         """
-        Return the body of an entity: a link of a robot, by default its base, or a thing.
+        Look up the name of a body, as `apply_wrench` takes it.
 
-        An empty entity is the robot that is alone.
+        Parameters
+        ----------
+        entity
+            Name of a robot or of an object that can be moved; '' is the robot without a name.
+        link
+            A link of the robot, which is not checked; '' is its base, or the object.
+
+        Raises
+        ------
+        SimulationError
+            There is no such entity, or it is fixed.
+
         """
         return self._names.body(entity, link)
 
     def links(self, robot: str = '') -> list[str]:
-        """Return what the links of a robot are called among the bodies."""
+        """
+        List the names of the bodies of a robot, as contacts give them.
+
+        Parameters
+        ----------
+        robot
+            Name of the robot; '' if it has none.
+
+        Raises
+        ------
+        SimulationError
+            There is no such robot.
+
+        """
         return self._names.links(robot)
 
     def camera(self, robot: str = '') -> str:
-        """Return what the camera of a robot is called in the model."""
+        """
+        Look up the name of a robot's camera in the MuJoCo model.
+
+        Parameters
+        ----------
+        robot
+            Name of the robot; '' if it has none.
+
+        """
         return in_world(robot, CAMERA)
 
     def _name(self, scene: Scene) -> None:

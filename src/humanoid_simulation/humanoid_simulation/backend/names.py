@@ -20,7 +20,7 @@ class Names:
     The names of bodies and entities.
 
     Bodies are the links of robots, with the robot's name and '/' in front if it has one, and the
-    things of the scene. Entities are robots, and things that are not fixed.
+    objects of the scene. Entities are the robots and the objects; only some of these can be moved.
     """
 
     def __init__(self, model: Any, scene: Scene, robots: Sequence[str], base: str) -> None:
@@ -40,9 +40,20 @@ class Names:
 
     def body(self, entity: str, link: str = '') -> str:
         """
-        Return the body of an entity: a link of a robot, by default its base, or a thing.
+        Look up the name of a body: that of a link of a robot, or of an object.
 
-        An empty entity is the robot that is alone.
+        Parameters
+        ----------
+        entity
+            Name of a robot or of an object that can be moved; '' is the robot without a name.
+        link
+            A link of the robot, which is not checked; '' is its base, or the object.
+
+        Raises
+        ------
+        SimulationError
+            There is no such entity, or it is fixed.
+
         """
         entity = entity or ALONE
         named('entity that can be moved', entity, self.floating)
@@ -53,11 +64,37 @@ class Names:
         return f'{entity}/{link}' if link else entity
 
     def number(self, body: str) -> int:
-        """Return the number of a body."""
+        """
+        Look up the id of a body in the MuJoCo model.
+
+        Parameters
+        ----------
+        body
+            Its name, one of `bodies`.
+
+        Raises
+        ------
+        SimulationError
+            There is no such body.
+
+        """
         return named('body', body, self._numbers)
 
     def links(self, robot: str) -> list[str]:
-        """Return what the links of a robot are called among the bodies."""
+        """
+        List the names of the bodies of a robot.
+
+        Parameters
+        ----------
+        robot
+            Name of the robot; '' if it has none.
+
+        Raises
+        ------
+        SimulationError
+            There is no such robot.
+
+        """
         root = self._roots[self.number(self.body(robot))]
         return [name for name, of in zip(self.bodies, self._roots) if of == root]
 

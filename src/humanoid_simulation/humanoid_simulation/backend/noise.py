@@ -65,7 +65,20 @@ class SensorNoise:
         )
 
     def scaled(self, factor: float) -> SensorNoise:
-        """Return the same noise, so much stronger."""
+        """
+        Scale all standard deviations, those of the biases included.
+
+        Parameters
+        ----------
+        factor
+            What they are multiplied by; 0 is no noise.
+
+        Raises
+        ------
+        SimulationError
+            The factor is negative or not finite.
+
+        """
         return SensorNoise(*(factor * float(getattr(self, each.name)) for each in fields(self)))
 
 

@@ -26,7 +26,25 @@ def pose(
     keyframe: Keyframe,
     positions_rad: Array,
 ) -> None:
-    """Set the position of a robot's base and of its joints (n,)."""
+    """
+    Set the base and the joints of a robot, with its lowest point on the ground.
+
+    Of the state, only `qpos` is valid after this: all else is left to be computed.
+
+    Parameters
+    ----------
+    model, data
+        The MuJoCo model, and the state that is set.
+    layout
+        Indices of the robot in them.
+    place
+        Where on the ground it begins, and its heading.
+    keyframe
+        Roll and pitch of the base; its joints are not used.
+    positions_rad
+        Positions of the driven joints (n,); those that mimic others follow.
+
+    """
     data.qpos[layout.positions] = positions_rad
     data.qpos[layout.followers] = data.qpos[layout.followed]
     data.qpos[layout.floating.orientation] = from_rpy(

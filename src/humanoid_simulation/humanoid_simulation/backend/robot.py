@@ -42,18 +42,47 @@ class SimulatedRobot:
         self.enter(model, data)
 
     def enter(self, model: Any, data: Any) -> None:
-        """Go on in a world in which the robot may have other numbers, as it is."""
+        """
+        Switch to another model, in which the robot may have other indices.
+
+        Parameters
+        ----------
+        model, data
+            The new MuJoCo model and its state, in which the inputs of the servos are set again.
+
+        """
         self._model, self._data = model, data
         self._layout = layout_of(model, self._description, self._place.robot)
         self._sensors = Sensors(model, data, self._layout, self._noise)
         data.ctrl[self._layout.servos] = self._servos.inputs
 
     def check(self, targets: JointTargets) -> None:
-        """Refuse targets that the robot cannot be given."""
+        """
+        Check joint targets before they are commanded.
+
+        Parameters
+        ----------
+        targets
+            For all joints of the robot, in their order.
+
+        Raises
+        ------
+        SimulationError
+            They are of the wrong number, or not finite.
+
+        """
         check_targets(self._place.robot, self._joints, targets)
 
     def command(self, targets: JointTargets | None) -> None:
-        """Tell the drives what to do in the coming period; None is nothing new."""
+        """
+        Command the servos for the coming period.
+
+        Parameters
+        ----------
+        targets
+            New targets, which `check` has let through; None goes on with the last ones.
+
+        """
         if targets is None:
             self._servos.go_on()
         else:
@@ -61,7 +90,25 @@ class SimulatedRobot:
         self._data.ctrl[self._layout.servos] = self._servos.inputs
 
     def posture(self, keyframe: Keyframe) -> Array:
-        """Return the positions of the joints in a keyframe."""
+        """
+        Arrange the joint positions of a keyframe in the order of the robot's joints.
+
+        Parameters
+        ----------
+        keyframe
+            The posture.
+
+        Returns
+        -------
+        Array
+            Positions (n,) in rad, or in m for a prismatic joint.
+
+        Raises
+        ------
+        SimulationError
+            The keyframe sets a joint that the robot does not have.
+
+        """
         return keyframe.positions_rad(self._joints, self._prefix)
 
     @property
@@ -70,7 +117,17 @@ class SimulatedRobot:
         return self._layout.base
 
     def put(self, keyframe: Keyframe, positions_rad: Array) -> None:
-        """Put the robot where it began, into a posture, at rest, and hold it."""
+        """
+        Put the robot where it began, at rest in a posture, which its servos hold.
+
+        Parameters
+        ----------
+        keyframe
+            Roll and pitch of the base.
+        positions_rad
+            Positions of the joints (n,), from `posture`.
+
+        """
         layout, data = self._layout, self._data
         pose(self._model, data, layout, self._place, keyframe, positions_rad)
         data.qvel[layout.floating.linear] = data.qvel[layout.floating.angular] = 0.0
@@ -83,7 +140,15 @@ class SimulatedRobot:
         self._measured.clear()
 
     def measure(self, time_s: float) -> None:
-        """Read the sensors."""
+        """
+        Read the sensors; `observe` gives the result after the latency.
+
+        Parameters
+        ----------
+        time_s
+            Simulated time now.
+
+        """
         self._measured.append(self._sensors.measure(time_s))
 
     def observe(self) -> Observation:

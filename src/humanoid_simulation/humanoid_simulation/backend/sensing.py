@@ -37,7 +37,15 @@ class Sensors:
         self._channels = channels_of(len(layout.positions))
 
     def measure(self, time_s: float) -> Observation:
-        """Return an observation, with noise."""
+        """
+        Measure joints, inertial sensor and forces on the feet, with noise.
+
+        Parameters
+        ----------
+        time_s
+            Simulated time now, which is the stamp, and by which the heading drifts.
+
+        """
         values = self._true_values()
         orientation = product(self._qpos[self._layout.floating.orientation], self._mount)
         if not self._noise.is_silent:

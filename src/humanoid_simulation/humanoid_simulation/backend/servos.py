@@ -34,14 +34,30 @@ class Servos:
         self.reset(np.zeros(len(drives)))
 
     def reset(self, positions_rad: Array) -> None:
-        """Hold positions, from a moment at which the joints are there."""
+        """
+        Hold positions without feed-forward, from a moment at which the joints are there.
+
+        Parameters
+        ----------
+        positions_rad
+            Positions of the joints (n,).
+
+        """
         self._positions = positions_rad.copy()
         self._velocities = np.zeros_like(positions_rad)
         self._efforts = np.zeros_like(positions_rad)
         self._age_s = 0.0
 
     def take(self, targets: JointTargets) -> None:
-        """Follow new targets, which are in order."""
+        """
+        Follow new targets, clamped to the limits of the drives.
+
+        Parameters
+        ----------
+        targets
+            For all joints, in their order; `check_targets` has let them through.
+
+        """
         self._age_s = 0.0
         self._velocities = _within(targets.velocities_rad_s, -self._speed, self._speed)
         self._efforts = _within(targets.efforts_nm, -self._effort, self._effort)
@@ -70,7 +86,24 @@ class Servos:
 
 
 def check_targets(robot: str, joints: tuple[str, ...], targets: JointTargets) -> None:
-    """Refuse targets of the wrong number, or that are not finite."""
+    """
+    Check the number and the values of joint targets.
+
+    Parameters
+    ----------
+    robot
+        Name of the robot, for the error.
+    joints
+        Names of its n joints, in the order of the targets.
+    targets
+        Each array should be (n,) and finite.
+
+    Raises
+    ------
+    SimulationError
+        One is not; the text names the joints whose targets are not finite.
+
+    """
     arrays = (targets.positions_rad, targets.velocities_rad_s, targets.efforts_nm)
     for kind, array in zip(('positions', 'velocities', 'efforts'), arrays):
         if array.shape != (len(joints),):

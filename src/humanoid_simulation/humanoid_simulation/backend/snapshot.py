@@ -39,7 +39,20 @@ def carry_over(old: Any, old_data: Any, new: Any, new_data: Any) -> None:
 
 
 def numbers_in(old: Any, new: Any) -> dict[int, int]:
-    """Return the numbers that the bodies of a model have in another one, if they are in it."""
+    """
+    Map the body ids of a model to those of another one, by name.
+
+    Parameters
+    ----------
+    old, new
+        The two MuJoCo models.
+
+    Returns
+    -------
+    dict[int, int]
+        New ids by the old ones; bodies that the new model does not have are left out.
+
+    """
     numbers = {new.body(number).name: number for number in range(new.nbody)}
     names = (old.body(number).name for number in range(old.nbody))
     return {number: numbers[name] for number, name in enumerate(names) if name in numbers}

@@ -52,7 +52,17 @@ class Wrenches:
         self._acting: list[tuple[Wrench, float]] = []
 
     def enter(self, model: Any, data: Any, numbers: Mapping[int, int]) -> None:
-        """Go on in a world in which bodies have other numbers, or are gone."""
+        """
+        Switch to another model; wrenches on bodies that it does not have end.
+
+        Parameters
+        ----------
+        model, data
+            The new MuJoCo model, and its state.
+        numbers
+            New ids of the bodies, by the old ones.
+
+        """
         self._model, self._data = model, data
         self._acting = [
             (replace(wrench, body=numbers[wrench.body]), left_s)
@@ -61,7 +71,20 @@ class Wrenches:
         ]
 
     def add(self, wrench: Wrench) -> None:
-        """Let a wrench act from now on, unless there are too many."""
+        """
+        Apply a wrench from the coming period on.
+
+        Parameters
+        ----------
+        wrench
+            The wrench; it adds to others on the same body.
+
+        Raises
+        ------
+        SimulationError
+            `MOST` wrenches act already.
+
+        """
         if len(self._acting) >= MOST:
             raise SimulationError(
                 f'{MOST} wrenches act already, which is all that can be. Wait for their end, or '
@@ -75,7 +98,15 @@ class Wrenches:
         self._data.xfrc_applied[:] = 0.0
 
     def act(self, period_s: float) -> None:
-        """Set the forces of the coming period."""
+        """
+        Set the external forces of the coming period, `xfrc_applied` of MuJoCo.
+
+        Parameters
+        ----------
+        period_s
+            Length of a control period.
+
+        """
         if not self._acting:
             return
         self._data.xfrc_applied[:] = 0.0

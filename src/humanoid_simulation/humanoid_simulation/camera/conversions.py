@@ -17,23 +17,63 @@ _FLOAT_BYTES = 4
 
 
 def stamp_of(time_ns: int) -> Time:
-    """Return a time as ROS writes it."""
+    """
+    Convert nanoseconds to a ROS time stamp.
+
+    Parameters
+    ----------
+    time_ns
+        Time since the epoch of the clock, in ns.
+
+    """
     seconds, nanoseconds = divmod(time_ns, _NANOSECONDS)
     return Time(sec=seconds, nanosec=nanoseconds)
 
 
 def color_image(pinhole: Pinhole, frame: str) -> Image:
-    """Return a message for colour pictures, rgb8, to be filled again and again."""
+    """
+    Create a black rgb8 image message, to be filled again for each colour image.
+
+    Parameters
+    ----------
+    pinhole
+        The camera, which gives the size.
+    frame
+        Its optical frame (`frame_id`).
+
+    """
     return _image(pinhole, frame, 'rgb8', 3)
 
 
 def depth_image(pinhole: Pinhole, frame: str) -> Image:
-    """Return a message for depth pictures, 32FC1 in metres, to be filled again and again."""
+    """
+    Create an empty 32FC1 image message, to be filled again for each depth image in m.
+
+    Parameters
+    ----------
+    pinhole
+        The camera, which gives the size.
+    frame
+        Its optical frame (`frame_id`).
+
+    """
     return _image(pinhole, frame, '32FC1', 4)
 
 
 def point_cloud(pinhole: Pinhole, frame: str) -> PointCloud2:
-    """Return a message for organised clouds, x, y, z in metres, to be filled again and again."""
+    """
+    Create an organised point cloud message, to be filled again for each cloud.
+
+    Its fields are x, y and z as float32, in m. It is not dense: points may be NaN.
+
+    Parameters
+    ----------
+    pinhole
+        The camera: the cloud has one point for each of its pixels.
+    frame
+        Its optical frame (`frame_id`).
+
+    """
     names = ('x', 'y', 'z')
     point_bytes = _FLOAT_BYTES * len(names)
     row_bytes = pinhole.width_px * point_bytes
@@ -57,13 +97,40 @@ def point_cloud(pinhole: Pinhole, frame: str) -> PointCloud2:
 
 
 def fill_data(message: Image | PointCloud2, values: NDArray[Any], stamp: Time) -> None:
-    """Put a picture or cloud of the right size into a message."""
+    """
+    Copy an image or a point cloud into a preallocated message.
+
+    Parameters
+    ----------
+    message
+        A message of `color_image`, `depth_image` or `point_cloud`.
+    values
+        Pixels or points, with as many bytes as the message has: uint8 for colours, else float32.
+    stamp
+        When the image was taken.
+
+    """
     np.frombuffer(message.data, np.uint8)[:] = values.reshape(-1).view(np.uint8)
     message.header.stamp = stamp
 
 
 def camera_info(pinhole: Pinhole, frame: str) -> CameraInfo:
-    """Describe a camera without distortion; its picture is as it would be rectified."""
+    """
+    Describe a pinhole camera without distortion, whose image is already rectified.
+
+    Parameters
+    ----------
+    pinhole
+        The camera.
+    frame
+        Its optical frame (`frame_id`).
+
+    Returns
+    -------
+    CameraInfo
+        Distortion model plumb_bob with zero coefficients; the stamp is not set.
+
+    """
     info = CameraInfo(
         width=pinhole.width_px,
         height=pinhole.height_px,

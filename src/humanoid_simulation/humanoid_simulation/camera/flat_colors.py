@@ -13,7 +13,20 @@ _UNSET_RGBA = np.array([0.5, 0.5, 0.5, 1.0], dtype=np.float32)
 
 
 def geom_colors(model: mujoco.MjModel) -> Array:
-    """Return one colour for each geom, (ngeom, 3), 0 to 1: of a texture, its mean."""
+    """
+    Determine one flat colour for each geom; a texture counts with its mean colour.
+
+    Parameters
+    ----------
+    model
+        The world.
+
+    Returns
+    -------
+    Array
+        Red, green and blue (ngeom, 3), 0 to 1.
+
+    """
     colors = np.array(model.geom_rgba[:, :3], dtype=np.float64)
     for geom, material in enumerate(model.geom_matid):
         if material >= 0:
@@ -24,7 +37,20 @@ def geom_colors(model: mujoco.MjModel) -> Array:
 
 
 def sky_color(model: mujoco.MjModel) -> Array:
-    """Return the colour where nothing is, (3,), 0 to 1."""
+    """
+    Determine the background colour: the mean of the skybox, or black without one.
+
+    Parameters
+    ----------
+    model
+        The world.
+
+    Returns
+    -------
+    Array
+        Red, green and blue (3,), 0 to 1.
+
+    """
     kinds = list(model.tex_type)
     if mujoco.mjtTexture.mjTEXTURE_SKYBOX in kinds:
         return _mean_texture(model, kinds.index(mujoco.mjtTexture.mjTEXTURE_SKYBOX))
@@ -35,10 +61,22 @@ def brightness(
     model: mujoco.MjModel, data: mujoco.MjData, points: Array, normals: Array, forward: Array
 ) -> Array:
     """
-    Return how bright matt surfaces are, (n, 3), by Lambert's law.
+    Compute how brightly matt surfaces are lit, by Lambert's law without shadows.
 
-    Points, in metres, and unit normals are (n, 3) in the world. The headlight shines along
-    `forward`, (3,), where the camera looks.
+    Parameters
+    ----------
+    model, data
+        The world, and its state with the lights placed (`mj_camlight`).
+    points, normals
+        Where the surfaces are (n, 3) in m, and their unit normals (n, 3), in the world frame.
+    forward
+        Unit vector (3,) along which the camera looks and the headlight shines, in the world frame.
+
+    Returns
+    -------
+    Array
+        Red, green and blue light (n, 3), ambient and diffuse; to be multiplied by the colours.
+
     """
     head = model.vis.headlight
     light = np.zeros_like(points)

@@ -54,5 +54,18 @@ class Frames:
 
 
 def unnamed_file(purpose: str) -> int:
-    """Open a file that exists in memory only; others reach it by its number alone."""
+    """
+    Create an anonymous file in memory; other processes reach it by its file descriptor only.
+
+    Parameters
+    ----------
+    purpose
+        A word for its name in /proc, for people who debug.
+
+    Returns
+    -------
+    int
+        The file descriptor, which the caller closes.
+
+    """
     return os.memfd_create(f'humanoid_simulation_{purpose}')

@@ -44,7 +44,15 @@ class GlPainter:
     def draw(
         self, data: mujoco.MjData, camera: int, color: Color | None, depth: Depth | None
     ) -> None:
-        """Fill the pictures that are given."""
+        """
+        Render the images of a camera by OpenGL.
+
+        Parameters
+        ----------
+        data, camera, color, depth
+            As for `Painter.draw`.
+
+        """
         self._camera.fixedcamid = camera
         everything = mujoco.mjtCatBit.mjCAT_ALL.value
         mujoco.mjv_updateScene(

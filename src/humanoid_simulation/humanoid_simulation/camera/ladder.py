@@ -36,7 +36,20 @@ class Ladder:
         self._deaths = 0
 
     def note_end(self, reason: str) -> bool:
-        """Note why a process ended; tell whether the same method is to be tried again."""
+        """
+        Record why a render process ended, and decide whether to try its method again.
+
+        Parameters
+        ----------
+        reason
+            Why it ended, as a sentence; it is kept in `failures` if the method is given up.
+
+        Returns
+        -------
+        bool
+            Whether the same method gets another chance; if not, `method` is the next one.
+
+        """
         self._deaths += 1
         if self._has_drawn and self._deaths < _MOST_DEATHS:
             return True

@@ -26,23 +26,59 @@ _WAY_OUT = (
 
 
 def methods_of(choice: str) -> tuple[str, ...]:
-    """Return the methods to try, in this order, for one of CHOICES."""
+    """
+    List the rendering methods to try for a choice of the user, best first.
+
+    Parameters
+    ----------
+    choice
+        One of `CHOICES`; AUTO stands for all methods.
+
+    """
     return (EGL, OSMESA, RAYS) if choice == AUTO else (choice,)
 
 
 def environment_of(method: str, environment: Mapping[str, str]) -> dict[str, str]:
-    """Return the environment of a process that draws: it decides which OpenGL it uses."""
+    """
+    Compose the environment variables of a render process, which select its OpenGL platform.
+
+    Parameters
+    ----------
+    method
+        The rendering method; RAYS needs no platform.
+    environment
+        The variables of the present process, which are passed on.
+
+    """
     others = {name: value for name, value in environment.items() if name != _PLATFORM}
     return {**others, **_OWN, **({} if method == RAYS else {_PLATFORM: method})}
 
 
 def title_of(method: str) -> str:
-    """Return what users call a method."""
+    """
+    Look up what users call a rendering method.
+
+    Parameters
+    ----------
+    method
+        One of EGL, OSMESA and RAYS.
+
+    """
     return _TITLES[method]
 
 
 def success_sentence(method: str, failures: Mapping[str, str]) -> str:
-    """Say how is drawn, why not by anything better, and how to get that."""
+    """
+    Compose the message that names the rendering method, why no better one, and how to get that.
+
+    Parameters
+    ----------
+    method
+        The method that works.
+    failures
+        Why each method before it failed, by method.
+
+    """
     reasons = ' '.join(f'{title_of(each)}: {reason}' for each, reason in failures.items())
     if method != RAYS:
         return f'The cameras are drawn by OpenGL with {title_of(method)}. {reasons}'.rstrip()
@@ -55,6 +91,14 @@ def success_sentence(method: str, failures: Mapping[str, str]) -> str:
 
 
 def give_up_sentence(failures: Mapping[str, str]) -> str:
-    """Say that nothing can be drawn, and why."""
+    """
+    Compose the message that the cameras are off because no rendering method works.
+
+    Parameters
+    ----------
+    failures
+        Why each method failed, by method.
+
+    """
     reasons = ' '.join(f'{title_of(each)}: {reason}' for each, reason in failures.items())
     return f'The cameras are off, the simulation goes on. {reasons} {_WAY_OUT}'

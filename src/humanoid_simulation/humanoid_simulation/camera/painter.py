@@ -32,7 +32,19 @@ class Painter(Protocol):
     def draw(
         self, data: mujoco.MjData, camera: int, color: Color | None, depth: Depth | None
     ) -> None:
-        """Fill the pictures that are given; both have the same size."""
+        """
+        Render the images of a camera into the given arrays.
+
+        Parameters
+        ----------
+        data
+            The state, with bodies, cameras and lights placed (`mj_kinematics`, `mj_camlight`).
+        camera
+            The id of the camera in the model.
+        color, depth
+            Images of one size to be filled, see `Color` and `Depth`; None is left out.
+
+        """
 
     def close(self) -> None:
         """Give back what is held."""

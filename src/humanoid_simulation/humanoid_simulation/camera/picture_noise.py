@@ -30,7 +30,17 @@ class PictureNoiseSource:
         self._random = np.random.default_rng(noise.seed)
 
     def spoil(self, color: Color | None, depth: Depth | None) -> None:
-        """Add noise in place to the pictures that are given; where nothing is seen, none."""
+        """
+        Add Gaussian noise to colour and depth images in place.
+
+        Depth pixels where nothing is seen (infinite) stay as they are.
+
+        Parameters
+        ----------
+        color, depth
+            The images, see `Color` and `Depth`; None is left out.
+
+        """
         if color is not None and self._noise.color > 0.0:
             errors = self._random.standard_normal(color.shape, np.float32) * self._noise.color
             color[:] = np.clip(np.rint(color + errors), 0, 255)

@@ -75,6 +75,17 @@ class Deprojection:
         self._rays = pinhole.rays().astype(np.float32)
 
     def fill(self, cloud: Cloud, depth: Depth) -> None:
-        """Write the point of each pixel; where nothing is seen, NaN."""
+        """
+        Deproject a depth image into an organised point cloud.
+
+        Parameters
+        ----------
+        cloud
+            Where to write the points (height, width, 3), in m in the optical frame; NaN where
+            nothing is seen.
+        depth
+            Distances along the optical axis (height, width), in m; infinite where nothing is seen.
+
+        """
         seen = np.where(np.isfinite(depth), depth, np.float32(np.nan))
         np.multiply(self._rays, seen[..., None], out=cloud)

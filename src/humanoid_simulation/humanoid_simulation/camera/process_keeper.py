@@ -17,10 +17,26 @@ class Log(Protocol):
     """Where to tell the user what happens, such as the logger of a node."""
 
     def info(self, message: str) -> object:
-        """Tell something good to know."""
+        """
+        Log what is good to know.
+
+        Parameters
+        ----------
+        message
+            One or more sentences.
+
+        """
 
     def warning(self, message: str) -> object:
-        """Tell something that is worse than expected."""
+        """
+        Log what is worse than expected.
+
+        Parameters
+        ----------
+        message
+            One or more sentences.
+
+        """
 
 
 @dataclass(frozen=True)
@@ -69,7 +85,17 @@ class ProcessKeeper:
         return process is not None and process.is_ready and not process.is_busy
 
     def tend(self, now_s: float) -> None:
-        """Start what is missing, and see what has become of what was started."""
+        """
+        Supervise the render process: start it, read its replies, replace it if it ends or hangs.
+
+        Call it regularly; it never blocks.
+
+        Parameters
+        ----------
+        now_s
+            Time of a monotonic clock, in s.
+
+        """
         if self._process is None:
             if self._ladder.method and now_s >= self._next_start_s:
                 self._begin(now_s)
@@ -83,7 +109,17 @@ class ProcessKeeper:
             self._say_once(success_sentence(self._ladder.method, self._ladder.failures))
 
     def request(self, wanted: Sequence[Wanted], now_s: float) -> None:
-        """Ask for pictures; only when it can draw."""
+        """
+        Request images from the render process; call only if `can_draw`.
+
+        Parameters
+        ----------
+        wanted
+            Which images, one element for each view.
+        now_s
+            Time of the clock of `tend`, in s: the process counts as hung `Patience.draw_s` later.
+
+        """
         if self._process is not None:
             self._deadline_s = now_s + self._patience.draw_s
             self._process.request(wanted)

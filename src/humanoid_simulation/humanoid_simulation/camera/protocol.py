@@ -34,7 +34,15 @@ class Assignment:
 
     @staticmethod
     def from_text(text: str) -> Assignment:
-        """Return the assignment that `as_text` wrote."""
+        """
+        Parse an assignment.
+
+        Parameters
+        ----------
+        text
+            What `as_text` returned.
+
+        """
         given = json.loads(text)
         views = tuple(CameraView(**view) for view in given.pop('views'))
         noise = PictureNoise(**given.pop('noise'))
@@ -42,10 +50,36 @@ class Assignment:
 
 
 def request_line(wanted: Sequence[Wanted]) -> str:
-    """Return the line that asks for pictures, with one element for each view."""
+    """
+    Encode a request for images as a line of JSON.
+
+    Parameters
+    ----------
+    wanted
+        Which images, one element for each view.
+
+    Returns
+    -------
+    str
+        For each view a list [color, depth, cloud] of booleans, with a newline at the end.
+
+    """
     return json.dumps([[each.color, each.depth, each.cloud] for each in wanted]) + '\n'
 
 
 def wanted_in(line: str) -> list[Wanted]:
-    """Return which pictures a line asks for."""
+    """
+    Decode a request for images.
+
+    Parameters
+    ----------
+    line
+        A line of `request_line`.
+
+    Returns
+    -------
+    list of Wanted
+        One element for each view.
+
+    """
     return [Wanted(*each) for each in json.loads(line)]

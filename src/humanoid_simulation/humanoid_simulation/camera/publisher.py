@@ -56,7 +56,19 @@ class CameraPublisher:
     def publish(
         self, wanted: Wanted, color: Color, depth: Depth, cloud: Cloud, stamp: Time
     ) -> None:
-        """Publish what was wanted, all with the same time."""
+        """
+        Publish the wanted images and the point cloud with one time stamp.
+
+        Parameters
+        ----------
+        wanted
+            Which of the following to publish.
+        color, depth, cloud
+            The images and the cloud; those that are not wanted are not read.
+        stamp
+            The time of the state that they show.
+
+        """
         if wanted.color:
             fill_data(self._color_image, color, stamp)
             self._color.publish(self._color_image)
@@ -68,7 +80,15 @@ class CameraPublisher:
             self._cloud.publish(self._point_cloud)
 
     def publish_info(self, stamp: Time) -> None:
-        """Publish what the camera is like."""
+        """
+        Publish the camera info on both of its topics, as far as they have subscribers.
+
+        Parameters
+        ----------
+        stamp
+            The stamp of the images that it belongs to.
+
+        """
         self._info.header.stamp = stamp
         for publisher in (self._color_info, self._depth_info):
             if publisher.get_subscription_count() > 0:

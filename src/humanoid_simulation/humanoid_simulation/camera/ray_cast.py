@@ -19,10 +19,16 @@ _MOST_SHELLS = 8
 
 def see_all(model: mujoco.MjModel) -> None:
     """
-    Let rays meet all geoms of a model that is used for nothing but rays.
+    Let rays hit all geoms of a model, also those that do not collide.
 
-    `mj_multiRay` passes over bodies by boxes around those of their geoms that collide: it would
-    miss geoms beside them that are only to be seen.
+    `mj_multiRay` culls bodies by bounding boxes of their colliding geoms and would miss geoms
+    beside them that are only visible.
+
+    Parameters
+    ----------
+    model
+        A model that is used for ray casting only; its bounding volumes are disabled.
+
     """
     model.body_bvhadr[:] = -1
 
@@ -43,10 +49,20 @@ class Hits:
 
 def cast_rays(model: mujoco.MjModel, data: mujoco.MjData, start: Array, rays: Array) -> Hits:
     """
-    Cast rays, unit vectors (n, 3), from a point (3,) at what is shown.
+    Cast rays from one point at the visible geoms.
 
-    Things that the point is inside of do not count: OpenGL leaves out what is seen from behind.
-    The model must be one that nobody else uses: its geoms are hidden meanwhile.
+    Geoms that the point is inside of are passed over, as OpenGL leaves out surfaces seen from
+    behind.
+
+    Parameters
+    ----------
+    model, data
+        The world and its state; nobody else may use the model, its geoms are hidden meanwhile.
+    start
+        Where the rays start (3,), in m in the world frame.
+    rays
+        Their unit vectors (n, 3), in the world frame.
+
     """
     left_out = _beside(model, data, start, rays)
     for _ in range(_MOST_SHELLS):

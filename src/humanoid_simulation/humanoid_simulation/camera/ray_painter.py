@@ -34,7 +34,15 @@ class RayPainter:
     def draw(
         self, data: mujoco.MjData, camera: int, color: Color | None, depth: Depth | None
     ) -> None:
-        """Fill the pictures that are given."""
+        """
+        Render the images of a camera by ray casting.
+
+        Parameters
+        ----------
+        data, camera, color, depth
+            As for `Painter.draw`; the camera is one of the views.
+
+        """
         rays = self._rays[camera]
         turn = data.cam_xmat[camera].reshape(3, 3)
         hits = cast_rays(self._model, data, data.cam_xpos[camera], rays @ turn.T)

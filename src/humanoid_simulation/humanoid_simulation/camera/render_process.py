@@ -51,7 +51,15 @@ class RenderProcess:
         return self._process.pid
 
     def request(self, wanted: Sequence[Wanted]) -> None:
-        """Ask for pictures; only when it is not busy."""
+        """
+        Request images; call only if the process is ready and not busy.
+
+        Parameters
+        ----------
+        wanted
+            Which images, one element for each view.
+
+        """
         self.is_busy = True
         with suppress(BrokenPipeError):  # `end_reason` tells that it has ended
             self._requests.write(request_line(wanted).encode())
@@ -78,7 +86,15 @@ class RenderProcess:
         return f'its process ended with status {status}.{self._last_words()}'
 
     def kill(self, reason: str) -> None:
-        """End it, whatever it does; `has_ended` tells when that has happened."""
+        """
+        Kill the process; `has_ended` tells when it has gone.
+
+        Parameters
+        ----------
+        reason
+            What `end_reason` returns from now on, unless the process gave one itself.
+
+        """
         self._reason = self._reason or reason
         self._process.kill()
 
@@ -90,7 +106,15 @@ class RenderProcess:
         os.close(self._noise)
 
     def wait(self, timeout_s: float) -> None:
-        """Wait for the end; kill it after a time."""
+        """
+        Block until the process has ended; kill it after a timeout.
+
+        Parameters
+        ----------
+        timeout_s
+            How long it has to end by itself, in s of real time.
+
+        """
         try:
             self._process.wait(timeout_s)
         except subprocess.TimeoutExpired:

@@ -75,17 +75,40 @@ class Renderer:
         self, qpos: NDArray[np.float64], time_ns: int, wanted: Sequence[Wanted], now_s: float
     ) -> None:
         """
-        Copy positions, (nq,), and have them drawn; only when `can_draw`.
+        Request images of a state, which is copied; call only if `can_draw`.
 
-        `wanted` has one element for each view. `time_ns` is that of the state; `now_s` is that of
-        a clock that nobody sets.
+        Parameters
+        ----------
+        qpos
+            The generalised positions of the state (nq,).
+        time_ns
+            The simulated time of the state, in ns.
+        wanted
+            Which images, one element for each view.
+        now_s
+            Time of a monotonic clock, in s.
+
         """
         self._frames.qpos[:] = qpos
         self._requested = (time_ns, tuple(wanted))
         self._keeper.request(wanted, now_s)
 
     def poll(self, now_s: float) -> Pictures | None:
-        """Return the pictures that were asked for, once, when they are there."""
+        """
+        Supervise the render process, and fetch the requested images once they are done.
+
+        Parameters
+        ----------
+        now_s
+            Time of a monotonic clock, in s.
+
+        Returns
+        -------
+        Pictures or None
+            The images, once for each request; None until then, and if the process was lost
+            meanwhile.
+
+        """
         if not self._is_needed:
             return None
         process = self._keeper.process

@@ -21,11 +21,27 @@ class Shutter:
         self._last: int | None = None
 
     def is_due(self, time_ns: int) -> bool:
-        """Tell whether a picture is to be taken at a time."""
+        """
+        Check whether no image was taken yet in the period of a time.
+
+        Parameters
+        ----------
+        time_ns
+            Simulated time, in ns.
+
+        """
         return self._period_of(time_ns) != self._last
 
     def release(self, time_ns: int) -> None:
-        """Note that a picture was taken."""
+        """
+        Record that an image was taken.
+
+        Parameters
+        ----------
+        time_ns
+            Simulated time of the image, in ns.
+
+        """
         self._last = self._period_of(time_ns)
 
     def _period_of(self, time_ns: int) -> int:

@@ -89,10 +89,17 @@ class CameraTopics:
 
     def tick(self, now_s: float, time_ns: int, data: mujoco.MjData) -> None:
         """
-        Publish what was drawn; have the state drawn if it is time. Call it once a control period.
+        Publish finished images, and request those that are due. Call once per control period.
 
-        `now_s` is that of a clock that nobody sets, `time_ns` the simulated time of the state,
-        which is also read between ticks.
+        Parameters
+        ----------
+        now_s
+            Time of a monotonic clock, in s.
+        time_ns
+            Simulated time of the state, in ns.
+        data
+            The state; it is kept, and read between ticks too while the simulation is paused.
+
         """
         self._state = time_ns, data
         self._publish_drawn(now_s)
@@ -100,7 +107,15 @@ class CameraTopics:
             self._take(now_s, time_ns, data)
 
     def change_model(self, model: mujoco.MjModel) -> None:
-        """See another world from now on, which a new process draws when it has started."""
+        """
+        Render another model from now on, with a new render process.
+
+        Parameters
+        ----------
+        model
+            A model that has all the cameras.
+
+        """
         self._renderer.close()
         self._renderer = self._make_renderer(model)
         self._state = self._taken = None

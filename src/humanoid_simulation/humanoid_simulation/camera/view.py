@@ -36,18 +36,63 @@ class Wanted:
 
 
 def camera_id(model: mujoco.MjModel, name: str) -> int:
-    """Return the number of a camera in the model; raise SimulationError if there is none."""
+    """
+    Look up the id of a camera in the model.
+
+    Parameters
+    ----------
+    model
+        The world.
+    name
+        The name of the camera.
+
+    Raises
+    ------
+    SimulationError
+        The model has no such camera.
+
+    """
     numbers = {model.camera(number).name: number for number in range(model.ncam)}
     return named('camera', name, numbers)
 
 
 def pinhole_of(model: mujoco.MjModel, view: CameraView) -> Pinhole:
-    """Return the geometry of a view; raise SimulationError if it cannot be drawn."""
+    """
+    Derive the pinhole camera of a view from the model.
+
+    Parameters
+    ----------
+    model
+        The world.
+    view
+        The name of the camera, and the image size.
+
+    Raises
+    ------
+    SimulationError
+        The model has no such camera, or its image is empty or its field of view is not in (0, pi).
+
+    """
     fovy_deg = float(model.cam_fovy[camera_id(model, view.camera)])
     return Pinhole(view.width_px, view.height_px, math.radians(fovy_deg))
 
 
 def check_views(model: mujoco.MjModel, views: Sequence[CameraView]) -> None:
-    """Raise SimulationError unless all views can be drawn."""
+    """
+    Check that all views can be rendered.
+
+    Parameters
+    ----------
+    model
+        The world.
+    views
+        The cameras, and the sizes of their images.
+
+    Raises
+    ------
+    SimulationError
+        A view cannot be rendered, see `pinhole_of`.
+
+    """
     for view in views:
         pinhole_of(model, view)

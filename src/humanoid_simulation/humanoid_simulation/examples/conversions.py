@@ -19,13 +19,29 @@ from simulation_interfaces.srv import SetSimulationState
 
 
 def state_request(paused: bool) -> SetSimulationState.Request:
-    """Return the request to pause a simulation, or to let it go on."""
+    """
+    Make the request that pauses or resumes the simulation.
+
+    Parameters
+    ----------
+    paused
+        Whether time is to stand still.
+
+    """
     state = SimulationState.STATE_PAUSED if paused else SimulationState.STATE_PLAYING
     return SetSimulationState.Request(state=SimulationState(state=state))
 
 
 def refusal(answer: Any) -> str:
-    """Return why the simulator did not do what it was asked for; empty if it did."""
+    """
+    Extract the reason why the simulator rejected a request; '' if it did not.
+
+    Parameters
+    ----------
+    answer
+        Response of any service of the simulator, with a `result`, or `success` and `message`.
+
+    """
     if not hasattr(answer, 'result'):
         return '' if answer.success else answer.message or 'it did not say why'
     done = (Result.RESULT_OK, SetSimulationState.Response.ALREADY_IN_TARGET_STATE)
@@ -33,20 +49,54 @@ def refusal(answer: Any) -> str:
 
 
 def planar_pose(message: Odometry) -> PlanarPose:
-    """Return where the base is on the ground."""
+    """
+    Project the pose of an odometry message onto the ground.
+
+    Parameters
+    ----------
+    message
+        Odometry, or ground truth.
+
+    Returns
+    -------
+    PlanarPose
+        Of the base, in the frame of the message's header.
+
+    """
     place, q = message.pose.pose.position, message.pose.pose.orientation
     yaw_rad = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
     return PlanarPose(complex(place.x, place.y), yaw_rad)
 
 
 def height_and_tilt(message: Odometry) -> tuple[float, float]:
-    """Return how high the base is, in metres, and how much it leans, in radians."""
+    """
+    Extract the height and the tilt of the base from an odometry message.
+
+    Parameters
+    ----------
+    message
+        Odometry, or ground truth.
+
+    Returns
+    -------
+    tuple[float, float]
+        Height in m in the frame of the header, and the angle to the vertical in rad.
+
+    """
     q = message.pose.pose.orientation
     return message.pose.pose.position.z, tilt_rad(q.x, q.y, q.z, q.w)
 
 
 def twist_message(command: VelocityCommand) -> Twist:
-    """Return the message of a velocity."""
+    """
+    Convert a velocity command to the message of `cmd_vel`.
+
+    Parameters
+    ----------
+    command
+        The velocity, in the axes of the robot.
+
+    """
     twist = Twist()
     twist.linear.x, twist.linear.y = command.forward_m_s, command.left_m_s
     twist.angular.z = command.turn_rad_s
@@ -56,7 +106,21 @@ def twist_message(command: VelocityCommand) -> Twist:
 def push_request(
     push: Push, robot: str, pose: PlanarPose, duration_s: float
 ) -> ApplyWrench.Request:
-    """Return the request that pushes the base of a robot that stands in a pose."""
+    """
+    Make the request that pushes the base of a robot horizontally.
+
+    Parameters
+    ----------
+    push
+        Its direction relative to the robot, and its impulse.
+    robot
+        Namespace of the robot; '' if it has none.
+    pose
+        Where it stands in the world; the yaw turns the force into world axes.
+    duration_s
+        How long the push lasts, less than 1 s; the force is the impulse over it.
+
+    """
     force_n = PlanarPose(0j, pose.yaw_rad).at(1.0, 0.0) * DIRECTIONS[push.direction]
     force_n *= push.impulse_ns / duration_s
     request = ApplyWrench.Request(entity=robot)

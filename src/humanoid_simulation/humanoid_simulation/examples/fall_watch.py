@@ -19,14 +19,37 @@ class FallWatch:
         self._height_m: float | None = None
 
     def stands(self, height_m: float, tilt_rad: float) -> bool:
-        """Tell whether a robot stands whose base is so high, and leans so much."""
+        """
+        Whether the robot stands; the first call sets the height of standing.
+
+        Parameters
+        ----------
+        height_m
+            Height of the base, in the world.
+        tilt_rad
+            Angle between z of the base and the vertical.
+
+        """
         if self._height_m is None:
             self._height_m = height_m
         return height_m > LOWEST_SHARE * self._height_m and tilt_rad < STEEPEST_RAD
 
 
 def tilt_rad(x: float, y: float, z: float, w: float) -> float:
-    """Return the angle between the vertical and the z axis of a frame, from its quaternion."""
+    """
+    Compute the angle between z of a frame and the vertical.
+
+    Parameters
+    ----------
+    x, y, z, w
+        Quaternion of the frame in the world, of any length.
+
+    Returns
+    -------
+    float
+        Angle in rad from 0 to pi; infinite if the quaternion is zero.
+
+    """
     norm = x * x + y * y + z * z + w * w
     if not norm > 0.0:
         return math.inf

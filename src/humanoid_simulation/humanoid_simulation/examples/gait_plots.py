@@ -17,7 +17,22 @@ _COM, _ZMP = 'tab:blue', 'tab:orange'
 
 
 def draw_gait(recording: GaitRecording, path: Path) -> None:
-    """Write a picture, PNG whatever its name: seen from above, over time, feet and torques."""
+    """
+    Plot a recorded walk: CoM and ZMP, soles, loads of the feet and torques of the legs.
+
+    Parameters
+    ----------
+    recording
+        The walk.
+    path
+        File of the picture, a PNG whatever its suffix.
+
+    Raises
+    ------
+    OSError
+        The file cannot be written.
+
+    """
     figure = Figure(figsize=(12, 15), layout='constrained')
     FigureCanvasAgg(figure)
     rows = figure.subplot_mosaic(

@@ -52,7 +52,17 @@ class GaitRecorder:
         self._rows: list[tuple[Any, ...]] = []
 
     def note(self, observation: Observation, snapshot: Snapshot) -> None:
-        """Add what was observed in a state."""
+        """
+        Record one control period.
+
+        Parameters
+        ----------
+        observation
+            What the sensors said in the state.
+        snapshot
+            The true state at the same time.
+
+        """
         model, data = self._model, self._data
         data.qpos[:] = snapshot.qpos
         mujoco.mj_kinematics(model, data)
@@ -81,14 +91,22 @@ class GaitRecorder:
 
 def zero_moment_point(soles_m: Array, forces_n: Array, torques_nm: Array) -> Array:
     """
-    Return where on the ground, at height 0, the forces on the feet have no moment but about z.
+    Compute the zero-moment point on the ground, at height 0, from the wrenches on the feet.
 
     Vukobratovic and Borovac, "Zero-moment point: thirty five years of its life", 2004.
 
-    :param soles_m: the points that the torques are about, (feet, 3), in the world as all
-    :param forces_n: (feet, 3)
-    :param torques_nm: (feet, 3)
-    :return: (2,), NaN if hardly anything is carried
+    Parameters
+    ----------
+    soles_m
+        Points about which the torques are (feet, 3), in the world frame as all.
+    forces_n, torques_nm
+        Of the ground on each foot (feet, 3).
+
+    Returns
+    -------
+    Array
+        x and y (2,) in m; NaN if the feet carry less than 20 N.
+
     """
     load_n = forces_n[:, 2].sum()
     if load_n < _LEAST_LOAD_N:

@@ -43,13 +43,41 @@ class GaitPlan:
         return STANDING_S + self.walking_s + STOPPING_S
 
     def velocity_at(self, time_s: float) -> VelocityCommand:
-        """Return the command at a time since the beginning."""
+        """
+        Look up the velocity command at a time; it is zero before and after the walk.
+
+        Parameters
+        ----------
+        time_s
+            Time since the beginning.
+
+        """
         is_walking = STANDING_S <= time_s < STANDING_S + self.walking_s
         return self.velocity if is_walking else STANDING
 
 
 def record_walk(plan: GaitPlan, scene: Scene = Scene()) -> GaitRecording:
-    """Return what a walk was like; raise SimulationError if the robot falls."""
+    """
+    Simulate a walk of the humanoid without ROS, and record it.
+
+    Parameters
+    ----------
+    plan
+        How it walks, and for how long.
+    scene
+        The world that it walks in.
+
+    Returns
+    -------
+    GaitRecording
+        One row for each control period, standing before and after included.
+
+    Raises
+    ------
+    SimulationError
+        The robot falls, or the world cannot be simulated.
+
+    """
     description = humanoid()
     backend = MujocoBackend(description, scene)
     robot = load_robot(description.urdf, 'the URDF of the humanoid')

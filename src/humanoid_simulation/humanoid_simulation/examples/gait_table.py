@@ -13,7 +13,22 @@ _FEET = ('left', 'right')
 
 
 def write_table(recording: GaitRecording, path: Path) -> None:
-    """Write comma-separated values, with a line of names first; raise OSError."""
+    """
+    Write a recorded walk as comma-separated values, with a header line.
+
+    Parameters
+    ----------
+    recording
+        The walk.
+    path
+        File of the table, one line for each moment.
+
+    Raises
+    ------
+    OSError
+        The file cannot be written.
+
+    """
     columns = _columns(recording)
     with path.open('w', newline='', encoding='utf-8') as stream:
         writer = csv.writer(stream)

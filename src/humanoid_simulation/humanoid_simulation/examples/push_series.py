@@ -67,7 +67,27 @@ class PushSeries:
         return Push(self._left[0], self._impulse_ns)
 
     def update(self, time_s: float, stands: bool) -> Step:
-        """Return what to do at a time, at which the robot stands or has fallen."""
+        """
+        Decide the next step of the test.
+
+        Parameters
+        ----------
+        time_s
+            Simulated time now.
+        stands
+            Whether the robot stands; False if it has fallen.
+
+        Returns
+        -------
+        Step
+            What the caller has to do now: with `PUSH`, apply `push`.
+
+        Raises
+        ------
+        NeverStoodError
+            The robot has not stood for long enough within the time that it is given.
+
+        """
         if not self._left:
             return Step.DONE
         if self._waits_since_s is None:

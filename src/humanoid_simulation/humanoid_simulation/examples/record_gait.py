@@ -18,7 +18,20 @@ from humanoid_simulation.scene import load_scene
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Record a walk and write what is asked for; return 1 if that cannot be done."""
+    """
+    Record a walk and plot it, as the command `record_gait`.
+
+    Parameters
+    ----------
+    argv
+        Arguments of the command line, without the program; None takes those of the process.
+
+    Returns
+    -------
+    int
+        Exit code: 0, 1 if the walk cannot be recorded or written, or 130 after Ctrl-C.
+
+    """
     arguments = _parser().parse_args(argv)
     try:
         recording = record_walk(_plan(arguments), load_scene(arguments.scene))

@@ -64,7 +64,20 @@ class SquareDrive:
         return self._number == CORNERS
 
     def update(self, pose: PlanarPose) -> tuple[VelocityCommand, Corner | None]:
-        """Return how to go on from here, and the corner if it has been reached just now."""
+        """
+        Compute the velocity command, and go over to the next side or turn when one is done.
+
+        Parameters
+        ----------
+        pose
+            Pose of the robot now, in the frame of the start.
+
+        Returns
+        -------
+        tuple[VelocityCommand, Corner | None]
+            The command in the axes of the robot, and the corner if it was reached just now.
+
+        """
         if self.is_done:
             return STANDING, None
         side = self._sides[self._number]

@@ -46,7 +46,29 @@ class SquareWalk:
     def update(
         self, time_s: float, odometry: PlanarPose, truth: PlanarPose, stands: bool
     ) -> Progress:
-        """Return how to go on; raise NotRoundError when that makes no sense any more."""
+        """
+        Compute the velocity command and the progress of the walk.
+
+        Parameters
+        ----------
+        time_s
+            Simulated time now.
+        odometry, truth
+            Pose by odometry, which steers, and the true one, for the closing error.
+        stands
+            Whether the robot stands.
+
+        Returns
+        -------
+        Progress
+            The command, and what is to be reported.
+
+        Raises
+        ------
+        NotRoundError
+            The robot fell, or takes far longer than planned.
+
+        """
         if not stands:
             raise NotRoundError('The robot fell. Reset the simulation and walk more slowly.')
         if self._rests_since_s is not None:

@@ -83,20 +83,51 @@ class ScanTopics:
         self.change(settings)
 
     def change_model(self, model: mujoco.MjModel) -> None:
-        """Measure another world from now on."""
+        """
+        Switch to another model of the world, from the next sweep on.
+
+        Parameters
+        ----------
+        model
+            The compiled world.
+
+        Raises
+        ------
+        SimulationError
+            It has no link for one of the scanners.
+
+        """
         self._model, self._data = model, mujoco.MjData(model)
         for scanner, core in zip(self._scanners, self._make_cores(model)):
             scanner.core = core
 
     def change(self, settings: LaserParameters) -> None:
-        """Publish at another rate."""
+        """
+        Set the rate of the scans; the pattern of the rays stays.
+
+        Parameters
+        ----------
+        settings
+            The parameters, of which `scan_rate_hz` counts.
+
+        """
         self._due = Every(settings.scan_rate_hz)
         for scanner in self._scanners:
             rate_hz = settings.scan_rate_hz
             scanner.message.scan_time = 1.0 / rate_hz if rate_hz > 0.0 else 0.0
 
     def tell(self, time_s: float, data: mujoco.MjData) -> None:
-        """Publish what the scanners measure in a state, if it is time."""
+        """
+        Publish a scan of each scanner that somebody subscribes to, if it is due.
+
+        Parameters
+        ----------
+        time_s
+            Simulated time of the state, which is the stamp.
+        data
+            State of the world, of which `qpos` is read.
+
+        """
         if not self._due.is_due(time_s):
             return
         wanted = [each for each in self._scanners if each.publisher.get_subscription_count()]

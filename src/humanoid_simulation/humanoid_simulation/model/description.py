@@ -50,7 +50,24 @@ class RobotDescription:
 
 
 def humanoid(scale: float = 1.0, prefix: str = '', hands: bool = False) -> RobotDescription:
-    """Return the humanoid, at a scale, with wrists and grippers if it has hands."""
+    """
+    Describe the humanoid for the simulator.
+
+    Parameters
+    ----------
+    scale
+        Size of the robot, as the argument of the model: 1 is the original.
+    prefix
+        What the names of all links and joints begin with.
+    hands
+        Whether it has wrists and grippers.
+
+    Raises
+    ------
+    DescriptionError
+        There is no such model.
+
+    """
     return RobotDescription(
         humanoid_urdf(scale, prefix, hands=hands), load_drives(scale, prefix, hands=hands), prefix
     )

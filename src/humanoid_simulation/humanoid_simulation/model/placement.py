@@ -23,7 +23,20 @@ class Placement:
 
 
 def check_placements(placements: Sequence[Placement]) -> None:
-    """Refuse robots that cannot be told apart, or that are nowhere."""
+    """
+    Check that robots have names of their own and finite positions.
+
+    Parameters
+    ----------
+    placements
+        One for each robot.
+
+    Raises
+    ------
+    SimulationError
+        There is no robot, a name is there twice or is missing, or a position is not finite.
+
+    """
     if not placements:
         raise SimulationError('There is no robot to simulate. Name one at least.')
     names = [placement.robot for placement in placements]

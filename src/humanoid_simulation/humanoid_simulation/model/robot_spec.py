@@ -29,7 +29,30 @@ _FROM_OPTICAL_FRAME = (0.0, 1.0, 0.0, 0.0)
 
 
 def robot_spec(description: RobotDescription, number: int, physics: Physics) -> Any:
-    """Return the specification of a robot: its base floats, and its joints are driven."""
+    """
+    Build the MuJoCo specification of a robot, with a floating base and position servos.
+
+    Parameters
+    ----------
+    description
+        URDF and drives of the robot.
+    number
+        Index of the robot in its world, from 0 on, for its collision bits.
+    physics
+        Which links collide with each other, and the factors of their masses.
+
+    Returns
+    -------
+    mujoco.MjSpec
+        Names are those of the URDF, with the robot's prefix but without its name.
+
+    Raises
+    ------
+    SimulationError
+        The URDF cannot be read, lacks a link or a joint that is needed, or a link whose mass is
+        to be scaled has none.
+
+    """
     spec = spec_of(description.urdf)
     _body(spec, description.base).add_freejoint(name=FLOATING_BASE)
     for name, drive in description.drives.items():

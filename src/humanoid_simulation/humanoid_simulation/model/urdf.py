@@ -15,7 +15,25 @@ _KEEP = {'discardvisual': 'false', 'fusestatic': 'false'}
 
 
 def spec_of(urdf: str) -> Any:
-    """Return the robot of a URDF as a specification that can be added to."""
+    """
+    Parse a URDF to a MuJoCo specification, with visuals and fixed links kept.
+
+    Parameters
+    ----------
+    urdf
+        Content of the URDF.
+
+    Returns
+    -------
+    mujoco.MjSpec
+        The robot, which can be added to before it is compiled.
+
+    Raises
+    ------
+    SimulationError
+        The text is no XML, or MuJoCo rejects it.
+
+    """
     try:
         robot = ElementTree.fromstring(urdf)
     except ElementTree.ParseError as error:

@@ -29,7 +29,17 @@ _REST_M_S = 1e-3
 
 
 def in_world(robot: str, name: str) -> str:
-    """Return what a link, joint, sensor or camera of a robot is called in the world."""
+    """
+    Compute the name of a link, joint, sensor or camera of a robot in the MuJoCo model.
+
+    Parameters
+    ----------
+    robot
+        Name of the robot; '' if it has none.
+    name
+        Name of the link or the like in the description, with the robot's prefix.
+
+    """
     return f'{robot or ALONE}/{name}'
 
 
@@ -39,7 +49,31 @@ def build_world(
     placements: Sequence[Placement],
     physics: Physics,
 ) -> Any:
-    """Return the compiled model of a world with robots of one kind."""
+    """
+    Compile the MuJoCo model of a scene with robots of one kind in it.
+
+    Parameters
+    ----------
+    description
+        The kind of the robots.
+    scene
+        Floor and objects.
+    placements
+        The name of each robot, and the place on the ground at which it is attached.
+    physics
+        Time step, self-collisions, and factors of masses.
+
+    Returns
+    -------
+    mujoco.MjModel
+        The compiled model.
+
+    Raises
+    ------
+    SimulationError
+        Names clash, there are too many robots, or MuJoCo cannot compile it.
+
+    """
     check_placements(placements)
     _check_names(scene, placements)
     if len(placements) > MOST_ROBOTS:

@@ -30,7 +30,17 @@ DECORATION_GROUP = 1
 
 
 def add_scene(world: Any, scene: Scene) -> None:
-    """Add the floor, its things and some light."""
+    """
+    Add the floor, the objects and the lights of a scene to a model specification.
+
+    Parameters
+    ----------
+    world
+        The `mujoco.MjSpec` to add to.
+    scene
+        The scene; it is lit as indoors if it has rooms.
+
+    """
     _add_floor(world, scene.floor)
     for thing in scene.things:
         _add_thing(world, thing)

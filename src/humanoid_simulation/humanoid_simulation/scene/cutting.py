@@ -14,9 +14,23 @@ from humanoid_simulation.scene.walls import CEILING
 
 def parts_below(thing: Thing, height_m: float) -> tuple[Part, ...]:
     """
-    Return the parts of a thing that are shown if walls are cut at a height.
+    Select the parts of an object that are shown if walls are cut at a height.
 
-    What hangs on walls and ceilings above that height is left out; furniture is never cut.
+    Walls are cut. Ceilings, and what hangs on walls or from ceilings, are left out if they are
+    above that height; all else is shown as it is.
+
+    Parameters
+    ----------
+    thing
+        The object.
+    height_m
+        Height of the cut above the ground.
+
+    Returns
+    -------
+    tuple of Part
+        Parts in the axes of the object; none that only collides.
+
     """
     shown = tuple(part for part in thing.parts if part.is_shown)
     if thing.kind == WALL:

@@ -49,7 +49,25 @@ class Piece:
 
 
 def furniture_of(piece: Piece) -> Thing:
-    """Return a piece as a thing that is fixed."""
+    """
+    Build a piece of furniture as a fixed object.
+
+    Parameters
+    ----------
+    piece
+        What to build, and where; its kind is one of `KINDS`.
+
+    Returns
+    -------
+    Thing
+        With its origin on what it stands on, or where it hangs; x is its front.
+
+    Raises
+    ------
+    SimulationError
+        An edge of its size is below 1 mm.
+
+    """
     kind = KINDS[piece.kind]
     size_m, rgb = piece.size_m or kind.size_m, piece.rgb or kind.rgb
     if min(size_m) < 0.001:
@@ -67,7 +85,20 @@ def furniture_of(piece: Piece) -> Thing:
 
 
 def surfaces_of(piece: Piece) -> Iterator[Surface]:
-    """Yield what things can stand on, the main one first, which has the name of the piece."""
+    """
+    List the surfaces of a piece of furniture that objects can stand on.
+
+    Parameters
+    ----------
+    piece
+        The piece; its kind is one of `KINDS`.
+
+    Yields
+    ------
+    Surface
+        In the world frame; the main one comes first and has the name of the piece.
+
+    """
     kind = KINDS[piece.kind]
     length_m, width_m, height_m = piece.size_m or kind.size_m
     inner = length_m - 2 * kind.margin_m, width_m - 2 * kind.margin_m

@@ -35,7 +35,20 @@ class Home:
 
 
 def home_of(table: Table) -> Home:
-    """Build what a file says; raise TableError with the line of what it cannot mean."""
+    """
+    Build the rooms, walls, furniture, objects and places of a scene file.
+
+    Parameters
+    ----------
+    table
+        The content of the file.
+
+    Raises
+    ------
+    TableError
+        The file has a mistake; the message gives the line.
+
+    """
     home = Home(tuple(map(_room, table.tables('rooms'))))
     for room in home.rooms:
         home.things.extend(flooring_of(room))
@@ -182,7 +195,27 @@ def _point(table: Table, key: str) -> Point:
 
 
 def colour_in(table: Table, key: str, default: Vector | None) -> tuple[str, Vector]:
-    """Read a colour, which is a name or red, green, blue; return its name, too, if it has one."""
+    """
+    Read a colour, which is a name of `COLOURS` or a list of red, green and blue.
+
+    Parameters
+    ----------
+    table, key
+        Where the colour stands.
+    default
+        Red, green and blue, 0 to 1, if the key is not set; None makes the key mandatory.
+
+    Returns
+    -------
+    str, Vector
+        The name, empty for a colour without one, and red, green and blue, 0 to 1.
+
+    Raises
+    ------
+    TableError
+        There is no such colour, a value is not in 0 to 1, or a mandatory key is not set.
+
+    """
     value: Any = table.value(key)
     if isinstance(value, str):
         name = table.choice(key, tuple(COLOURS))

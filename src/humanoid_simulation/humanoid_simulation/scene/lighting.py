@@ -12,7 +12,17 @@ _ZENITH_RGB = (0.35, 0.5, 0.75)
 
 
 def add_lighting(world: Any, is_indoors: bool = False) -> None:
-    """Add a sun, a sky, and the light that comes from everywhere, more of it in rooms."""
+    """
+    Add a sun, a sky and a headlight with ambient light to a model specification.
+
+    Parameters
+    ----------
+    world
+        The `mujoco.MjSpec` to add to.
+    is_indoors
+        Whether there is more ambient light, as rooms need.
+
+    """
     world.worldbody.add_light(
         name='sun',
         type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,

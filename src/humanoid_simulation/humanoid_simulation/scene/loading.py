@@ -16,9 +16,18 @@ from humanoid_simulation.tables import load_table, Table
 
 def load_scene(name: str = 'flat') -> Scene:
     """
-    Return a scene.
+    Load a scene.
 
-    :param name: that of an installed scene, or the path of a file, which ends with .yaml
+    Parameters
+    ----------
+    name
+        The name of an installed scene, or the path of a file that ends with .yaml or .yml.
+
+    Raises
+    ------
+    SimulationError
+        There is no such scene, or its file cannot be read or has a mistake (`TableError`).
+
     """
     if name.endswith(SCENE_SUFFIXES):
         path = Path(name)
@@ -28,7 +37,22 @@ def load_scene(name: str = 'flat') -> Scene:
 
 
 def scene_of(table: Table, name: str) -> Scene:
-    """Build a scene from the content of a file."""
+    """
+    Build a scene from the content of a file.
+
+    Parameters
+    ----------
+    table
+        The content.
+    name
+        What the scene is called.
+
+    Raises
+    ------
+    TableError
+        The file has a mistake, such as a name used twice; the message gives the line.
+
+    """
     table.allow('floor', 'things', 'ramps', 'plates', *KEYS)
     floor = _floor(table.table('floor'))
     things = [
@@ -81,7 +105,23 @@ def _floor(table: Table) -> Floor:
 
 
 def thing_in(table: Table, name: str | None = None, position_m: Vector | None = None) -> Thing:
-    """Read a thing; name and position are those of one that sets none."""
+    """
+    Read an object of one shape.
+
+    Parameters
+    ----------
+    table
+        Where the object stands in a file.
+    name, position_m
+        Its name and position (3,) in the world frame if the table does not set them; None makes
+        them mandatory.
+
+    Raises
+    ------
+    TableError
+        The table has a mistake; the message gives the line.
+
+    """
     table.allow(
         'name', 'shape', 'size', 'position', 'turn_deg', 'colour', 'mass', 'friction', 'class'
     )

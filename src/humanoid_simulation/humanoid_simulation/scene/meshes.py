@@ -37,14 +37,42 @@ on the axis."""
 
 
 def triangles_of(name: str) -> Triangles:
-    """Return the closed surface of a mesh."""
+    """
+    Build the surface of a mesh.
+
+    Parameters
+    ----------
+    name
+        One of `PROFILES`.
+
+    Returns
+    -------
+    Triangles
+        Corners (n, 3, 3), in a box of 1 x 1 x 1 m about the origin.
+
+    """
     profile = PROFILES[name]
     is_open = profile[0][0] > 0.0
     return revolved([*profile, profile[0]] if is_open else profile, SEGMENTS)
 
 
 def revolved(profile: Sequence[tuple[float, float]], segments: int) -> Triangles:
-    """Turn radii and heights about the z axis; return triangles that face outwards."""
+    """
+    Build the surface of revolution of a profile about the z axis.
+
+    Parameters
+    ----------
+    profile
+        Radii and heights along the outline of half a section, in m.
+    segments
+        How many straight segments make a circle.
+
+    Returns
+    -------
+    Triangles
+        Corners (n, 3, 3), in m, counter-clockwise seen from outside of the solid.
+
+    """
     radii_heights = np.array(profile, dtype=np.float64)
     angles = 2.0 * np.pi * np.arange(segments + 1) / segments
     angles[-1] = 0.0
@@ -69,7 +97,15 @@ def _volume(triangles: Triangles) -> float:
 
 
 def stl_of(triangles: Triangles) -> bytes:
-    """Return a binary STL file."""
+    """
+    Encode triangles as a binary STL file.
+
+    Parameters
+    ----------
+    triangles
+        Corners (n, 3, 3), counter-clockwise seen from outside.
+
+    """
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     records = np.zeros(len(triangles), dtype=[('vectors', '<f4', (4, 3)), ('attribute', '<u2')])
@@ -79,7 +115,15 @@ def stl_of(triangles: Triangles) -> bytes:
 
 
 def main(argv: Sequence[str]) -> None:
-    """Write all meshes to a folder."""
+    """
+    Write all meshes as STL files.
+
+    Parameters
+    ----------
+    argv
+        The folder to write to, as the only argument.
+
+    """
     for name in PROFILES:
         (Path(argv[0]) / f'{name}.stl').write_bytes(stl_of(triangles_of(name)))
 

@@ -51,7 +51,25 @@ class Graspable:
 
 
 def thing_of(graspable: Graspable) -> Thing:
-    """Return the thing; its axes begin in the middle of its height."""
+    """
+    Build a graspable object; a size other than that of its class scales the mass by volume.
+
+    Parameters
+    ----------
+    graspable
+        The object; its kind is one of `CLASSES`.
+
+    Returns
+    -------
+    Thing
+        A movable object with its origin at half its height.
+
+    Raises
+    ------
+    SimulationError
+        An edge of its size is not in 5 mm to 1 m.
+
+    """
     kind = CLASSES[graspable.kind]
     size_m = graspable.size_m or kind.size_m
     if not all(0.005 <= edge <= 1.0 for edge in size_m):

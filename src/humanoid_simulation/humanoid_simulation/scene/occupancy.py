@@ -60,7 +60,20 @@ class OccupancyMap:
     """The corner of the first cell."""
 
     def at(self, x_m: float, y_m: float) -> int:
-        """Return the value of the cell in which a point is; UNKNOWN outside of the map."""
+        """
+        Look up the occupancy at a point.
+
+        Parameters
+        ----------
+        x_m, y_m
+            The point, in the world frame.
+
+        Returns
+        -------
+        int
+            FREE, OCCUPIED or UNKNOWN; UNKNOWN outside of the map.
+
+        """
         column = math.floor((x_m - self.origin_m[0]) / self.resolution_m)
         row = math.floor((y_m - self.origin_m[1]) / self.resolution_m)
         rows, columns = self.cells.shape
@@ -76,12 +89,29 @@ def occupancy_of(
     margin_m: float = 1.0,
 ) -> OccupancyMap:
     """
-    Return the map of a scene.
+    Compute the occupancy map of the fixed objects of a scene.
 
-    What is fixed within the layer is occupied, with its inside; what a mapper that
-    begins at `start_m` reaches without leaving the map is free; all else is unknown.
+    Cells with something fixed within the layer are occupied, also inside of solids; what a mapper
+    reaches from its start without leaving the map is free; all else is unknown.
 
-    :param margin_m: how far the map goes beyond what is drawn, and round the start
+    Parameters
+    ----------
+    scene
+        The scene; movable objects do not count.
+    layer
+        Between which heights objects count.
+    resolution_m
+        Edge length of a cell.
+    start_m
+        Where the mapper starts (x, y), in the world frame.
+    margin_m
+        How far the map extends beyond all that is occupied and the start.
+
+    Raises
+    ------
+    SimulationError
+        The resolution is not in 0.005 to 1 m, the start is occupied, or there are too many cells.
+
     """
     if not 0.005 <= resolution_m <= 1.0:
         raise SimulationError(f'Cells cannot have edges of {resolution_m:g} m. Give 0.005 to 1 m.')
@@ -107,7 +137,25 @@ def occupancy_of(
 
 
 def section_of(thing: Thing, part: Part, layer: Layer) -> Array:
-    """Return the corners, (n, 2), of the part of a layer that a solid part takes; n may be 0."""
+    """
+    Compute the footprint of a convex part within a layer of heights.
+
+    Parameters
+    ----------
+    thing
+        The object, which places the part in the world.
+    part
+        The part, whose convex hull counts.
+    layer
+        The layer.
+
+    Returns
+    -------
+    Array
+        Corners (n, 2) of the convex footprint in m in the world frame, counter-clockwise; n is 0
+        if the part is not in the layer.
+
+    """
     corners = _corners(part) @ from_rpy(*part.orientation_rpy_rad).T + part.position_m
     corners = corners @ from_rpy(*thing.orientation_rpy_rad).T + thing.position_m
     heights = corners[:, 2]

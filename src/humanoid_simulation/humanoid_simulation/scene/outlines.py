@@ -12,17 +12,48 @@ Outline = tuple[Point, ...]
 
 
 def edges(outline: Outline) -> Iterator[tuple[Point, Point]]:
-    """Yield the sides of a polygon."""
+    """
+    List the edges of a polygon, the last of which closes it.
+
+    Parameters
+    ----------
+    outline
+        The polygon.
+
+    Yields
+    ------
+    Point, Point
+        Start and end of an edge.
+
+    """
     yield from zip(outline, (*outline[1:], outline[0]))
 
 
 def area_m2(outline: Outline) -> float:
-    """Return the area of a polygon, by the shoelace formula."""
+    """
+    Compute the area of a polygon by the shoelace formula.
+
+    Parameters
+    ----------
+    outline
+        The polygon, in m.
+
+    """
     return abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in edges(outline))) / 2.0
 
 
 def contains(outline: Outline, point: Point) -> bool:
-    """Whether a point is inside of a polygon: a ray from it crosses an odd number of sides."""
+    """
+    Check whether a point is in a polygon: a ray from it crosses an odd number of edges.
+
+    Parameters
+    ----------
+    outline
+        The polygon.
+    point
+        The point, in the frame of the polygon.
+
+    """
     x, y = point
     inside = False
     for (x1, y1), (x2, y2) in edges(outline):
@@ -32,7 +63,24 @@ def contains(outline: Outline, point: Point) -> bool:
 
 
 def rectangle(centre: Point, length_m: float, width_m: float, yaw_rad: float) -> Outline:
-    """Return a rectangle; its length is along its heading."""
+    """
+    Build a rectangle from its centre, size and heading.
+
+    Parameters
+    ----------
+    centre
+        Its centre (x, y), in m.
+    length_m, width_m
+        Its edges along and across the heading.
+    yaw_rad
+        The heading.
+
+    Returns
+    -------
+    Outline
+        Front left, back left, back right and front right corner.
+
+    """
     return tuple(
         turned((sx * length_m / 2.0, sy * width_m / 2.0), yaw_rad, centre)
         for sx, sy in ((1, 1), (-1, 1), (-1, -1), (1, -1))
@@ -40,16 +88,35 @@ def rectangle(centre: Point, length_m: float, width_m: float, yaw_rad: float) ->
 
 
 def turned(point: Point, yaw_rad: float, origin: Point = (0.0, 0.0)) -> Point:
-    """Return a point that is given in axes which are turned, and begin at an origin."""
+    """
+    Transform a point from a rotated frame to its parent frame.
+
+    Parameters
+    ----------
+    point
+        The point in the rotated frame.
+    yaw_rad, origin
+        The pose of the rotated frame in the parent frame.
+
+    """
     c, s = math.cos(yaw_rad), math.sin(yaw_rad)
     return origin[0] + c * point[0] - s * point[1], origin[1] + s * point[0] + c * point[1]
 
 
 def rectangles_of(outline: Outline) -> list[tuple[Point, Point]]:
     """
-    Return rectangles, each by two opposite corners, that fill a polygon of right angles.
+    Decompose a rectilinear polygon into rectangles along the axes.
 
-    A polygon with a side across the axes has none.
+    Parameters
+    ----------
+    outline
+        The polygon.
+
+    Returns
+    -------
+    list of (Point, Point)
+        Lower left and upper right corners; empty if an edge is not along an axis.
+
     """
     if any(abs(a[0] - b[0]) > 1e-9 and abs(a[1] - b[1]) > 1e-9 for a, b in edges(outline)):
         return []

@@ -58,12 +58,38 @@ def installed_worlds() -> list[World]:
 
 
 def world_at(uri: str) -> World:
-    """Return what is known of a world that can be loaded; or raise ResourceError."""
+    """
+    Describe a world that can be loaded, without loading it.
+
+    Parameters
+    ----------
+    uri
+        The name of an installed world, or the path, `file://` or `package://` URI of a scene file.
+
+    Raises
+    ------
+    ResourceError
+        There is no such world.
+
+    """
     return _world(_scene_file(uri), uri)
 
 
 def worlds_in(source: str) -> list[World]:
-    """Return the worlds of a folder, a path or `file://` URI; or raise ResourceError."""
+    """
+    List the worlds of a folder.
+
+    Parameters
+    ----------
+    source
+        The path, `file://` or `package://` URI of the folder.
+
+    Raises
+    ------
+    ResourceError
+        The folder, or a scene file in it, cannot be read.
+
+    """
     folder = _path_of(source)
     try:
         paths = sorted(path for path in folder.iterdir() if path.suffix in SCENE_SUFFIXES)

@@ -137,12 +137,35 @@ class Room:
             )
 
     def contains(self, x_m: float, y_m: float) -> bool:
-        """Whether a point of the ground is in the room."""
+        """
+        Check whether a point of the ground is in the room.
+
+        Parameters
+        ----------
+        x_m, y_m
+            The point, in the world frame.
+
+        """
         return contains(self.outline_m, (x_m, y_m))
 
 
 def room_at(rooms: Sequence[Room], x_m: float, y_m: float) -> Room | None:
-    """Return the first of some rooms in which a point of the ground is; None outside of all."""
+    """
+    Find the first room that contains a point of the ground.
+
+    Parameters
+    ----------
+    rooms
+        The rooms to search, in this order.
+    x_m, y_m
+        The point, in the world frame.
+
+    Returns
+    -------
+    Room or None
+        The room; None outside of all rooms.
+
+    """
     return next((room for room in rooms if room.contains(x_m, y_m)), None)
 
 
@@ -156,7 +179,15 @@ class Surface:
     height_m: float
 
     def contains(self, x_m: float, y_m: float) -> bool:
-        """Whether a point is above the surface."""
+        """
+        Check whether a point is on the surface, as seen from above.
+
+        Parameters
+        ----------
+        x_m, y_m
+            The point, in the world frame.
+
+        """
         return contains(self.outline_m, (x_m, y_m))
 
     @property
@@ -216,23 +247,88 @@ class Scene:
         return tuple(thing for thing in self.things if not thing.is_fixed)
 
     def room(self, name: str) -> Room:
-        """Return a room by its name, or raise SimulationError with the names that there are."""
+        """
+        Look up a room.
+
+        Parameters
+        ----------
+        name
+            Its name.
+
+        Raises
+        ------
+        SimulationError
+            There is no such room; the message suggests others.
+
+        """
         return named('room', name, {room.name: room for room in self.rooms})
 
     def place(self, name: str) -> Place:
-        """Return a place by its name, or raise SimulationError with the names that there are."""
+        """
+        Look up a place.
+
+        Parameters
+        ----------
+        name
+            Its name.
+
+        Raises
+        ------
+        SimulationError
+            There is no such place; the message suggests others.
+
+        """
         return named('place', name, {place.name: place for place in self.places})
 
     def thing(self, name: str) -> Thing:
-        """Return a thing by its name, or raise SimulationError with the names that there are."""
+        """
+        Look up an object, fixed or movable.
+
+        Parameters
+        ----------
+        name
+            Its name.
+
+        Raises
+        ------
+        SimulationError
+            There is no such object; the message suggests others.
+
+        """
         return named('thing', name, {thing.name: thing for thing in self.things})
 
     def surface(self, name: str) -> Surface:
-        """Return a surface by its name, or raise SimulationError with the names there are."""
+        """
+        Look up a surface.
+
+        Parameters
+        ----------
+        name
+            Its name: that of its furniture, with a number for lower boards (`shelf/1`).
+
+        Raises
+        ------
+        SimulationError
+            There is no such surface; the message suggests others.
+
+        """
         return named('surface', name, {surface.name: surface for surface in self.surfaces})
 
     def room_at(self, x_m: float, y_m: float) -> Room | None:
-        """Return the room in which a point of the ground is; None outside of all rooms."""
+        """
+        Find the room of a point of the ground.
+
+        Parameters
+        ----------
+        x_m, y_m
+            The point, in the world frame.
+
+        Returns
+        -------
+        Room or None
+            The room; None outside of all rooms.
+
+        """
         return room_at(self.rooms, x_m, y_m)
 
 

@@ -43,7 +43,20 @@ class Ramp:
 
 
 def ramp_of(ramp: Ramp) -> Iterator[Thing]:
-    """Yield the boxes of a ramp."""
+    """
+    Build a ramp: an inclined board, and a level top and a board down if it has a top.
+
+    Parameters
+    ----------
+    ramp
+        Its geometry.
+
+    Yields
+    ------
+    Thing
+        A fixed box in the world frame.
+
+    """
     height_m = ramp.length_m * math.tan(ramp.slope_rad)
     yield _incline(ramp, 'up', ramp.length_m / 2, -ramp.slope_rad)
     if ramp.top_m > 0.0:
@@ -123,7 +136,21 @@ class Plates:
 
 
 def plates_of(plates: Plates) -> Iterator[Thing]:
-    """Yield the plates: heights are spread evenly up to the highest, the same for a seed."""
+    """
+    Build a field of plates of random heights, which are reproducible for a seed.
+
+    Parameters
+    ----------
+    plates
+        The field.
+
+    Yields
+    ------
+    Thing
+        A fixed box whose upper side is at 5 to 100 % of the greatest height, uniformly distributed
+        but for the lowest.
+
+    """
     random = np.random.default_rng(plates.seed)
     rows, columns = plates.counts
     for row, column in np.ndindex(rows, columns):

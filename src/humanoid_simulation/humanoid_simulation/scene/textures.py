@@ -14,7 +14,20 @@ _GROUT = 0.04
 
 
 def picture_of(finish: Finish) -> Picture:
-    """Return one repetition of a pattern, (EDGE_PX, EDGE_PX, 3), the same each time."""
+    """
+    Paint one repetition of the pattern of a finish; it is the same each time.
+
+    Parameters
+    ----------
+    finish
+        The pattern and its colours.
+
+    Returns
+    -------
+    Picture
+        Red, green and blue (EDGE_PX, EDGE_PX, 3), 0 to 255.
+
+    """
     share = _SHARES[finish.pattern]()
     first, second = np.array(finish.first_rgb), np.array(finish.second_rgb)
     colours = first + (second - first) * share[..., None]

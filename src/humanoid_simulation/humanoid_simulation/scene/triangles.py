@@ -19,7 +19,22 @@ _SIDES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), 
 
 
 def triangles_in_world(thing: Thing, part: Part) -> Triangles:
-    """Return the surface of a part of a thing that is where it began, (n, 3, 3), in the world."""
+    """
+    Triangulate the surface of a part of an object at the initial pose of the object.
+
+    Parameters
+    ----------
+    thing
+        The object, whose pose in the world counts.
+    part
+        One of its parts.
+
+    Returns
+    -------
+    Triangles
+        Corners (n, 3, 3), in m in the world frame.
+
+    """
     unit = _unit(part.mesh or part.shape)
     own = (
         unit.reshape(-1, 3) * part.box_m @ from_rpy(*part.orientation_rpy_rad).T + part.position_m

@@ -88,7 +88,22 @@ class Wall:
 
 
 def wall_of(wall: Wall, rooms: Sequence[Room]) -> Thing:
-    """Return a wall; its sides have the finish of the rooms that they face."""
+    """
+    Build a wall with its doorways, papered with the finishes of the rooms that it faces.
+
+    Parameters
+    ----------
+    wall
+        Its geometry.
+    rooms
+        All rooms of the scene.
+
+    Returns
+    -------
+    Thing
+        A fixed object with its origin at the start of the wall, x along it.
+
+    """
     parts: list[Part] = []
     for start_m, end_m, low_m, high_m in wall.pieces():
         if end_m - start_m < _SHORTEST_M:
@@ -177,7 +192,20 @@ def _frame(wall: Wall, door: Door) -> Iterator[Part]:
 
 
 def flooring_of(room: Room) -> Iterator[Thing]:
-    """Yield the floor and the ceiling of a room, which are seen only, if it has them."""
+    """
+    Build the floor and the ceiling of a room, which do not collide.
+
+    Parameters
+    ----------
+    room
+        The room; it gets neither if an edge of its outline is not along the axes.
+
+    Yields
+    ------
+    Thing
+        The floor if the room has a finish for it, then the ceiling if it has a height.
+
+    """
     boxes = rectangles_of(room.outline_m)
     if room.floor is not None and boxes:
         yield _slabs(f'{room.name}_floor', FLOORING, boxes, 0.0, room.floor)

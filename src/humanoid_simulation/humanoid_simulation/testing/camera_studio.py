@@ -38,7 +38,20 @@ class Studio:
         self._time_ns = 0
 
     def picture(self, wanted: Sequence[Wanted] = ()) -> Pictures:
-        """Return the pictures of the state as it is now."""
+        """
+        Render the present state, and wait for the images.
+
+        Parameters
+        ----------
+        wanted
+            Which images, one element for each view; empty for colour and depth of all views.
+
+        Raises
+        ------
+        WaitedInVainError
+            The images did not come in time.
+
+        """
         self.wait_until(lambda: self.renderer.can_draw, 'a renderer that can draw')
         self.ask(wanted)
         taken: list[Pictures] = []
@@ -51,13 +64,36 @@ class Studio:
         return taken[0]
 
     def ask(self, wanted: Sequence[Wanted] = ()) -> None:
-        """Have the state drawn as it is now."""
+        """
+        Request images of the present state without waiting for them.
+
+        Parameters
+        ----------
+        wanted
+            Which images, one element for each view; empty for colour and depth of all views.
+
+        """
         self._time_ns += 1
         every = list(wanted) or [ALL] * self._count
         self.renderer.request(self.data.qpos, self._time_ns, every, time.monotonic())
 
     def wait_until(self, predicate: Callable[[], bool], what: str) -> None:
-        """Poll until the predicate holds."""
+        """
+        Poll the renderer until a condition holds.
+
+        Parameters
+        ----------
+        predicate
+            The condition.
+        what
+            Its description, for the error message.
+
+        Raises
+        ------
+        WaitedInVainError
+            The condition did not hold within 100 s of real time.
+
+        """
 
         def pause() -> None:
             self.renderer.poll(time.monotonic())
@@ -73,7 +109,26 @@ def studio(
     patience: Patience = Patience(retry_s=0.0),
     noise: PictureNoise = PictureNoise(),
 ) -> Iterator[Studio]:
-    """Give a renderer for the length of a `with` block."""
+    """
+    Provide a renderer and the world of the camera tests for the length of a `with` block.
+
+    Parameters
+    ----------
+    methods
+        The rendering methods to try, best first.
+    views
+        The cameras of the world, and the sizes of their images.
+    patience
+        The timeouts of the render process.
+    noise
+        The standard deviations of pixels.
+
+    Yields
+    ------
+    Studio
+        The renderer, whose process has been requested.
+
+    """
     place = Studio(views, methods, patience, noise)
     try:
         yield place
@@ -82,5 +137,13 @@ def studio(
 
 
 def ball_address(model: mujoco.MjModel) -> int:
-    """Return where the position of the ball is in qpos."""
+    """
+    Look up the index in `qpos` at which the position of the ball starts.
+
+    Parameters
+    ----------
+    model
+        The world of the camera tests.
+
+    """
     return int(model.jnt_qposadr[0])

@@ -46,13 +46,38 @@ class Entities:
             ros.wait_until(client.service_is_ready, _PATIENCE_S, name)
 
     def position_m(self, name: str) -> tuple[float, float, float]:
-        """Return where the middle of a thing truly is."""
+        """
+        Query the true position of an entity.
+
+        Parameters
+        ----------
+        name
+            The name of the object or robot.
+
+        Returns
+        -------
+        float, float, float
+            The origin of the object, or of the base of the robot, in m in the world frame.
+
+        """
         answer = self._ask('get_entity_state', GetEntityState.Request(entity=name))
         position = answer.state.pose.position
         return position.x, position.y, position.z
 
     def put(self, name: str, at_m: tuple[float, float, float], yaw_rad: float = 0.0) -> None:
-        """Put a thing somewhere, upright and at rest."""
+        """
+        Move an entity, upright and at rest.
+
+        Parameters
+        ----------
+        name
+            The name of the object or robot.
+        at_m
+            Where its origin goes (3,), in the world frame.
+        yaw_rad
+            Its new heading.
+
+        """
         request = SetEntityState.Request(entity=name)
         pose = request.state.pose
         pose.position.x, pose.position.y, pose.position.z = at_m
@@ -62,7 +87,19 @@ class Entities:
     def pull(
         self, name: str, force_n: tuple[float, float, float], duration_s: float = 1.0
     ) -> None:
-        """Pull at a thing, in the world."""
+        """
+        Apply a force at the origin of an entity; returns at once.
+
+        Parameters
+        ----------
+        name
+            The name of the object or robot.
+        force_n
+            The force (3,), in the world frame.
+        duration_s
+            How long it lasts, in s of simulated time.
+
+        """
         x, y, z = force_n
         request = ApplyWrench.Request(entity=name, wrench=Wrench(force=Vector3(x=x, y=y, z=z)))
         request.duration = Duration(seconds=duration_s).to_msg()

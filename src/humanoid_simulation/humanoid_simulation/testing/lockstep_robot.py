@@ -80,15 +80,30 @@ class LockstepRobot:
         return self._fall_watch.stands(float(self.truth.position_m[2]), self.tilt_rad)
 
     def drive(self, forward: float = 0.0, left: float = 0.0, turn: float = 0.0) -> None:
-        """Walk at a velocity from now on, in m/s and rad/s; without arguments, stand."""
+        """
+        Command a velocity from now on; without arguments, stand.
+
+        Parameters
+        ----------
+        forward, left
+            Linear velocity in the axes of the robot, in m/s.
+        turn
+            Yaw rate, anticlockwise, in rad/s.
+
+        """
         self._velocity = VelocityCommand(forward, left, turn)
 
     def push(self, direction: complex, impulse_ns: float) -> None:
         """
-        Push the base from now on, for the time in which pushes act.
+        Push the base from the next control period on, for `PUSH_S`.
 
-        :param direction: in the world, a unit vector of the ground plane
-        :param impulse_ns: the force times that time, in N s
+        Parameters
+        ----------
+        direction
+            Unit vector x + iy of the ground plane, in the world frame.
+        impulse_ns
+            Force times duration, in N s.
+
         """
         force_n = direction * impulse_ns / PUSH_S
         self.backend.apply_wrench(
@@ -96,7 +111,20 @@ class LockstepRobot:
         )
 
     def wait(self, duration_s: float) -> bool:
-        """Let time pass; return whether the robot is on its feet, as soon as it is not."""
+        """
+        Advance the simulation, until the robot falls at the latest.
+
+        Parameters
+        ----------
+        duration_s
+            How long, in s of simulated time.
+
+        Returns
+        -------
+        bool
+            Whether the robot is still on its feet.
+
+        """
         for _ in range(round(duration_s / self.backend.period_s)):
             self.tick()
             if not self.stands:
@@ -113,6 +141,14 @@ class LockstepRobot:
             self.backend.step({'': control.update(self.backend.observe()[''])})
 
     def reset(self, keyframe: str = 'home') -> None:
-        """Put the robot where it began."""
+        """
+        Reset the robot and the scene to their initial state; time goes on.
+
+        Parameters
+        ----------
+        keyframe
+            The name of the posture of the robot.
+
+        """
         self.backend.reset(keyframe)
         self.walking.control.reset()

@@ -82,7 +82,15 @@ class RobotTopics:
             self._joints.publish(JointState(name=names, position=positions))
 
     def drive(self, velocity: VelocityCommand | None) -> None:
-        """Send a velocity from now on; None lets the others drive."""
+        """
+        Send a velocity command, and repeat it from now on.
+
+        Parameters
+        ----------
+        velocity
+            The command; None sends no more, so that others can drive.
+
+        """
         self.velocity = velocity
         self.send()
 

@@ -46,7 +46,17 @@ def steer(pose: PlanarPose, goal_m: tuple[float, float]) -> tuple[float, float]:
 
 
 def distance_m(pose: PlanarPose, goal_m: tuple[float, float]) -> float:
-    """Compute how far it still is to a point (m)."""
+    """
+    Compute the distance from a pose to a point, in m.
+
+    Parameters
+    ----------
+    pose
+        Where the robot is.
+    goal_m
+        The point (x, y), in the frame of the pose.
+
+    """
     return abs(complex(*goal_m) - pose.position_m)
 
 

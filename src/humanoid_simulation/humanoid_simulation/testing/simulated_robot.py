@@ -61,11 +61,44 @@ class SimulatedRobot:
         return self._fall_watch.stands(self.topics.height_m, self.topics.tilt_rad)
 
     def wait(self, duration_s: float) -> None:
-        """Let time pass; raise FellError if the robot does not stay on its feet."""
+        """
+        Wait while simulated time passes.
+
+        Parameters
+        ----------
+        duration_s
+            How long, in s of simulated time.
+
+        Raises
+        ------
+        FellError
+            The robot fell.
+
+        """
         self.wait_until(lambda: False, duration_s)
 
     def wait_until(self, done: Callable[[], bool], at_most_s: float) -> bool:
-        """Let time pass until a condition holds; return whether it came to hold in time."""
+        """
+        Wait in simulated time until a condition holds.
+
+        Parameters
+        ----------
+        done
+            The condition.
+        at_most_s
+            Timeout, in s of simulated time.
+
+        Returns
+        -------
+        bool
+            Whether the condition holds at the end.
+
+        Raises
+        ------
+        FellError
+            The robot fell.
+
+        """
         end_s = self.topics.time_s + at_most_s
         self._spin(lambda: done() or not self.stands or self.topics.time_s >= end_s, at_most_s)
         if not self.stands:
@@ -78,11 +111,31 @@ class SimulatedRobot:
         return done()
 
     def drive(self, forward: float = 0.0, left: float = 0.0, turn: float = 0.0) -> None:
-        """Walk at a velocity from now on, in m/s and rad/s; without arguments, stand."""
+        """
+        Command a velocity from now on; without arguments, stand.
+
+        Parameters
+        ----------
+        forward, left
+            Linear velocity in the axes of the robot, in m/s.
+        turn
+            Yaw rate, anticlockwise, in rad/s.
+
+        """
         self.topics.drive(VelocityCommand(forward, left, turn))
 
     def push(self, direction: str, impulse_ns: float) -> None:
-        """Push the base in a direction of the robot."""
+        """
+        Push the base for `PUSH_S`; returns at once.
+
+        Parameters
+        ----------
+        direction
+            In the axes of the robot as it stands now: 'forward', 'back', 'left' or 'right'.
+        impulse_ns
+            Force times duration, in N s.
+
+        """
         push = Push(direction, impulse_ns)
         self._ask(self.topics.push, push_request(push, self._namespace, self.pose, PUSH_S))
 
@@ -99,7 +152,20 @@ class SimulatedRobot:
         self.topics.velocity = None
 
     def put(self, pose: PlanarPose) -> None:
-        """Put the robot somewhere as it is, and let it stand for a second."""
+        """
+        Move the robot without changing its height or joints, and let it stand for a second.
+
+        Parameters
+        ----------
+        pose
+            Where to, upright, in the world frame.
+
+        Raises
+        ------
+        FellError
+            The robot fell.
+
+        """
         self.drive()
         state = EntityState()
         position, orientation = state.pose.position, state.pose.orientation
@@ -123,22 +189,52 @@ class SimulatedRobot:
         return self.stands and self.topics.walking_state == 'stand'
 
     def pause(self, on: bool = True) -> None:
-        """Let time stand still, or go on."""
+        """
+        Pause or resume the simulation.
+
+        Parameters
+        ----------
+        on
+            Whether to pause it.
+
+        """
         self._ask(self.topics.pause, state_request(on))
 
     def step(self, steps: int) -> None:
-        """Let a paused simulation go on by some steps of physics."""
+        """
+        Advance a paused simulation.
+
+        Parameters
+        ----------
+        steps
+            How many physics steps.
+
+        """
         self._ask(self.topics.steps, StepSimulation.Request(steps=steps))
 
     def hear_of(self, time_s: float) -> None:
-        """Wait until ground truth of a time has come, which the simulator has reached."""
+        """
+        Wait until the ground truth of a simulated time has arrived.
+
+        Parameters
+        ----------
+        time_s
+            A time that the simulator has reached already.
+
+        """
         self._spin(lambda: self.topics.time_s > time_s - 1e-6, 0.0)
 
     def step_commanded(self, steps: int) -> None:
         """
-        Step a paused simulation, with a velocity that has certainly come just before.
+        Advance a paused simulation just after a velocity command has certainly arrived.
 
-        What a paused simulation does in fewer steps than the velocity lasts is the same each time.
+        As long as the command does not expire within the steps, the result is the same each time.
+
+        Parameters
+        ----------
+        steps
+            How many physics steps.
+
         """
         sent = self.topics.sent
         self._ros.wait_until(lambda: self.topics.sent > sent + 1, PATIENCE_S, 'a velocity')

@@ -16,7 +16,20 @@ FASTER = {'real_time_factor': '4.0'}
 
 @contextmanager
 def simulation(**parameters: str) -> Iterator[RosSandbox]:
-    """Run a simulator without a camera, in a domain of its own."""
+    """
+    Run a simulator without cameras in a ROS domain of its own.
+
+    Parameters
+    ----------
+    **parameters
+        Parameters of the node as text, in addition to or instead of those of tests.
+
+    Yields
+    ------
+    RosSandbox
+        The nodes of the test, in the domain of the simulator.
+
+    """
     values = {**FASTER, 'camera_rate_hz': '0.0', **parameters}
     settings = [text for name, value in values.items() for text in ('-p', f'{name}:={value}')]
     command = module_command('humanoid_simulation.starting', '--ros-args', *settings)
@@ -27,6 +40,19 @@ def simulation(**parameters: str) -> Iterator[RosSandbox]:
 
 @contextmanager
 def simulated_robot(**parameters: str) -> Iterator[SimulatedRobot]:
-    """Run a simulator, and hand out its robot."""
+    """
+    Run a simulator without cameras, and connect to its robot.
+
+    Parameters
+    ----------
+    **parameters
+        As for `simulation`.
+
+    Yields
+    ------
+    SimulatedRobot
+        The robot; its time runs unless it was started paused.
+
+    """
     with simulation(**parameters) as ros:
         yield SimulatedRobot(ros, runs=parameters.get('start_paused') != 'true')

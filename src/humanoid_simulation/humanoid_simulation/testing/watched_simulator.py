@@ -37,7 +37,17 @@ class WatchedSimulator:
         self.times_s.append(message.clock.sec + message.clock.nanosec * 1e-9)
 
     def listen(self, kind: Any, topic: str) -> None:
-        """Keep the newest message of a topic."""
+        """
+        Subscribe to a topic, and keep its newest message in `last`.
+
+        Parameters
+        ----------
+        kind
+            The message type.
+        topic
+            The name of the topic, which is also the key in `last`.
+
+        """
 
         def keep(message: Any) -> None:
             self.last[topic] = message
@@ -45,23 +55,69 @@ class WatchedSimulator:
         self.node.create_subscription(kind, topic, keep, SENSOR)
 
     def wait(self, what: str, condition: Callable[[], bool]) -> None:
-        """Spin until a condition holds."""
+        """
+        Spin until a condition holds.
+
+        Parameters
+        ----------
+        what
+            Description of the condition, for the error message.
+        condition
+            The condition.
+
+        Raises
+        ------
+        WaitedInVainError
+            The condition did not hold within 30 s of real time.
+
+        """
         self.ros.wait_until(condition, 30.0, what)
 
     def wait_for(self, *topics: str) -> None:
-        """Wait for new messages."""
+        """
+        Wait for a new message on each of some topics.
+
+        Parameters
+        ----------
+        *topics
+            Topics that were passed to `listen` before.
+
+        """
         for topic in topics:
             self.last.pop(topic, None)
         self.wait(f'all of {topics}', lambda: set(topics) <= set(self.last))
 
     def run(self, seconds: float) -> None:
-        """Let time pass in the world."""
+        """
+        Wait while simulated time passes.
+
+        Parameters
+        ----------
+        seconds
+            How long, in s of simulated time.
+
+        """
         self.wait('a time', lambda: bool(self.times_s))
         end_s = self.times_s[-1] + seconds
         self.wait('the time to pass', lambda: self.times_s[-1] >= end_s)
 
     def ask(self, kind: Any, name: str, /, **request: Any) -> Any:
-        """Call a service."""
+        """
+        Call a service, and wait for the response.
+
+        Parameters
+        ----------
+        kind, name
+            Type and name of the service.
+        **request
+            The fields of the request.
+
+        Returns
+        -------
+        Any
+            The response, of the type of the service.
+
+        """
         client = self.node.create_client(kind, name)
         self.wait(name, client.service_is_ready)
         future = client.call_async(kind.Request(**request))
@@ -70,12 +126,38 @@ class WatchedSimulator:
         return future.result()
 
     def pause(self, on: bool = True) -> str:
-        """Let time stand still, or go on; return why not."""
+        """
+        Pause or resume the simulation.
+
+        Parameters
+        ----------
+        on
+            Whether to pause it.
+
+        Returns
+        -------
+        str
+            Why the simulator refused; empty if it did not.
+
+        """
         state = state_request(on).state
         return refusal(self.ask(SetSimulationState, 'simulator/set_simulation_state', state=state))
 
     def step(self, steps: int) -> str:
-        """Let a paused simulation go on; return why not."""
+        """
+        Advance a paused simulation.
+
+        Parameters
+        ----------
+        steps
+            How many physics steps.
+
+        Returns
+        -------
+        str
+            Why the simulator refused; empty if it did not.
+
+        """
         return refusal(self.ask(StepSimulation, 'simulator/step_simulation', steps=steps))
 
     def reset(self) -> str:
@@ -83,7 +165,22 @@ class WatchedSimulator:
         return refusal(self.ask(ResetSimulation, 'simulator/reset_simulation'))
 
     def put(self, entity: str, x: float, y: float, z: float) -> str:
-        """Put something somewhere, at rest; return why not."""
+        """
+        Move an entity, at rest, with the axes of the world.
+
+        Parameters
+        ----------
+        entity
+            The name of the object or robot.
+        x, y, z
+            Where its origin goes, in m in the world frame.
+
+        Returns
+        -------
+        str
+            Why the simulator refused; empty if it did not.
+
+        """
         state = EntityState()
         state.pose.position.x, state.pose.position.y, state.pose.position.z = x, y, z
         name = 'simulator/set_entity_state'

@@ -18,6 +18,14 @@ class ClockTopic:
         self._publisher = node.create_publisher(Clock, '/clock', STATE)
 
     def publish(self, time_s: float) -> None:
-        """Tell the time."""
+        """
+        Publish the simulated time.
+
+        Parameters
+        ----------
+        time_s
+            Simulated time since the start.
+
+        """
         fill_stamp(self._message.clock, time_s)
         self._publisher.publish(self._message)

@@ -28,7 +28,17 @@ class ContactsTopic:
         return bool(self._publisher.get_subscription_count())
 
     def publish(self, time_s: float, contacts: Iterable[Contact]) -> None:
-        """Say which of the contacts of a world are those of the robot."""
+        """
+        Publish the contacts of the robot.
+
+        Parameters
+        ----------
+        time_s
+            Simulated time, for the stamp.
+        contacts
+            All contacts of the world; those without a link of the robot are left out.
+
+        """
         message = Contacts()
         message.header.frame_id = WORLD
         fill_stamp(message.header.stamp, time_s)

@@ -29,7 +29,17 @@ class GroundTruthTopic:
         self._publisher = node.create_publisher(Odometry, topic(robot, 'ground_truth/odom'), STATE)
 
     def publish(self, time_s: float, truth: EntityState) -> None:
-        """Say where the robot is."""
+        """
+        Publish the true odometry of the robot.
+
+        Parameters
+        ----------
+        time_s
+            Simulated time, for the stamp.
+        truth
+            State of base_link, in the world frame.
+
+        """
         message = self._message
         to_base = inverse(truth.orientation)
         fill_stamp(message.header.stamp, time_s)

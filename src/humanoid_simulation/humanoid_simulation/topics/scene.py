@@ -51,7 +51,15 @@ class SceneTopics:
         self._timer = node.create_timer(_PERIOD_S, self._things.look, clock=steady)
 
     def change(self, parameters: SimulatorParameters) -> None:
-        """Cut walls at another height."""
+        """
+        Apply changed parameters: the height at which walls are cut.
+
+        Parameters
+        ----------
+        parameters
+            The parameters of the simulator, of which `walls_shown_up_to_m` counts.
+
+        """
         if parameters.walls_shown_up_to_m != self._walls_up_to_m:
             self._walls_up_to_m = parameters.walls_shown_up_to_m
             self._show(WALLS)

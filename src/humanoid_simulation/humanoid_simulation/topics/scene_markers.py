@@ -38,7 +38,20 @@ _KINDS = {
 
 
 def layers_of(scene: Scene) -> dict[str, list[Thing]]:
-    """Return the things that are fixed, by the namespace of their markers."""
+    """
+    Sort the fixed objects of a scene by layers that a viewer can hide.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+
+    Returns
+    -------
+    dict[str, list[Thing]]
+        By the namespace of their markers: `walls`, `floors`, `furniture`, `people`.
+
+    """
     layers: dict[str, list[Thing]] = {}
     for thing in scene.things:
         if thing.is_fixed:
@@ -48,9 +61,24 @@ def layers_of(scene: Scene) -> dict[str, list[Thing]]:
 
 def layer_markers(name: str, things: Iterable[Thing], walls_up_to_m: float) -> list[Marker]:
     """
-    Return the markers of things that are fixed: one with the triangles of all, and their meshes.
+    Make the markers of a layer: one triangle list for all shapes, and one for each mesh.
 
     One marker costs a viewer far less than one for each of hundreds of shapes.
+
+    Parameters
+    ----------
+    name
+        Namespace of the markers.
+    things
+        The fixed objects of the layer.
+    walls_up_to_m
+        Height in the world at which walls are cut; what hangs higher is left out.
+
+    Returns
+    -------
+    list of Marker
+        In the world frame; the triangle list, if there are triangles, comes first.
+
     """
     markers = [_marker(name, 0, Marker.TRIANGLE_LIST)]
     triangles: list[Triangles] = [np.zeros((0, 3, 3), np.float32)]
@@ -73,13 +101,38 @@ def layer_markers(name: str, things: Iterable[Thing], walls_up_to_m: float) -> l
 
 
 def thing_markers(thing: Thing) -> list[tuple[Part, Marker]]:
-    """Return a marker for each part of a thing that moves; `place` puts it somewhere."""
+    """
+    Make a marker for each visible part of an object; `place` sets its pose.
+
+    Parameters
+    ----------
+    thing
+        An object that can be moved.
+
+    Returns
+    -------
+    list of tuple[Part, Marker]
+        The parts with their markers, whose namespace is the name of the object.
+
+    """
     shown = [part for part in thing.parts if part.is_shown]
     return [(part, _part_marker(thing.name, number, part)) for number, part in enumerate(shown)]
 
 
 def place(marker: Marker, part: Part, position_m: Array, orientation: Array) -> None:
-    """Put the marker of a part where its thing is in the world."""
+    """
+    Set the pose of the marker of a part.
+
+    Parameters
+    ----------
+    marker
+        The marker that is changed, in the world frame.
+    part
+        The part, placed in the axes of its object.
+    position_m, orientation
+        Position (3,) and quaternion w, x, y, z (4,) of the object, in the world frame.
+
+    """
     offset = rotated(np.array(part.position_m, dtype=np.float64), orientation)
     fill_vector(marker.pose.position, position_m + offset)
     turn = product(orientation, from_rpy(*part.orientation_rpy_rad))

@@ -37,7 +37,15 @@ class WorldTopics:
         self.change(parameters)
 
     def change(self, parameters: SimulatorParameters) -> None:
-        """Publish at other rates."""
+        """
+        Apply changed parameters: the rates of the topics, and the height of the walls shown.
+
+        Parameters
+        ----------
+        parameters
+            The parameters of the simulator.
+
+        """
         self._clock_due = Every(parameters.clock_rate_hz)
         self._truth_due = Every(parameters.ground_truth_rate_hz)
         self._wrenches_due = Every(parameters.wrench_rate_hz)
@@ -50,7 +58,15 @@ class WorldTopics:
         self._scene.change_scene()
 
     def tell(self, observations: Mapping[str, Observation]) -> None:
-        """Publish what is due after a period; it began with observations."""
+        """
+        Publish what is due after a control period.
+
+        Parameters
+        ----------
+        observations
+            Those with which the period began, by the names of the robots.
+
+        """
         now_s = self._backend.time_s
         if self._clock_due.is_due(now_s):
             self._clock.publish(now_s)

@@ -39,9 +39,19 @@ class WorldFrame:
 
     def publish(self, time_s: float, odometry: Odometry, truth: EntityState, age_s: float) -> None:
         """
-        Publish it.
+        Publish the transform from `odom` to `world`, updated if it is visibly off.
 
-        :param age_s: how much older the odometry is than the truth
+        Parameters
+        ----------
+        time_s
+            Simulated time of the odometry, for the stamp.
+        odometry
+            Where the robot believes it is.
+        truth
+            True state of its base, in the world frame.
+        age_s
+            How much older the odometry is than the truth.
+
         """
         x, y, z, yaw_rad = world_in_odom(odometry, truth, age_s)
         old_x, old_y, old_z, old_yaw_rad = self._at
@@ -66,7 +76,24 @@ class WorldFrame:
 def world_in_odom(
     odometry: Odometry, truth: EntityState, age_s: float = 0.0
 ) -> tuple[float, float, float, float]:
-    """Return where the world is in `odom`: x, y and z in metres, and its turn in radians."""
+    """
+    Compute the planar pose and the height of the world frame in `odom`.
+
+    Parameters
+    ----------
+    odometry
+        Where the robot believes it is, in `odom`.
+    truth
+        True state of its base, in the world frame.
+    age_s
+        How much older the odometry is; the true position is extrapolated back by it.
+
+    Returns
+    -------
+    tuple[float, float, float, float]
+        x, y and z in m, and the yaw in rad.
+
+    """
     turn = product(np.array(odometry.orientation), inverse(truth.orientation))
     yaw_rad = math.atan2(
         2.0 * (turn[0] * turn[3] + turn[1] * turn[2]),

@@ -26,7 +26,15 @@ class WrenchTopics:
         ]
 
     def publish(self, observation: Observation) -> None:
-        """Say what was observed."""
+        """
+        Publish the measured wrenches of the ground on both feet.
+
+        Parameters
+        ----------
+        observation
+            A measurement of the robot; its time is the stamp.
+
+        """
         for foot, (message, publisher) in enumerate(zip(self._messages, self._publishers)):
             fill_stamp(message.header.stamp, observation.time_s)
             fill_vector(message.wrench.force, observation.foot_forces_n[foot])

@@ -41,7 +41,15 @@ class ImuTopic:
         self._publisher = node.create_publisher(Imu, topic(robot, 'imu/data'), SENSOR)
 
     def publish(self, observation: Observation) -> None:
-        """Publish what was observed."""
+        """
+        Publish the measurements of the inertial sensor, in the frame imu_link.
+
+        Parameters
+        ----------
+        observation
+            The observation; its time stamps the message.
+
+        """
         message = self._message
         fill_stamp(message.header.stamp, observation.time_s)
         fill_quaternion(message.orientation, observation.orientation)

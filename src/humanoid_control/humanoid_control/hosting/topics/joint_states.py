@@ -25,7 +25,15 @@ class JointStatesTopic:
         self._publisher = node.create_publisher(JointState, topic(robot, 'joint_states'), STATE)
 
     def publish(self, observation: Observation) -> None:
-        """Publish what was observed."""
+        """
+        Publish the positions, velocities and efforts of all joints.
+
+        Parameters
+        ----------
+        observation
+            The observation, with its joints in the order of the topic; its time is the stamp.
+
+        """
         fill_stamp(self._message.header.stamp, observation.time_s)
         self._position[:] = observation.positions_rad
         self._velocity[:] = observation.velocities_rad_s

@@ -46,7 +46,17 @@ class OdometryTopics:
         self._tf_publisher = node.create_publisher(TFMessage, topic(robot, 'tf'), STATE)
 
     def publish(self, time_s: float, odometry: WalkOdometry) -> None:
-        """Publish where the robot is."""
+        """
+        Publish the odometry, and the transforms odom -> base_link -> base_footprint.
+
+        Parameters
+        ----------
+        time_s
+            The time that stamps the messages.
+        odometry
+            Pose of the base in the odom frame, its covariance, and the velocity in base_link.
+
+        """
         position_m = odometry.pose.position_m
         position = np.array([position_m.real, position_m.imag, odometry.height_m])
         orientation = np.array(odometry.orientation)

@@ -32,7 +32,15 @@ class WalkingStateTopic:
         self._said = ''
 
     def publish(self, state: str) -> None:
-        """Publish the state if it is new."""
+        """
+        Publish the walking state if it has changed.
+
+        Parameters
+        ----------
+        state
+            The phase of the walk, `blocked`, or the mode in which the robot does not walk.
+
+        """
         if state != self._said:
             self._said = state
             self._publisher.publish(String(data=state))
@@ -51,7 +59,17 @@ class BalanceTopics:
         )
 
     def publish(self, time_s: float, status: WalkStatus) -> None:
-        """Publish both points, on the ground."""
+        """
+        Publish the measured DCM and the commanded ZMP, both on the ground.
+
+        Parameters
+        ----------
+        time_s
+            The time that stamps the messages.
+        status
+            The walk, with both points in the odom frame.
+
+        """
         fill_stamp(self._message.header.stamp, time_s)
         for publisher, point_m in ((self._dcm, status.dcm_m), (self._zmp, status.zmp_m)):
             self._message.point.x, self._message.point.y = point_m.real, point_m.imag
@@ -67,7 +85,17 @@ class FootstepsTopic:
         self._publisher = node.create_publisher(MarkerArray, topic(robot, 'footsteps'), STATE)
 
     def publish(self, time_s: float, status: WalkStatus) -> None:
-        """Publish the planned landings; those that were shown before vanish."""
+        """
+        Publish the planned footsteps as markers, in place of those published before.
+
+        Parameters
+        ----------
+        time_s
+            The time that stamps the markers.
+        status
+            The walk, with the planned landings in the odom frame.
+
+        """
         clear = Marker(action=Marker.DELETEALL)
         clear.header.frame_id = self._frame
         steps = [self._marker(time_s, *step) for step in enumerate(status.footsteps)]

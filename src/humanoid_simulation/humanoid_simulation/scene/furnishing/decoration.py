@@ -21,7 +21,17 @@ _SKIN = (0.87, 0.68, 0.55)
 
 
 def plant(size: Vector, rgb: Vector) -> Parts:
-    """Return a pot with leaves."""
+    """
+    Build the parts of a pot plant; its leaves do not collide.
+
+    Parameters
+    ----------
+    size
+        Length (x), which is also the diameter, width (unused) and height (z), in m.
+    rgb
+        Colour of the leaves, 0 to 1.
+
+    """
     length, _, height = size
     radius = length / 2
     pot = 0.3 * height
@@ -42,7 +52,17 @@ def plant(size: Vector, rgb: Vector) -> Parts:
 
 
 def lamp(size: Vector, rgb: Vector) -> Parts:
-    """Return a lamp that stands: a foot, a pole and a shade."""
+    """
+    Build the parts of a floor lamp: a foot, a pole and a glowing shade, which does not collide.
+
+    Parameters
+    ----------
+    size
+        Length (x) and width (y) of the shade, and height of the lamp (z), in m.
+    rgb
+        Colour of the shade, 0 to 1.
+
+    """
     length, width, height = size
     shade = min(0.3, 0.4 * height)
     return [
@@ -53,7 +73,17 @@ def lamp(size: Vector, rgb: Vector) -> Parts:
 
 
 def ceiling_lamp(size: Vector, rgb: Vector) -> Parts:
-    """Return a lamp that hangs down from where it is placed."""
+    """
+    Build the parts of a ceiling lamp, which hangs down from the origin and does not collide.
+
+    Parameters
+    ----------
+    size
+        Length (x) and width (y) of the shade, and height of the lamp (z), in m.
+    rgb
+        Colour of the shade, 0 to 1.
+
+    """
     length, width, height = size
     shade = 0.6 * height
     return [
@@ -63,7 +93,17 @@ def ceiling_lamp(size: Vector, rgb: Vector) -> Parts:
 
 
 def rug(size: Vector, rgb: Vector) -> Parts:
-    """Return a rug, which is seen only: nobody trips over it."""
+    """
+    Build the parts of a rug, which does not collide.
+
+    Parameters
+    ----------
+    size
+        Length (x), width (y) and thickness (z), in m; a border adds 0.1 m to length and width.
+    rgb
+        Main colour, 0 to 1; the stripes and the border are darker.
+
+    """
     finish = Finish('stripes', rgb, darker(rgb, 0.8), 0.25)
     border = (size[0] + 0.1, size[1] + 0.1, 0.003)
     top = Part('box', size, (0, 0, 0.004), colour_rgba=(*rgb, 1.0), collides=False, finish=finish)
@@ -71,7 +111,17 @@ def rug(size: Vector, rgb: Vector) -> Parts:
 
 
 def picture(size: Vector, rgb: Vector) -> Parts:
-    """Return a picture in a frame, which is seen only, to hang on a wall."""
+    """
+    Build the parts of a framed picture for a wall, which does not collide.
+
+    Parameters
+    ----------
+    size
+        Depth (x, to the front), width (y) and height (z) about the origin, in m.
+    rgb
+        Main colour of the picture, 0 to 1.
+
+    """
     length, width, height = size
     blot = (0.004, 0.35 * width, 0.35 * height)
     return [
@@ -83,7 +133,17 @@ def picture(size: Vector, rgb: Vector) -> Parts:
 
 
 def window(size: Vector, rgb: Vector) -> Parts:
-    """Return a window, which is seen only, to hang on a wall."""
+    """
+    Build the parts of a window to be hung on a wall, which does not collide.
+
+    Parameters
+    ----------
+    size
+        Depth (x, to the front), width (y) and height (z) about the origin, in m.
+    rgb
+        Colour of the glowing panes, 0 to 1.
+
+    """
     length, width, height = size
     panes = [
         Part(
@@ -100,7 +160,17 @@ def window(size: Vector, rgb: Vector) -> Parts:
 
 
 def person(size: Vector, rgb: Vector) -> Parts:
-    """Return the figure of a standing person, in a shirt of a colour."""
+    """
+    Build the parts of a standing person.
+
+    Parameters
+    ----------
+    size
+        Length (unused), width across the arms (y) and height (z), in m.
+    rgb
+        Colour of the shirt, 0 to 1.
+
+    """
     _, width, height = size
     trousers = (0.22, 0.24, 0.33)
     hip, shoulder = 0.48 * height, 0.82 * height

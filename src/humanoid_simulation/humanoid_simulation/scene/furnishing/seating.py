@@ -17,7 +17,17 @@ from humanoid_simulation.scene.parts import Vector
 
 
 def table(size: Vector, rgb: Vector) -> Parts:
-    """Return a board on four legs."""
+    """
+    Build the parts of a table: a board on four legs.
+
+    Parameters
+    ----------
+    size
+        Length (x, to the front), width (y) and height (z), in m.
+    rgb
+        Colour of the board, 0 to 1; the legs are darker.
+
+    """
     length, width, height = size
     leg = 0.05
     x, y = length / 2 - leg, width / 2 - leg
@@ -33,7 +43,18 @@ def table(size: Vector, rgb: Vector) -> Parts:
 
 
 def chair(size: Vector, rgb: Vector) -> Parts:
-    """Return a seat on four legs, with a back."""
+    """
+    Build the parts of a chair with a back.
+
+    Parameters
+    ----------
+    size
+        Length (x, to the front), width (y) and height of the back (z), in m; the seat is at 0.45
+        m.
+    rgb
+        Colour of seat and back, 0 to 1; the legs are darker.
+
+    """
     length, width, height = size
     seat, leg = 0.45, 0.035
     x, y = length / 2 - leg / 2, width / 2 - leg / 2
@@ -46,7 +67,17 @@ def chair(size: Vector, rgb: Vector) -> Parts:
 
 
 def sofa(size: Vector, rgb: Vector) -> Parts:
-    """Return a seat with a back, arms and cushions."""
+    """
+    Build the parts of a sofa; its back cushions do not collide.
+
+    Parameters
+    ----------
+    size
+        Length (x, to the front), width (y) and height (z), in m.
+    rgb
+        Colour of the cover, 0 to 1.
+
+    """
     length, width, height = size
     seat, arm, back = 0.42, 0.16, 0.2
     cushions = max(1, round((width - 2 * arm) / 0.65))
@@ -70,7 +101,17 @@ def sofa(size: Vector, rgb: Vector) -> Parts:
 
 
 def bed(size: Vector, rgb: Vector) -> Parts:
-    """Return a frame with mattress, blanket and pillows; its head is at the back."""
+    """
+    Build the parts of a bed; blanket and pillows do not collide.
+
+    Parameters
+    ----------
+    size
+        Length (x, head at the back), width (y) and height of the mattress (z), in m.
+    rgb
+        Colour of the blanket, 0 to 1.
+
+    """
     length, width, height = size
     frame, head = 0.28, height + 0.4
     x = -length / 2
@@ -92,7 +133,17 @@ def bed(size: Vector, rgb: Vector) -> Parts:
 
 
 def television(size: Vector, rgb: Vector) -> Parts:
-    """Return a screen on a foot."""
+    """
+    Build the parts of a television on a foot.
+
+    Parameters
+    ----------
+    size
+        Length of the foot (x, to the front), width (y) and height (z), in m.
+    rgb
+        Colour of the case, 0 to 1.
+
+    """
     length, width, height = size
     return [
         box((length, 0.3 * width, 0.015), (0, 0, 0.0075), rgb),

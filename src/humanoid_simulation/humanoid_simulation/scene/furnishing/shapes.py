@@ -22,7 +22,23 @@ Parts = list[Part]
 def box(
     size: Vector, at: Vector, rgb: Vector, *, turn: Vector = (0.0, 0.0, 0.0), hits: bool = True
 ) -> Part:
-    """Return a box by its size and centre."""
+    """
+    Build a box.
+
+    Parameters
+    ----------
+    size
+        Length (x), width (y) and height (z), in m.
+    at
+        Its centre (3,) in the axes of the piece, in m.
+    rgb
+        Red, green and blue, 0 to 1.
+    turn
+        Roll, pitch and yaw, in rad.
+    hits
+        Whether it collides.
+
+    """
     return Part('box', size, at, turn, (*rgb, 1.0), collides=hits)
 
 
@@ -36,20 +52,64 @@ def rod(
     hits: bool = True,
     shine: float = 0.0,
 ) -> Part:
-    """Return a cylinder by its size and centre."""
+    """
+    Build a cylinder.
+
+    Parameters
+    ----------
+    radius, height
+        Its size, in m; it stands along z before it is turned.
+    at, rgb, turn, hits
+        As for `box`.
+    shine
+        How much it glows, 0 to 1.
+
+    """
     return Part('cylinder', (radius, height), at, turn, (*rgb, 1.0), collides=hits, shine=shine)
 
 
 def mesh(name: str, size: Vector, at: Vector, rgb: Vector, shine: float = 0.0) -> Part:
-    """Return a mesh, which is seen only."""
+    """
+    Build a mesh, which does not collide.
+
+    Parameters
+    ----------
+    name
+        One of `meshes.PROFILES`.
+    size
+        The box that it fills: length (x), width (y) and height (z), in m.
+    at, rgb
+        As for `box`.
+    shine
+        How much it glows, 0 to 1.
+
+    """
     return Part(MESH, size, at, colour_rgba=(*rgb, 1.0), collides=False, mesh=name, shine=shine)
 
 
 def darker(rgb: Vector, by: float = 0.75) -> Vector:
-    """Return a darker colour."""
+    """
+    Darken a colour.
+
+    Parameters
+    ----------
+    rgb
+        Red, green and blue, 0 to 1.
+    by
+        The factor to scale it by, 0 to 1: the smaller, the darker.
+
+    """
     return tuple(by * part for part in rgb)
 
 
 def lighter(rgb: Vector) -> Vector:
-    """Return a lighter colour."""
+    """
+    Lighten a colour by 15 % of its distance from white.
+
+    Parameters
+    ----------
+    rgb
+        Red, green and blue, 0 to 1.
+
+    """
     return tuple(part + 0.15 * (1.0 - part) for part in rgb)

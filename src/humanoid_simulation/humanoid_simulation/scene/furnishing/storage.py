@@ -21,7 +21,17 @@ SHELF_LEVEL = 0.55
 
 
 def counter(size: Vector, rgb: Vector) -> Parts:
-    """Return cupboards below a worktop."""
+    """
+    Build the parts of a kitchen counter: cupboards below a worktop.
+
+    Parameters
+    ----------
+    size
+        Length (x, to the front), width (y) and height (z), in m.
+    rgb
+        Colour of the cupboards, 0 to 1.
+
+    """
     length, width, height = size
     top = 0.04
     parts = [
@@ -39,7 +49,17 @@ def counter(size: Vector, rgb: Vector) -> Parts:
 
 
 def sink(size: Vector, rgb: Vector) -> Parts:
-    """Return a basin and a tap, which are seen only, on top of a counter."""
+    """
+    Build the parts of a sink on top of a counter; the basin does not collide, its tap does.
+
+    Parameters
+    ----------
+    size
+        Length (x, to the front), width (y) and height (unused), in m.
+    rgb
+        Colour of the basin, 0 to 1.
+
+    """
     length, width, _ = size
     return [
         box((length, width, 0.004), (0, 0, 0.002), rgb, hits=False),
@@ -50,7 +70,17 @@ def sink(size: Vector, rgb: Vector) -> Parts:
 
 
 def hob(size: Vector, rgb: Vector) -> Parts:
-    """Return four plates on glass, which are seen only, on top of a counter."""
+    """
+    Build the parts of a hob on top of a counter, which does not collide.
+
+    Parameters
+    ----------
+    size
+        Length (x, to the front), width (y) and height (unused), in m.
+    rgb
+        Colour of the glass, 0 to 1.
+
+    """
     length, width, _ = size
     plates = [
         rod(0.08, 0.002, (sx * length / 4, sy * width / 4, 0.005), (0.35, 0.1, 0.08), hits=False)
@@ -61,7 +91,17 @@ def hob(size: Vector, rgb: Vector) -> Parts:
 
 
 def fridge(size: Vector, rgb: Vector) -> Parts:
-    """Return a box of two doors."""
+    """
+    Build the parts of a fridge with two doors.
+
+    Parameters
+    ----------
+    size
+        Length (x, to the front), width (y) and height (z), in m.
+    rgb
+        Colour of the case, 0 to 1.
+
+    """
     length, width, height = size
     x = length / 2 + 0.005
     parts = [box(size, (0, 0, height / 2), rgb)]
@@ -75,7 +115,17 @@ def fridge(size: Vector, rgb: Vector) -> Parts:
 
 
 def wardrobe(size: Vector, rgb: Vector) -> Parts:
-    """Return a tall cupboard with two doors."""
+    """
+    Build the parts of a wardrobe with two doors.
+
+    Parameters
+    ----------
+    size
+        Length (x, to the front), width (y) and height (z), in m.
+    rgb
+        Colour of the case, 0 to 1; the doors are darker.
+
+    """
     length, width, height = size
     x = length / 2 + 0.006
     parts = [box(size, (0, 0, height / 2), rgb)]
@@ -87,7 +137,17 @@ def wardrobe(size: Vector, rgb: Vector) -> Parts:
 
 
 def cabinet(size: Vector, rgb: Vector) -> Parts:
-    """Return drawers below a top."""
+    """
+    Build the parts of a cabinet: drawers below a top.
+
+    Parameters
+    ----------
+    size
+        Length (x, to the front), width (y) and height (z), in m.
+    rgb
+        Colour of the case, 0 to 1; the top is darker.
+
+    """
     length, width, height = size
     rows, columns = max(1, round(height / 0.25)), max(1, round(width / 0.8))
     parts = [
@@ -105,7 +165,17 @@ def cabinet(size: Vector, rgb: Vector) -> Parts:
 
 
 def shelf(size: Vector, rgb: Vector) -> Parts:
-    """Return three boards between two sides, with a back; things stand on top, and inside."""
+    """
+    Build the parts of a shelf: three boards between two sides, with a back.
+
+    Parameters
+    ----------
+    size
+        Length (x, to the front), width (y) and height (z), in m.
+    rgb
+        Colour of the sides, 0 to 1; back and boards are darker.
+
+    """
     length, width, height = size
     inner = width - 2 * BOARD_M
     parts = [
@@ -121,7 +191,17 @@ def shelf(size: Vector, rgb: Vector) -> Parts:
 
 
 def bookcase(size: Vector, rgb: Vector) -> Parts:
-    """Return a tall shelf full of books, which are part of it."""
+    """
+    Build the parts of a bookcase full of books, which do not collide.
+
+    Parameters
+    ----------
+    size
+        Length (x, to the front), width (y) and height (z), in m.
+    rgb
+        Colour of sides and boards, 0 to 1.
+
+    """
     length, width, height = size
     parts = shelf(size, rgb)[:3]
     inner, rows = width - 2 * BOARD_M, max(2, round(height / 0.35))
@@ -143,7 +223,17 @@ def bookcase(size: Vector, rgb: Vector) -> Parts:
 
 
 def waste_bin(size: Vector, rgb: Vector) -> Parts:
-    """Return a box that is open above, so that things fall into it."""
+    """
+    Build the parts of a waste bin, which is open at the top so that objects fall in.
+
+    Parameters
+    ----------
+    size
+        Length (x, to the front), width (y) and height (z), in m.
+    rgb
+        Colour of the walls, 0 to 1; the bottom is darker.
+
+    """
     length, width, height = size
     wall = 0.012
     x, y = (length - wall) / 2, (width - wall) / 2
