@@ -62,7 +62,7 @@ class Story:
     """What happens after the command."""
 
     within_s: float = 600.0
-    """The simulated time within which it is over."""
+    """The time within which it is over, by the clock of the wall."""
 
 
 def stays(text: str) -> Check:

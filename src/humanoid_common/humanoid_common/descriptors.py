@@ -35,7 +35,10 @@ def _add_range(descriptor: ParameterDescriptor, spec: ParameterSpec) -> None:
     """State the limits; those of a list are stated in words, as ROS has no range for lists."""
     low, high = spec.rules.at_least, spec.rules.at_most
     if spec.is_list:
-        descriptor.additional_constraints = f'Each element between {low} and {high}'
+        between = f'between {low} and {high}'
+        bounds = f'at most {high}' if low is None else f'at least {low}'
+        told = bounds if None in (low, high) else between
+        descriptor.additional_constraints = f'Each element {told}'
     elif spec.element is float:
         descriptor.floating_point_range = [
             FloatingPointRange(

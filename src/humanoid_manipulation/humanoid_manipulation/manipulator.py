@@ -154,7 +154,6 @@ class Manipulator(Node):
         """Return which arm gets to a pose, and how."""
         told, request, body = self.parameters.current, goal.request, self.arms.body
         obstacles = await self.surroundings.obstacles(goal)
-        world = self.arms.world(obstacles, self.held.boxes, told.clearance)
         # Along the hand, z points back to the wrist.
         back = wanted.rotation[:, 2] * float(request.approach)
         first = Frame(wanted.position_m + back, wanted.rotation)
@@ -162,6 +161,8 @@ class Manipulator(Node):
         error: ManipulationError | None = None
         for side in sides:
             start = self.arms.reach_of(side)
+            # Its own one: a world keeps the posture in which an arm was tried last.
+            world = self.arms.world(obstacles, self.held.boxes, told.clearance)
             try:
                 begin = body.reach(side, first, start)
                 straight = approach(body, side, begin, -back) if request.approach else []

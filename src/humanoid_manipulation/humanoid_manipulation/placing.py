@@ -189,7 +189,7 @@ class Placing(Handling):
         await self.go_to(goal, side, grasp, held.box.name)
         self.tell(goal, 'opening')
         await self.let_go(goal, side, wide=surface.is_container)
-        at = grasp.gripper.position_m
+        at = grasp.gripper.position_m + grasp.gripper.rotation @ held.box.middle.position_m
         position = goal.result.position
         position.x, position.y, position.z = float(at[0]), float(at[1]), surface.height_m
         away = grasp.gripper.rotation[:, 2] * 0.10

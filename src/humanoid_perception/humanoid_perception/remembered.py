@@ -224,7 +224,8 @@ class RememberedThing:
             time_s,
             log_odds=log_odds,
         )
-        thing.take(sighting, noise_m2, time_s)
+        thing._grow(sighting, noise_m2)
+        thing._note(sighting, time_s)
         return thing
 
     @property
@@ -298,6 +299,10 @@ class RememberedThing:
         if not sighting.is_cut:
             self._move(sighting.position_m, noise_m2)
             self._grow(sighting, noise_m2)
+        self._note(sighting, time_s)
+
+    def _note(self, sighting: Sighting, time_s: float) -> None:
+        """Count a detection, and vote for its class and colour."""
         self.classes.add(sighting.class_id, sighting.score * (0.5 if sighting.is_cut else 1.0))
         if sighting.colour:
             self.colours.add(sighting.colour, sighting.score)
@@ -366,7 +371,9 @@ class RememberedThing:
             self.size_weight, self.nearest_weight = other.size_weight, other.nearest_weight
         self.classes.absorb(other.classes)
         self.colours.absorb(other.colours)
-        self.sightings += other.sightings
+        together = self.sightings + other.sightings
+        self.score = (self.score * self.sightings + other.score * other.sightings) / together
+        self.sightings = together
         self.log_odds = max(self.log_odds, other.log_odds)
         self.first_seen_s = min(self.first_seen_s, other.first_seen_s)
         if other.last_seen_s > self.last_seen_s:

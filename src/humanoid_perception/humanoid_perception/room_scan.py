@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import math
-import struct
 from typing import Any, TYPE_CHECKING
 
 from action_msgs.msg import GoalStatus
@@ -14,6 +13,7 @@ from humanoid_common.qos import STATE
 from humanoid_common.single_goal import GoalAborted, RunningGoal
 from humanoid_interfaces.action import ScanRoom
 from humanoid_interfaces.srv import FindObjects
+from humanoid_perception.frames import stamp_in
 from humanoid_perception.scanning import Coverage, FieldOfView, head_sweep, stances
 from nav2_msgs.action import Spin
 import numpy as np
@@ -92,9 +92,7 @@ class RoomScan:
 
     def _take(self, data: bytes) -> None:
         """Take note of the time of a picture in which things were looked for."""
-        order = '<' if data[1] else '>'
-        seconds, nanoseconds = struct.unpack_from(f'{order}iI', data, 4)
-        self._looks_s.append(seconds + nanoseconds * 1e-9)
+        self._looks_s.append(stamp_in(data))
 
     async def _sweeps(self, goal: RunningGoal) -> None:
         gaze, told = self._gaze, self._gaze.parameters.current

@@ -7,7 +7,7 @@ import math
 
 from humanoid_perception.memory import MemorySettings, ObjectMemory, shift_between
 from humanoid_perception.memory_testing import around, Box, TABLE, WALL, World
-from humanoid_perception.remembered import Sighting
+from humanoid_perception.remembered import RememberedThing, Sighting
 import numpy as np
 import pytest
 
@@ -63,6 +63,22 @@ def test_a_weak_detection_needs_more_sightings_than_a_strong_one() -> None:
             count += 1
         counts.append(count)
     assert counts[0] < counts[1]
+
+
+def test_a_first_look_counts_once() -> None:
+    """What is known after it is as unsure as that look, and two objects keep their mean score."""
+    noise_m2 = np.diag((0.01, 0.02, 0.03))
+    look = Sighting('mug', 0.9, np.array(MIDDLE), np.full(3, 0.1))
+    thing = RememberedThing.of(look, noise_m2, 1.0, 0.5)
+    assert thing.covariance_m2 == pytest.approx(noise_m2)
+    assert (thing.sightings, thing.score) == (1, pytest.approx(0.9))
+    for _ in range(2):
+        thing.take(look, noise_m2, 2.0)
+    other = RememberedThing.of(
+        Sighting('mug', 0.5, np.array(MIDDLE), np.full(3, 0.1)), noise_m2, 1.0, 0.5
+    )
+    thing.absorb(other)
+    assert (thing.sightings, thing.score) == (4, pytest.approx(0.8))
 
 
 @pytest.mark.parametrize('seed', SEEDS)

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The files that this package installs."""
+"""The files that this package installs, and how it writes others."""
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
+
+from humanoid_simulation.errors import SimulationError
 
 SCENE_SUFFIXES = ('.yaml', '.yml')
 
@@ -18,3 +21,31 @@ def share() -> Path:
 def installed_scenes() -> dict[str, Path]:
     """Return the files of the scenes that are installed, by name."""
     return {path.stem: path for path in sorted((share() / 'scenes').glob('*.yaml'))}
+
+
+def replace_file(path: Path, content: bytes) -> None:
+    """
+    Write a file that appears complete or not at all.
+
+    Parameters
+    ----------
+    path
+        The file; one that is there is replaced.
+    content
+        What it is to contain.
+
+    Raises
+    ------
+    SimulationError
+        It cannot be written; a file that was there stays as it was.
+
+    """
+    new = path.with_name(f'.{path.name}.{os.getpid()}')
+    try:
+        try:
+            new.write_bytes(content)
+            new.replace(path)
+        finally:
+            new.unlink(missing_ok=True)
+    except OSError as error:
+        raise SimulationError(f'{path} cannot be written: {error.strerror}.') from error

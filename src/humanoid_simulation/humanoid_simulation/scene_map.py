@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-import os
 from pathlib import Path
 import signal
 import sys
 
 from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.files import replace_file
 from humanoid_simulation.scene import load_scene
 from humanoid_simulation.scene.occupancy import FREE, Layer, occupancy_of, OccupancyMap, OCCUPIED
 import numpy as np
@@ -157,7 +157,7 @@ def write_map(drawn: OccupancyMap, stem: Path) -> tuple[Path, Path]:
         greys[drawn.cells == value] = grey
     header = f'P5\n{columns} {rows}\n255\n'.encode()
     # A picture begins with the row of the largest y.
-    _replace(picture, header + greys[::-1].tobytes())
+    replace_file(picture, header + greys[::-1].tobytes())
     x_m, y_m = drawn.origin_m
     text = (
         f'image: {picture.name}\n'
@@ -168,21 +168,8 @@ def write_map(drawn: OccupancyMap, stem: Path) -> tuple[Path, Path]:
         'occupied_thresh: 0.65\n'
         'free_thresh: 0.196\n'
     )
-    _replace(table, text.encode())
+    replace_file(table, text.encode())
     return picture, table
-
-
-def _replace(path: Path, content: bytes) -> None:
-    """Write a file beside its place, and move it there when it is complete."""
-    new = path.with_name(f'.{path.name}.{os.getpid()}')
-    try:
-        try:
-            new.write_bytes(content)
-            new.replace(path)
-        finally:
-            new.unlink(missing_ok=True)
-    except OSError as error:
-        raise SimulationError(f'{path} cannot be written: {error.strerror}.') from error
 
 
 if __name__ == '__main__':

@@ -6,9 +6,11 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+import signal
 import sys
 
 from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.files import replace_file
 from humanoid_simulation.scene import load_scene
 from humanoid_simulation.scene.outlines import rectangle
 from humanoid_simulation.scene.scene import COMPOSED, Scene, Surface
@@ -38,7 +40,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit code: 0, or 1 if the scene cannot be read or the file not written.
+        Exit code: 0, 1 if the scene cannot be read or the file not written, or 130 after Ctrl-C.
 
     """
     parser = argparse.ArgumentParser(
@@ -56,10 +58,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         scene = load_scene(arguments.scene)
         path = arguments.output or Path(f'places_{scene.name}.yaml')
-        path.write_text(places_text(scene), encoding='utf-8')
-    except (SimulationError, OSError) as error:
+        replace_file(path, places_text(scene).encode())
+    except SimulationError as error:
         print(error, file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return 128 + signal.SIGINT
     print(f'{path}: {len(scene.surfaces)} surfaces and {len(scene.rooms)} rooms')
     return 0
 

@@ -11,6 +11,7 @@ from humanoid_simulation.scene.resources import (
     ResourceError,
     spawnables,
     thing_from,
+    world_at,
     world_of,
     worlds_in,
 )
@@ -111,5 +112,9 @@ def test_worlds_say_what_they_are(tmp_path: Path) -> None:
     assert world_of('', 'floor: {friction: 0.2}')[1].floor.friction == pytest.approx(0.2)
     with pytest.raises(ResourceError, match='cannot be read'):
         worlds_in(str(tmp_path / 'none'))
+    (tmp_path / 'mine.yaml').write_bytes(b'# \xff\n')
+    for ask in (lambda: world_at(mine.uri), lambda: worlds_in(str(tmp_path))):
+        with pytest.raises(ResourceError, match=r"mine.yaml' cannot be read: .*utf-8"):
+            ask()
     with pytest.raises(ResourceError, match='a world: apartment'):
         world_of('rom', '')

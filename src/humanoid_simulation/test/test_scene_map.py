@@ -140,6 +140,8 @@ def test_the_files_are_what_map_servers_read(tmp_path: Path, capsys) -> None:
         (['--start', '2.7', '2.0'], 'something solid is there'),
         (['--resolution', '0.005', '--margin', '100'], 'Give larger cells'),
         (['--output', 'no/such/folder/map'], 'cannot be written'),
+        (['--margin', '-1'], 'A margin of -1 m is too small'),
+        (['flat', '--margin', '0'], 'A margin of 0 m is too small'),
     ],
 )
 def test_what_cannot_be_drawn_is_a_sentence(

@@ -35,6 +35,15 @@ def test_a_scene_that_is_not_there_is_named(
     assert not path.exists()
 
 
+def test_a_file_that_cannot_be_written_is_a_sentence(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """And no part of it is left."""
+    path = tmp_path / 'none' / 'places.yaml'
+    assert main(['apartment', '--output', str(path)]) == 1
+    assert capsys.readouterr().err == f'{path} cannot be written: No such file or directory.\n'
+
+
 def test_bins_are_containers_and_fixtures_are_named(tmp_path: Path) -> None:
     """What stands on a surface for good, with its outline and height; nothing that can move."""
     path = tmp_path / 'places.yaml'

@@ -15,7 +15,7 @@ from humanoid_control.limits import JointLimits
 TOLERANCE_M = 0.002
 """So close to the gap that was asked for, it is reached."""
 STALL_M, STALL_S = 0.0005, 0.3
-"""A gap that changes by less in that time is held open, or closed, by something."""
+"""A finger that moves by less in that time is held by something."""
 _BEYOND_M = 1e-3
 """By so much a gap may be out of range: it was rounded, or measured."""
 REACHED = 'The gap is reached.'

@@ -7,14 +7,12 @@ from typing import Any
 
 from geometry_msgs.msg import Pose, Twist
 from humanoid_control.controllers import CommandError, TrajectoryPoint
+from humanoid_control.controllers.trajectory import MOST_POINTS
 from humanoid_control.dynamics.rotations import from_quaternion, to_rpy
 from humanoid_control.walking.body_pose import BodyPose
 from humanoid_control.walking.errors import WalkingError
 from humanoid_control.walking.velocity_command import VelocityCommand
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
-
-MOST_POINTS = 1000
-"""Of a trajectory: while it is checked, the robot is not controlled."""
 
 
 def velocity_of(message: Twist) -> VelocityCommand:

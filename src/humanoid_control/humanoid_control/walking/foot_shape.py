@@ -45,7 +45,7 @@ class FootShape:
         Raises
         ------
         WalkingError
-            No link of the foot has a collision shape.
+            No link of the foot has a collision shape that is no mesh.
 
         """
         sole = robot.prefix + 'l_sole'
@@ -57,9 +57,12 @@ class FootShape:
             if foot.collisions:
                 in_sole = np.asarray(np.linalg.inv(pose_along(way[start:], {})), np.float64)
                 corners = outline(foot.collisions, in_sole)
+                if not len(corners):
+                    break
                 return cls._within(corners.min(axis=0), corners.max(axis=0), parameters)
         raise WalkingError(
-            f"'{sole}' has no foot with a collision shape: nobody can tell where it may stand."
+            f"'{sole}' has no foot with a collision shape that is no mesh: nobody can tell where "
+            'it may stand.'
         )
 
     @classmethod

@@ -60,7 +60,7 @@ class WalkParameters:
     most_length_m: float = _length(0.32)
     """How far a foot may land before or behind the other one when it has to catch the robot."""
     preview_steps: int = 4
-    """How many steps the plan looks ahead beyond the present one."""
+    """How many steps the plan looks ahead, the present one among them."""
     course_gain: float = 0.5
     """How much of the way back to its course the robot goes in a step."""
     course_distance_m: float = _length(0.06)

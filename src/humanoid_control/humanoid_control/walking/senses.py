@@ -60,12 +60,14 @@ class Senses:
         Raises
         ------
         WalkingError
-            The orientation, the angular velocity, the forces on the feet, or the positions or
-            velocities of the joints have the wrong shape or are not finite.
+            What the joints, the inertial sensor or the feet say has the wrong shape or is not
+            finite.
 
         """
         _check('angular_velocity_rad_s', observation.angular_velocity_rad_s, (3,))
+        _check('linear_acceleration_m_s2', observation.linear_acceleration_m_s2, (3,))
         _check('foot_forces_n', observation.foot_forces_n, (2, 3))
+        _check('efforts_nm', observation.efforts_nm, observation.positions_rad.shape)
         try:
             rotation = self._heading.base_rotation(observation.orientation)
             rates = self._heading.base_rates(observation.angular_velocity_rad_s)

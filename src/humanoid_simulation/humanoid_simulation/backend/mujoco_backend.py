@@ -11,7 +11,7 @@ from humanoid_simulation.backend.contacts import Contact, contacts_in
 from humanoid_simulation.backend.entities import Entities, EntityState
 from humanoid_simulation.backend.hoisting import Hoists
 from humanoid_simulation.backend.last_sound import LastSound
-from humanoid_simulation.backend.names import ALONE, Names
+from humanoid_simulation.backend.names import Names
 from humanoid_simulation.backend.robot import SimulatedRobot
 from humanoid_simulation.backend.settings import BackendSettings
 from humanoid_simulation.backend.snapshot import carry_over, numbers_in, Snapshot
@@ -27,6 +27,7 @@ from humanoid_simulation.model import (
     RobotDescription,
 )
 from humanoid_simulation.model.robot_spec import CAMERA
+from humanoid_simulation.model.world import ALONE
 from humanoid_simulation.scene import Scene
 import mujoco
 import numpy as np
@@ -265,7 +266,13 @@ class MujocoBackend:
         robot
             Name of the robot; '' if it has none.
 
+        Raises
+        ------
+        SimulationError
+            There is no such robot.
+
         """
+        named('robot', robot, self._robots)
         return self._entities.state(robot or ALONE)
 
     def set_entity_state(self, entity: str, state: EntityState) -> None:

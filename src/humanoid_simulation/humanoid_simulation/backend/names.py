@@ -9,9 +9,9 @@ from typing import Any
 from humanoid_simulation.choosing import named
 from humanoid_simulation.model import in_world
 from humanoid_simulation.model.robot_spec import FLOATING_BASE
+from humanoid_simulation.model.world import ALONE
 from humanoid_simulation.scene import Scene
 
-ALONE = 'robot'
 """What a robot without a name is called among the things of the world."""
 
 

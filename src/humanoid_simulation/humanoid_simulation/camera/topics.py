@@ -116,8 +116,8 @@ class CameraTopics:
             A model that has all the cameras.
 
         """
-        self._renderer.close()
-        self._renderer = self._make_renderer(model)
+        before, self._renderer = self._renderer, self._make_renderer(model)
+        before.close()
         self._state = self._taken = None
 
     def close(self) -> None:

@@ -110,11 +110,16 @@ def occupancy_of(
     Raises
     ------
     SimulationError
-        The resolution is not in 0.005 to 1 m, the start is occupied, or there are too many cells.
+        The resolution is not in 0.005 to 1 m, the margin is less than a cell, the start is
+        occupied, or there are too many cells.
 
     """
     if not 0.005 <= resolution_m <= 1.0:
         raise SimulationError(f'Cells cannot have edges of {resolution_m:g} m. Give 0.005 to 1 m.')
+    if not margin_m >= resolution_m:
+        raise SimulationError(
+            f'A margin of {margin_m:g} m is too small. Give at least {resolution_m:g} m, a cell.'
+        )
     sections = [
         section
         for thing in scene.things

@@ -93,12 +93,12 @@ def worlds_in(source: str) -> list[World]:
     folder = _path_of(source)
     try:
         paths = sorted(path for path in folder.iterdir() if path.suffix in SCENE_SUFFIXES)
-        return [_world(path, str(path)) for path in paths]
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
+    except OSError as error:
         raise ResourceError(
-            'NO_RESOURCE', f"The source '{source}' cannot be read: {reason}. Give a folder."
+            'NO_RESOURCE',
+            f"The source '{source}' cannot be read: {error.strerror}. Give a folder.",
         ) from error
+    return [_world(path, str(path)) for path in paths]
 
 
 def world_of(uri: str, text: str) -> tuple[World, Scene]:
@@ -259,12 +259,18 @@ def _scene_file(uri: str) -> Path:
 def _world(path: Path, uri: str) -> World:
     """Return what is known of a scene file: the comment at its top tells what it is."""
     words: list[str] = []
-    with open(path, encoding='utf-8') as stream:
-        for line in stream:
-            comment = line.strip('# \n')
-            if not line.startswith('#') or not comment:
-                break
-            words.append(comment)
+    try:
+        with open(path, encoding='utf-8') as stream:
+            for line in stream:
+                comment = line.strip('# \n')
+                if not line.startswith('#') or not comment:
+                    break
+                words.append(comment)
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise ResourceError(
+            'NO_RESOURCE', f"'{path}' cannot be read: {reason}. Give a scene file."
+        ) from error
     return World(path.stem, uri, ' '.join(words))
 
 

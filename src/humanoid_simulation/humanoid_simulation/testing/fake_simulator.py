@@ -46,7 +46,7 @@ class FakeSimulator(Node):
             for topic in ('ground_truth/odom', 'odom')
         ]
         self._state = self.create_publisher(String, 'walking_state', LATCHED)
-        self._state.publish(String(data='STAND'))
+        self._state.publish(String(data='stand'))
         self.create_subscription(Twist, 'cmd_vel', self._obey, COMMAND)
         self.create_service(ApplyWrench, '~/apply_wrench', self._be_pushed)
         self.create_service(ResetSimulation, '~/reset_simulation', self._begin_anew)
