@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Check that the docstrings of `src` explain the arguments of what they describe."""
+"""Check that docstrings in `src` explain the arguments of what they describe."""
 
 from __future__ import annotations
 
@@ -22,13 +22,20 @@ def modules(package: str) -> Iterator[Path]:
             yield path
 
 
-def public_functions(node: ast.AST) -> Iterator[Function]:
-    """Yield the public functions of a module or class, and of its public classes."""
+def explaining(node: ast.AST) -> Iterator[tuple[Function, str]]:
+    """Yield public functions, also those of classes, and the docstrings that explain them."""
     for each in ast.iter_child_nodes(node):
-        if isinstance(each, Function) and not each.name.startswith('_'):
-            yield each
+        if isinstance(each, Function) and each.name == '__init__' and not is_error(node):
+            yield each, ast.get_docstring(node) or ''
+        elif isinstance(each, Function) and not each.name.startswith('_'):
+            yield each, ast.get_docstring(each) or ''
         elif isinstance(each, ast.ClassDef) and not each.name.startswith('_'):
-            yield from public_functions(each)
+            yield from explaining(each)
+
+
+def is_error(node: ast.AST) -> bool:
+    """Return whether a class is one of exceptions, which are made where they are raised."""
+    return any(ast.unparse(each).endswith(('Error', 'Exception')) for each in node.bases)
 
 
 def arguments(function: Function) -> set[str]:
@@ -55,9 +62,8 @@ def test_arguments_are_explained(package: str) -> None:
     """Each by its name, in the section for that, and none that is not there."""
     wrong = []
     for path in modules(package):
-        for function in public_functions(ast.parse(path.read_text())):
-            wanted = arguments(function)
-            found = explained(ast.get_docstring(function) or '')
+        for function, docstring in explaining(ast.parse(path.read_text())):
+            wanted, found = arguments(function), explained(docstring)
             if wanted != found:
                 where = f'{path.relative_to(SRC)}:{function.lineno} {function.name}'
                 wrong.append(f'{where}: {sorted(wanted ^ found)}')

@@ -22,11 +22,26 @@ JOIN_S = 1.0
 
 class PatientInterrupt:
     """
-    A signal handler that lets the node end by itself.
+    Signal handler that lets the node end by itself.
 
     Raising KeyboardInterrupt would break into whatever runs at that moment. Only when the node
-    still runs a second later, a further signal raises, so that a callback that never returns
+    still runs after the patience, a further signal raises, so that a callback that never returns
     can be ended; and when the request says that it is better to break off.
+
+    Parameters
+    ----------
+    request
+        The stop request of the node; `at_once` makes the first signal raise.
+    patience_s
+        How long after the first signal the node may take to end by itself.
+    clock
+        Tells the time of a steady clock in s.
+
+    Attributes
+    ----------
+    was_called
+        Whether a signal has come.
+
     """
 
     def __init__(
@@ -35,7 +50,6 @@ class PatientInterrupt:
         patience_s: float = 1.0,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """Set how long the node may take to end by itself."""
         self._request = request
         self._patience_s = patience_s
         self._clock = clock

@@ -30,8 +30,23 @@ class NodeParameters(Generic[T]):
     """
     Declare the fields of a parameter dataclass on a node, and keep the current snapshot.
 
-    A change at run time is checked as a whole and refused with its reason; an accepted one
+    A change at run time is checked as a whole and rejected with its reason; an accepted one
     replaces the snapshot and is handed to `on_change`.
+
+    Parameters
+    ----------
+    node
+        The node, whose parameter files and `-p` arguments set the first values.
+    kind
+        The dataclass, whose fields are declared with `parameter`.
+    on_change
+        Called with the new snapshot after an accepted change.
+
+    Raises
+    ------
+    ParameterError
+        A value that was given at the start is not valid; the text names the node.
+
     """
 
     def __init__(
@@ -40,7 +55,6 @@ class NodeParameters(Generic[T]):
         kind: type[T],
         on_change: Callable[[T], None] | None = None,
     ) -> None:
-        """Declare the parameters, with the values that were given to the node at its start."""
         self._node = node
         self._kind = kind
         self._specs = specs_of(kind)

@@ -35,7 +35,24 @@ class GoalAborted(Exception):
 
 
 class RunningGoal:
-    """A goal that is being worked on: its request, its result, and whether it may go on."""
+    """
+    A goal that is being worked on: its request, its result, and whether it may go on.
+
+    Parameters
+    ----------
+    owner
+        Runs the goals, and knows the newest one and why the robot may not move.
+    handle
+        The goal as the action server has it.
+    result
+        The result message, which the work fills in.
+
+    Attributes
+    ----------
+    request
+        The goal message that the client sent.
+
+    """
 
     def __init__(self, owner: SingleGoal, handle: ServerGoalHandle, result: Any) -> None:
         self._owner, self._handle = owner, handle

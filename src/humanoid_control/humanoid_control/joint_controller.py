@@ -24,6 +24,12 @@ class HumanoidJointController(Node):
 
     The motion goes by the clock of the node: with `use_sim_time` it is as slow as the simulation,
     and stands still with it. The watch over the person in control goes by a steady clock.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
     """
 
     def __init__(self, **options: Any) -> None:

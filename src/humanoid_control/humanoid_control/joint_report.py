@@ -7,10 +7,17 @@ from collections.abc import Sequence
 
 
 class JointReporter:
-    """Makes a line of text of the first joint, at most once in a period."""
+    """
+    Format the first joint of joint states as a line of text, at most once in a period.
+
+    Parameters
+    ----------
+    period_s
+        The least time between two reports.
+
+    """
 
     def __init__(self, period_s: float) -> None:
-        """Set the least time between two reports."""
         self.period_s = period_s
         self._last_s: float | None = None
 

@@ -39,7 +39,15 @@ NO_TURN = (
 
 
 class MockRobot(Node):
-    """Takes commands and says where the joints are, as a simulator does, but without physics."""
+    """
+    Takes commands and says where the joints are, as a simulator does, but without physics.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
 
     def __init__(self, **options: Any) -> None:
         """Start to run."""

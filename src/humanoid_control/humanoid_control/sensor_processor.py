@@ -17,7 +17,15 @@ from sensor_msgs.msg import JointState
 
 
 class SensorProcessor(Node):
-    """Logs the position of the first joint on the topic `joint_commands`."""
+    """
+    Logs the position of the first joint on the topic `joint_commands`.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
 
     def __init__(self, **options: Any) -> None:
         """Start to listen."""

@@ -8,14 +8,19 @@ PRESSED = 'the emergency stop is pressed'
 
 class StopGuard:
     """
-    Knows why the robot must hold still, if it must.
+    Decide whether the robot must hold still, and know why.
 
     There are two reasons: somebody pressed the emergency stop, or the console that was in control
     is gone. Both last until the emergency stop is released, which is for a person to do.
+
+    Parameters
+    ----------
+    heartbeat_timeout_s
+        How long a console in control may be silent, in real time.
+
     """
 
     def __init__(self, heartbeat_timeout_s: float) -> None:
-        """Set for how long a console in control may be silent; nothing is wrong yet."""
         self.heartbeat_timeout_s = heartbeat_timeout_s
         self._reason = ''
         self._in_control = False

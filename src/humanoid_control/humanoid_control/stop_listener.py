@@ -20,16 +20,30 @@ CHECK_S = 0.05
 
 class StopListener:
     """
-    The topics of a stop: `emergency_stop` and `console_heartbeat`; says `stop_state`.
+    Subscribe to `emergency_stop` and `console_heartbeat`, and publish `stop_state`.
 
     A stop is heard twice: once with what was said before this node started, and once from
     publishers that keep nothing for those who join late, or send nothing twice.
 
     People go by real time: the watch over the console goes on while a simulation is paused.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes and publishes.
+    heartbeat_timeout_s
+        How long the console in control may be silent, in real time.
+    robot
+        Namespace of the robot in that of the node; empty if it has none of its own.
+
+    Attributes
+    ----------
+    guard
+        Decides whether the robot must hold still; its timeout may be changed.
+
     """
 
     def __init__(self, node: Node, heartbeat_timeout_s: float, robot: str = '') -> None:
-        """Begin to listen; `robot` is a namespace in that of the node."""
         place = f'{robot}/' if robot else ''
         self.guard = StopGuard(heartbeat_timeout_s)
         self._log = node.get_logger()

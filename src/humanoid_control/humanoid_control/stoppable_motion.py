@@ -16,10 +16,15 @@ class StoppableMotion:
 
     After a release the joints go from where they were held into the motion, from rest and
     steadily, even if it has become another one meanwhile.
+
+    Parameters
+    ----------
+    motion
+        The motion of the joints, which is not held at first.
+
     """
 
     def __init__(self, motion: Motion) -> None:
-        """Begin with a motion that is not held."""
         self._motion = motion
         self._behind_s = 0.0
         self._last: JointCommand | None = None

@@ -7,10 +7,21 @@ import numpy as np
 
 
 class DropOuts:
-    """Ticks that a controller misses, because its computer is busy elsewhere."""
+    """
+    Random drop-outs of control: ticks that it misses because its computer is busy elsewhere.
+
+    Parameters
+    ----------
+    random
+        Source of random numbers.
+    chance
+        Probability that a drop-out begins at a tick, unless one lasts already.
+    longest_ticks
+        A drop-out lasts 1 to so many ticks, each number as likely.
+
+    """
 
     def __init__(self, random: np.random.Generator, chance: float, longest_ticks: int) -> None:
-        """Set the chance that a drop-out begins at a tick; it lasts 1 to `longest_ticks`."""
         self._random = random
         self._chance = chance
         self._longest_ticks = longest_ticks

@@ -93,10 +93,17 @@ class Search:
 
 
 class EntityCatalogue:
-    """Describes the entities of a world; who knows better can change what is said of one."""
+    """
+    Descriptions of the entities of a world, which can be overridden, and a search among them.
+
+    Parameters
+    ----------
+    backend
+        The world.
+
+    """
 
     def __init__(self, backend: MujocoBackend) -> None:
-        """Take the world."""
         self._backend = backend
         self._changed: dict[str, Description] = {}
 

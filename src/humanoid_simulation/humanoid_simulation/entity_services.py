@@ -62,10 +62,19 @@ _NAMESPACE = re.compile(r'/?([A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*)?'
 
 
 class EntityServices:
-    """Find entities, tell of them, put them somewhere, make and delete them."""
+    """
+    Services of `simulation_interfaces` that find, describe, move, spawn and delete entities.
+
+    Parameters
+    ----------
+    node
+        The node that offers them, below its own name.
+    world
+        The world that they act on.
+
+    """
 
     def __init__(self, node: Node, world: SimulatedWorld) -> None:
-        """Offer the services below the name of the node."""
         self._world, self._catalogue = world, world.catalogue
         for kind, name, do in (
             (GetEntities, 'get_entities', self._find),

@@ -11,12 +11,28 @@ from humanoid_simulation.errors import SimulationError
 
 
 class GuardedLoop(ControlLoop):
-    """A control loop that stands still after an error, until it is reset."""
+    """
+    A control loop that stands still after an error of the simulation, until it is reset.
+
+    Parameters
+    ----------
+    backend
+        The simulated world.
+    brains
+        Controllers by the names of robots; a robot without one gets no targets.
+    say
+        Called with the message of an error.
+
+    Raises
+    ------
+    ValueError
+        There is a controller for a robot that the backend does not have.
+
+    """
 
     def __init__(
         self, backend: Backend, brains: Mapping[str, Brain], say: Callable[[str], None]
     ) -> None:
-        """Take what is run, and who is told of an error."""
         super().__init__(backend, brains)
         self._say = say
         self._has_failed = False

@@ -57,6 +57,20 @@ class Hoist:
 
     The point goes up above where the robot lies, waits there and comes down; meanwhile the base
     is turned upright, facing where it faced. When the feet carry the robot, the hoist lets go.
+
+    Parameters
+    ----------
+    state
+        State of the base when the hoist takes hold of it, in the world frame.
+    mass_kg
+        Mass of the robot.
+    standing_m
+        Height of the base above the ground when the robot stands.
+    ground_m
+        Height of the ground where the robot lies, in the world frame.
+    settings
+        Speeds, stiffness and durations.
+
     """
 
     def __init__(
@@ -67,13 +81,6 @@ class Hoist:
         ground_m: float = 0.0,
         settings: HoistSettings = HoistSettings(),
     ) -> None:
-        """
-        Take hold of a robot.
-
-        :param state: of its base
-        :param standing_m: how high the base is above the ground when the robot stands
-        :param ground_m: how high the ground is where the robot lies
-        """
         self._settings, self._mass_kg = settings, mass_kg
         self._inertia_kgm2 = mass_kg * (settings.gyration * standing_m / 2.0) ** 2
         self._standing_m, self._ground_m = standing_m, ground_m

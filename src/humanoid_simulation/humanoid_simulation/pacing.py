@@ -13,14 +13,28 @@ _LARGEST_FACTOR = 100.0
 
 class Pacer:
     """
-    Says when the next period of the world is due, and how fast the periods really follow.
+    Schedules the control periods at a real-time factor, and measures the one that is reached.
 
     The factor is how many seconds of the world pass in a real one; 0 is as fast as possible. All
-    times are those of a clock that nobody sets.
+    times but the period are those of a monotonic clock.
+
+    Parameters
+    ----------
+    period_s
+        Control period, in simulated time.
+    factor
+        The real-time factor, from 0 to 100.
+    now_s
+        Time now, at which the first period is due.
+
+    Raises
+    ------
+    SimulationError
+        The factor is below 0 or above 100.
+
     """
 
     def __init__(self, period_s: float, factor: float, now_s: float) -> None:
-        """Begin: the first period is due now."""
         self._period_s = period_s
         self._factor = _checked(factor)
         self.restart(now_s)

@@ -29,7 +29,24 @@ class State(IntEnum):
 
 
 class SimulatedWorld:
-    """Changes a world between two periods, and tells those who show it."""
+    """
+    The world on which services act: they change it between control periods, pause and step it.
+
+    Parameters
+    ----------
+    backend, loop, host
+        The world, the control loop of its robots, and what ticks that.
+    steps_per_period
+        Physics steps in a control period.
+    follow
+        Called after a change of the scene.
+
+    Attributes
+    ----------
+    catalogue
+        Descriptions of the entities.
+
+    """
 
     def __init__(
         self,
@@ -39,19 +56,6 @@ class SimulatedWorld:
         steps_per_period: int,
         follow: Callable[[], None],
     ) -> None:
-        """
-        Take what runs the world.
-
-        Parameters
-        ----------
-        backend, loop, host
-            The world, what controls its robots, and what lets time pass.
-        steps_per_period
-            Physics steps in a control period.
-        follow
-            Is called after a change of the scene.
-
-        """
         self.backend = backend
         self.catalogue = EntityCatalogue(backend)
         self._loop, self._host, self._follow = loop, host, follow

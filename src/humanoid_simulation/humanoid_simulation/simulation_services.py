@@ -80,10 +80,26 @@ _QUIT_S = 0.2
 
 
 class SimulationServices:
-    """Pause, step, reset, load, end; push, and help up."""
+    """
+    Services of `simulation_interfaces` for state, steps, reset and worlds; pushes and `stand_up`.
+
+    Parameters
+    ----------
+    node
+        The node that offers them, below its own name, but `stand_up` in that of each robot.
+    world
+        The world that they act on.
+    parameters
+        The parameters of the simulator, of which `scene` and `reset_keyframe` count.
+
+    Raises
+    ------
+    ResourceError
+        There is no such scene, or its file cannot be read.
+
+    """
 
     def __init__(self, node: Node, world: SimulatedWorld, parameters: SimulatorParameters) -> None:
-        """Offer the services below the name of the node."""
         self._node, self._world = node, world
         self._loaded = world_at(parameters.scene)
         self.change(parameters)

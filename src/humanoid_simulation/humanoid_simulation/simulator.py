@@ -35,7 +35,15 @@ from rclpy.node import Node
 
 
 class Simulator(Node):
-    """Hosts a world with robots and their controllers, in lockstep."""
+    """
+    Hosts a world with robots and their controllers, in lockstep.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
 
     def __init__(self, **options: Any) -> None:
         """Start to run."""

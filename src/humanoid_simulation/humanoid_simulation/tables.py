@@ -76,10 +76,24 @@ class TableError(SimulationError):
 
 
 class Table:
-    """Names and values of a file, or of a part of it."""
+    """
+    Names and values of a file, or of a part of it, which are checked when they are read.
+
+    Parameters
+    ----------
+    values
+        What the file holds there; of a `LinedTable`, errors name the lines of the values too.
+    place
+        Where that is in the file.
+
+    Raises
+    ------
+    TableError
+        The values are no table.
+
+    """
 
     def __init__(self, values: Any, place: Place) -> None:
-        """Take what a file holds; `place` is where that stands."""
         if not isinstance(values, Mapping):
             what = place.key or 'the file'
             raise place.error(f'{what} must be a table of names and values, but is {values!r}.')

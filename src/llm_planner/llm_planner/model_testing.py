@@ -35,7 +35,15 @@ def says(content: Any) -> Answer:
 
 
 class ModelStub:
-    """What a server answers, and what it was asked."""
+    """
+    What a server answers, and what it was asked.
+
+    Parameters
+    ----------
+    *answers
+        What it answers, one after the other; a function gets the request.
+
+    """
 
     def __init__(self, *answers: Answer | Callable[[dict[str, Any]], Answer]) -> None:
         self.answers = list(answers)

@@ -41,7 +41,26 @@ class Clause:
 
 
 class Reading:
-    """Turns the clauses of a sentence into steps, one after another."""
+    """
+    Interpreter that turns the clauses of a sentence into steps, one after another.
+
+    Parameters
+    ----------
+    skills
+        What the robot can be asked for.
+    world
+        What is known of places, objects, the robot and its hand.
+    dialogue
+        What was spoken of before, and which choices were answered; it is not changed.
+
+    Attributes
+    ----------
+    steps
+        The steps so far.
+    last_object, last_place
+        The object and the place that were mentioned last, to which pronouns refer.
+
+    """
 
     def __init__(self, skills: Skills, world: World, dialogue: Dialogue) -> None:
         self._skills, self._world, self._dialogue = skills, world, dialogue

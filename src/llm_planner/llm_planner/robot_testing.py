@@ -80,6 +80,11 @@ class Robot(Node):
     after_walk, after_scan
         What is remembered after the next walk, and after the next look around, if anything else.
 
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
     """
 
     def __init__(self, **options: Any) -> None:

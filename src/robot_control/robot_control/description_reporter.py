@@ -22,7 +22,15 @@ class ReporterParameters:
 
 
 class DescriptionReporter(Node):
-    """Logs the links and joints of the robot in its parameter `robot_description`."""
+    """
+    Logs the links and joints of the robot in its parameter `robot_description`.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
 
     def __init__(self, **options: Any) -> None:
         """Read the model and report it."""

@@ -16,10 +16,17 @@ class Notice:
 
 
 class HeatAlarm:
-    """Warns of every reading above the threshold, and tells once when it is back to normal."""
+    """
+    Threshold alarm: warns of every reading above it, and tells once when it is back to normal.
+
+    Parameters
+    ----------
+    threshold_celsius
+        The highest reading that is not too hot, in °C; it can be changed at any time.
+
+    """
 
     def __init__(self, threshold_celsius: float) -> None:
-        """Set the threshold."""
         self.threshold_celsius = threshold_celsius
         self._is_hot = False
 

@@ -16,7 +16,15 @@ from temperature_monitor.settings import AnalyzerParameters
 
 
 class TempAnalyzer(Node):
-    """Watches the topic `temperature`."""
+    """
+    Watches the topic `temperature`.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
 
     def __init__(self, **options: Any) -> None:
         """Start to listen."""

@@ -17,7 +17,15 @@ from temperature_monitor.thermometer import generator_of
 
 
 class TempPublisher(Node):
-    """Publishes readings of a thermometer on the topic `temperature`."""
+    """
+    Publishes readings of a thermometer on the topic `temperature`.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
 
     def __init__(self, **options: Any) -> None:
         """Start to publish."""

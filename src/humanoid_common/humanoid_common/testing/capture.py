@@ -8,10 +8,22 @@ from typing import IO
 
 
 class Capture:
-    """Collect all that comes out of a stream, as text."""
+    """
+    Collect all that comes out of a stream, as text, in a thread of its own.
+
+    Parameters
+    ----------
+    stream
+        The stream to read, from now on; it is closed at its end.
+
+    Raises
+    ------
+    ValueError
+        There is no stream.
+
+    """
 
     def __init__(self, stream: IO[bytes] | None) -> None:
-        """Start to read."""
         if stream is None:
             raise ValueError('There is no stream to read: start the program with pipes.')
         self._stream = stream

@@ -31,10 +31,19 @@ class ExitReport:
 
 
 class RunningProgram:
-    """A program under test, in a process group of its own."""
+    """
+    A program under test, in a process group of its own.
+
+    Parameters
+    ----------
+    command
+        The program and its arguments; it starts at once.
+    environment
+        Environment variables, added to those of this process.
+
+    """
 
     def __init__(self, command: Sequence[str], environment: Mapping[str, str] = {}) -> None:
-        """Start the command; the environment is added to the present one."""
         self._command = list(command)
         self._process = subprocess.Popen(
             self._command,

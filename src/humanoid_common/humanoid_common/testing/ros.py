@@ -24,10 +24,22 @@ SLICE_S = 0.01
 
 
 class RosSandbox:
-    """An own context and executor, for nodes that meet only each other."""
+    """
+    An own context and executor, for nodes that meet only each other.
+
+    Parameters
+    ----------
+    domain
+        The ROS domain ID of the nodes.
+
+    Attributes
+    ----------
+    environment
+        Variables that let a program join the domain, on this machine.
+
+    """
 
     def __init__(self, domain: int) -> None:
-        """Start ROS in the domain."""
         self.environment = {
             'ROS_DOMAIN_ID': str(domain),
             'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',

@@ -16,10 +16,27 @@ KEYFRAME = 'home'
 
 class MockBackend:
     """
-    Robots whose joints are servos of first order and whose bodies hang upright in the air.
+    Backend without physics: servos of first order, and bodies that hang upright in the air.
 
     The feet share the weight, the inertial sensor is level and at rest, and whatever is to carry
     a load (the effort of a target) finds just that load.
+
+    Parameters
+    ----------
+    drives
+        The drive of each joint, by name; their order is that of observations and targets.
+    robots
+        Names of the robots; '' is a robot alone.
+    period_s
+        The control period, by which each step advances.
+    mass_kg
+        Mass of a robot; each foot carries half of its weight.
+    home_rad
+        Joint positions at the start and after a reset, by name; joints that are not named are at
+        zero. All are clipped to the range of the joint.
+    start_s
+        Time of the first observation.
+
     """
 
     def __init__(
@@ -31,12 +48,6 @@ class MockBackend:
         home_rad: Mapping[str, float] = {},
         start_s: float = 0.0,
     ) -> None:
-        """
-        Put the robots there.
-
-        :param home_rad: where joints begin; those that are not named, at zero or next to it
-        :param start_s: the time at which they begin
-        """
         self._robots, self._joints = tuple(robots), tuple(drives)
         self._period_s, self._start_s = period_s, start_s
         self._weight_n = mass_kg * GRAVITY_M_S2

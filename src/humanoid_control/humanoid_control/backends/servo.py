@@ -13,16 +13,28 @@ import numpy as np
 
 class ServoBank:
     """
-    The servos of n joints; every array is (n,).
+    First-order servos of n joints; every array is (n,).
 
     Without inertia the drive's kp (position - q) + kd (velocity - dq) balances the damping d dq
     of the joint, so that q approaches its target exponentially at the rate kp / (kd + d), but
     no faster than the limits of velocity and of effort, effort / d, allow. The way of one
     period is exact, of whatever length the period is.
+
+    Parameters
+    ----------
+    drives
+        The drive of each of the n joints, by name and in the order of the arrays.
+    home_rad
+        Joint positions (n,) at the start and after a reset, clipped to the range of the joints.
+
+    Attributes
+    ----------
+    positions_rad, velocities_rad_s, efforts_nm
+        State of the joints (n,); in m, m/s and N if prismatic.
+
     """
 
     def __init__(self, drives: Mapping[str, Drive], home_rad: Array) -> None:
-        """Begin at rest at home, or at the end of the range that is next to it."""
         limits = JointLimits.of(drives, tuple(drives))
         gains = [(each.kp, each.kd, each.damping) for each in drives.values()]
         kp, kd, damping = np.array(gains).T

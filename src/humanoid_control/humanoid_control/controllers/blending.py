@@ -12,14 +12,21 @@ BLEND_S = 0.5
 
 class Blend:
     """
-    An offset that fades from what joints were told last to what their new owner tells them.
+    Offset that fades from the last targets of joints to those of their new owner.
 
     It begins with the difference of position and velocity and ends with none, along the
     polynomial of least jerk between the two (Flash and Hogan, 1985).
+
+    Parameters
+    ----------
+    joints
+        How many joints the robot has, n.
+    duration_s
+        Time from a change of the owner until the offset is zero.
+
     """
 
     def __init__(self, joints: int, duration_s: float = BLEND_S) -> None:
-        """Blend nothing yet."""
         self._duration_s = duration_s
         self._since_s = np.full(joints, -np.inf)
         self._until_s = -np.inf

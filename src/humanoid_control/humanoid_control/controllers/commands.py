@@ -29,10 +29,17 @@ class PartialTargets:
 
 
 class JointNames:
-    """The joints of a robot, by which commands from outside are checked."""
+    """
+    The joints of a robot, by whose names joint commands are checked.
+
+    Parameters
+    ----------
+    joints
+        All joints of the robot, in the order of its targets.
+
+    """
 
     def __init__(self, joints: Sequence[str]) -> None:
-        """Remember the places of the joints."""
         self.joints = tuple(joints)
         self._place_of = {joint: place for place, joint in enumerate(joints)}
 

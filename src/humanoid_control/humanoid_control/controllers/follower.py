@@ -16,10 +16,24 @@ TIMEOUT_S = 0.5
 
 class Follower:
     """
-    Wants the joints that the last commands named, until none has come for the timeout.
+    Controller that follows a stream of joint commands, and gives joints back when it stops.
 
-    A command for some joints leaves what earlier commands said of others as it is, but only
-    until those have been silent for the timeout.
+    It claims the joints that the last commands named. A command for some joints leaves what
+    earlier commands said of others as it is, but only until those have been silent for the
+    timeout.
+
+    Parameters
+    ----------
+    joints
+        All joints of the robot, in the order of its targets.
+    timeout_s
+        How long a joint stays claimed after the last command for it.
+    clock
+        Tells the computer's time in s, by which the timeout must have passed, too; without it the
+        robot's time alone counts.
+    name
+        What users call the controller.
+
     """
 
     way_out = 'wait until its commands end'
@@ -31,7 +45,6 @@ class Follower:
         clock: Clock | None = None,
         name: str = 'joint_commands',
     ) -> None:
-        """Want nothing yet."""
         self.name = name
         self.joints = tuple(joints)
         self._timeout_s, self._clock = timeout_s, clock

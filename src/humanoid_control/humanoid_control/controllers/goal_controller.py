@@ -22,10 +22,27 @@ ResultT = TypeVar('ResultT')
 
 class GoalController(ABC, Generic[GoalT, ResultT]):
     """
-    Runs one goal at a time on the joints that it claims.
+    Controller that runs one goal at a time on the joints that it claims.
 
     It claims them with its first goal and keeps them until it is deactivated or the robot begins
     anew: what was reached stays.
+
+    Parameters
+    ----------
+    name
+        What users call the controller.
+    joints
+        All joints of the robot, in the order of its targets.
+    own
+        The joints that the controller moves, all at once.
+
+    Attributes
+    ----------
+    places
+        Indices (m,) of its own joints among all.
+    is_active
+        Whether it may be given goals; it is active at the start.
+
     """
 
     way_out = 'deactivate that controller (ros2 control switch_controllers --deactivate)'
@@ -33,19 +50,6 @@ class GoalController(ABC, Generic[GoalT, ResultT]):
     """Its type, by the name that clients look for."""
 
     def __init__(self, name: str, joints: Sequence[str], own: Sequence[str]) -> None:
-        """
-        Claim nothing yet.
-
-        Parameters
-        ----------
-        name
-            What users call the controller.
-        joints
-            All joints of the robot, in the order of its targets.
-        own
-            The joints that the controller moves, all at once.
-
-        """
         self.name, self.joints, self.own = name, tuple(joints), tuple(own)
         self.places = np.array([self.joints.index(joint) for joint in own], dtype=np.intp)
         self.is_active = True

@@ -68,17 +68,31 @@ class GripResult:
 
 class GripperController(GoalController[Grip, GripResult]):
     """
-    Moves the finger of a gripper, which the thumb mirrors: the gap is twice its position.
+    Controller of the finger of a gripper, which the thumb mirrors: the gap is twice its position.
 
     The target is never farther from where the finger is than the stiffness of the servo makes the
     force; so it presses with that force on what is between the fingers, and goes on doing so
     behind the goal: what is held stays held, also if it yields.
+
+    Parameters
+    ----------
+    name, joints
+        As for `GoalController`.
+    own
+        The joint of the finger, which is prismatic.
+    limits
+        Limits of all joints, in their order; those of the finger bound the gap and the force.
+
+    Attributes
+    ----------
+    state
+        Gap, effort and status as of the last `update`.
+
     """
 
     kind = 'position_controllers/GripperActionController'
 
     def __init__(self, name: str, joints: Sequence[str], own: str, limits: JointLimits) -> None:
-        """Claim nothing yet; see `GoalController`. The limits are those of all joints."""
         super().__init__(name, joints, (own,))
         self._place = place = int(self.places[0])
         self.widest_m = 2.0 * float(limits.upper_rad[place])

@@ -11,10 +11,19 @@ import numpy as np
 
 
 class Hold:
-    """Holds all joints at rest; what carried a load goes on to carry it."""
+    """
+    Controller that holds all joints at rest; what carried a load goes on to carry it.
+
+    Parameters
+    ----------
+    joints
+        All joints of the robot, in the order of its targets.
+    name
+        What users call the controller.
+
+    """
 
     def __init__(self, joints: Sequence[str], name: str = 'hold') -> None:
-        """Hold nothing yet."""
         self.name = name
         self.joints = tuple(joints)
         none = np.zeros(len(self.joints))

@@ -50,15 +50,20 @@ class Progress:
 
 class JointTrajectoryController(GoalController[TrajectoryGoal, GoalResult]):
     """
-    Moves its joints along trajectories, and holds them in the last pose.
+    Controller that moves its joints along trajectories, and holds them in the last pose.
 
     A new goal goes on from the position and the velocity that the joints were told last.
+
+    Parameters
+    ----------
+    name, joints, own
+        As for `GoalController`.
+
     """
 
     kind = 'joint_trajectory_controller/JointTrajectoryController'
 
     def __init__(self, name: str, joints: Sequence[str], own: Sequence[str]) -> None:
-        """Claim nothing yet; see `GoalController`."""
         super().__init__(name, joints, own)
         self.progress: Progress | None = None
         """Of the goal that runs."""

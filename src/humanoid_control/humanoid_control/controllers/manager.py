@@ -24,10 +24,29 @@ _MODE = -1
 
 class ControllerManager:
     """
-    Runs the mode's controller and the guests of one robot, and limits what they ask for.
+    Run the controllers of one robot, and limit the targets that they ask for.
 
-    A joint belongs to the first guest that wants it if the mode lends it, else to the mode.
-    Every change of owner blends from what the joint was told last.
+    A joint belongs to the first guest that claims it if the mode lends it, else to the controller
+    of the mode. Every change of owner blends from what the joint was told last.
+
+    Parameters
+    ----------
+    joints
+        All n joints of the robot, in the order of observations and targets.
+    modes
+        The modes, whose controllers claim all joints in that order; the first one is entered.
+    guests
+        Controllers that may claim the joints that a mode lends, by decreasing priority.
+    limits
+        Range, velocity, effort and stiffness of the n joints.
+    say
+        Receives a message when a controller asks for targets that are not finite.
+
+    Raises
+    ------
+    ValueError
+        The controller of the first mode claims other joints, or in another order.
+
     """
 
     def __init__(
@@ -38,7 +57,6 @@ class ControllerManager:
         limits: JointLimits,
         say: Callable[[str], None] = lambda sentence: None,
     ) -> None:
-        """Begin in the first mode; guests come in their order of priority; `say` gets warnings."""
         self.joints = tuple(joints)
         self._modes = {mode.name: mode for mode in modes}
         self._guests = tuple(guests)

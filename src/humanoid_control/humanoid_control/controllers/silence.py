@@ -11,14 +11,21 @@ Clock = Callable[[], float]
 
 class Silence:
     """
-    For how long nothing has been heard.
+    Timeout since something was last heard, such as a command.
 
     Both the robot's time and the computer's must have passed: the robot's time may run many times
     faster than the person who drives it, or stand still while the simulator is paused.
+
+    Parameters
+    ----------
+    timeout_s
+        How long nothing must have been heard.
+    clock
+        Tells the computer's time in s; without it the robot's time alone counts.
+
     """
 
     def __init__(self, timeout_s: float, clock: Clock | None = None) -> None:
-        """Set the patience, and the computer's clock, without which the robot's time counts."""
         self._timeout_s = timeout_s
         self._clock: Clock = clock or (lambda: math.inf)
         self._unheard = True

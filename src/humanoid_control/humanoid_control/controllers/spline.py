@@ -11,13 +11,20 @@ class Spline:
     """
     Polynomials between points: cubic, or quintic if the accelerations at the points are given.
 
-    The arrays of the points are (points, joints); there are at least two points.
+    Parameters
+    ----------
+    times_s
+        Of the k points (k,), growing strictly; there are at least two.
+    positions
+        Of the m joints at each point (k, m), in any unit.
+    velocities, accelerations
+        Of the joints there (k, m), in that unit per s and s2; None makes the polynomials cubic.
+
     """
 
     def __init__(
         self, times_s: Array, positions: Array, velocities: Array, accelerations: Array | None
     ) -> None:
-        """Compute the polynomials; the times grow strictly."""
         self._times_s = times_s
         self._steps_s = np.diff(times_s)
         steps_s = self._steps_s[:, None]

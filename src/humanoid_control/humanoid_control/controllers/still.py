@@ -11,12 +11,24 @@ import numpy as np
 
 
 class Still(Hold):
-    """Wants every joint that is lent while it is switched on, to hold it where it is."""
+    """
+    Controller that claims every joint that the mode lends while it is on, to hold it in place.
+
+    Parameters
+    ----------
+    joints
+        All joints of the robot, in the order of its targets.
+
+    Attributes
+    ----------
+    on
+        Whether it claims the joints; it begins switched off.
+
+    """
 
     way_out = 'wait until the robot is released'
 
     def __init__(self, joints: Sequence[str]) -> None:
-        """Begin switched off."""
         super().__init__(joints, name='stop')
         self.on = False
         self._all = np.ones(len(self.joints), dtype=np.bool_)

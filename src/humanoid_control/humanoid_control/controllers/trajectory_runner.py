@@ -14,16 +14,24 @@ import numpy as np
 
 class TrajectoryRunner:
     """
-    Wants the joints of its trajectory until the last point; a new one takes the place of the old.
+    Controller that runs a trajectory to its last point; a new one takes the place of the old.
 
-    The way begins where the joints are told to be when it starts. Points without velocities are
-    passed as smoothly as their positions allow; those without accelerations have none.
+    It claims the joints of the trajectory until then. The way begins where the joints are told to
+    be when it starts. Points without velocities are passed as smoothly as their positions allow;
+    those without accelerations have none.
+
+    Parameters
+    ----------
+    joints
+        All joints of the robot, in the order of its targets.
+    name
+        What users call the controller.
+
     """
 
     way_out = 'wait until its end'
 
     def __init__(self, joints: Sequence[str], name: str = 'joint_trajectory') -> None:
-        """Want nothing yet."""
         self.name = name
         self.joints = tuple(joints)
         self._waiting: Trajectory | None = None

@@ -16,12 +16,19 @@ DOWN = 'the robot has fallen, and is not on its feet again'
 
 
 class WalkingController:
-    """Walks, or stands when its velocity is zero."""
+    """
+    Controller of all joints that walks, or stands when its velocity is zero.
+
+    Parameters
+    ----------
+    walker
+        Computes the joint targets of the gait; it has the joints of the robot.
+
+    """
 
     name = 'walking'
 
     def __init__(self, walker: Walker) -> None:
-        """Take the walker."""
         self.walker = walker
         self.joints = walker.robot.joints
 

@@ -33,10 +33,24 @@ class Brain(Protocol):
 
 
 class ControlLoop:
-    """A backend, and a brain for each of its robots; a tick is one period of the backend."""
+    """
+    A backend, and a brain for each of its robots; a tick is one period of the backend.
+
+    Parameters
+    ----------
+    backend
+        Observes and moves the robots.
+    brains
+        What decides the joint targets, by the name of the robot; one without it gets no targets.
+
+    Raises
+    ------
+    ValueError
+        There is a brain for a robot that the backend does not have.
+
+    """
 
     def __init__(self, backend: Backend, brains: Mapping[str, Brain]) -> None:
-        """Take the brains by the names of the robots; those without one stay as they are."""
         unknown = set(brains) - set(backend.robots)
         if unknown:
             raise ValueError(

@@ -16,10 +16,21 @@ from rclpy.node import Node
 
 
 class ControllerActions:
-    """Offers `follow_joint_trajectory` and `gripper_cmd` below the names of controllers."""
+    """
+    Action servers `follow_joint_trajectory` and `gripper_cmd` below the names of controllers.
+
+    Parameters
+    ----------
+    node
+        The node that offers them.
+    robot
+        Name of the robot, which is its namespace; empty if it is alone.
+    control
+        The control of the robot, whose controllers are given the goals.
+
+    """
 
     def __init__(self, node: Node, robot: str, control: RobotControl) -> None:
-        """Offer the actions of a robot that has a name, or is alone."""
         refusals = Refusals(node.get_logger().warning)
         self._servers: list[GoalServer[Any, Any]] = []
         for name, limb in control.trajectory_controllers.items():

@@ -41,7 +41,25 @@ VALUE = 'double'
 
 
 class ControllerServices:
-    """Offers the services below `controller_manager` of a robot, whose control loop that is."""
+    """
+    Services of a ros2_control controller manager, below `controller_manager` of a robot.
+
+    Parameters
+    ----------
+    node
+        The node that offers them.
+    robot
+        Name of the robot, which is its namespace; empty if it is alone.
+    control
+        The control of the robot, whose controllers are listed and switched.
+    hardware
+        The class of what moves the joints, as package/Class.
+    rate_hz
+        The control rate, reported as the update rate.
+    prefix
+        What the names of the sensors' links begin with.
+
+    """
 
     def __init__(
         self,
@@ -52,25 +70,6 @@ class ControllerServices:
         rate_hz: float,
         prefix: str = '',
     ) -> None:
-        """
-        Offer the services.
-
-        Parameters
-        ----------
-        node
-            The node that runs the robot.
-        robot
-            The name of the robot; empty if it is alone.
-        control
-            What decides where its joints go.
-        hardware
-            The class of what moves the joints, as package/Class.
-        rate_hz
-            How often the controllers decide.
-        prefix
-            What the names of frames begin with.
-
-        """
         self._control, self._hardware, self._prefix = control, hardware, prefix
         self._name, self._rate_hz = robot or 'humanoid', round(rate_hz)
         answers: tuple[tuple[Any, str, Callable[[Any, Any], Any]], ...] = (

@@ -14,7 +14,23 @@ from rclpy.node import Node
 
 
 class HostDiagnostics:
-    """The topic `diagnostics`, in the robots' time: the control loop, and each robot."""
+    """
+    Publisher of `diagnostics`: the control loop, and each robot.
+
+    It publishes once a second by a steady clock; the stamps are in the robots' time.
+
+    Parameters
+    ----------
+    node
+        The node that publishes it.
+    host
+        Runs the control loop, whose load is reported.
+    robots
+        The robots, whose health is reported.
+    speed
+        Returns how fast the robots' time passes; None while that is not known.
+
+    """
 
     def __init__(
         self,
@@ -23,7 +39,6 @@ class HostDiagnostics:
         robots: HostedRobots,
         speed: Callable[[], Speed | None] = lambda: None,
     ) -> None:
-        """Begin to publish, once a second; `speed` is how fast the robots' time passes."""
         self._host, self._robots, self._speed = host, robots, speed
         self._slowness, self._has_complained = Slowness(), False
         self._logger = node.get_logger()

@@ -7,10 +7,17 @@ _ROUNDING_S = 1e-6
 
 
 class Every:
-    """Says when a rate asks for the next time; a rate of zero never does."""
+    """
+    Rate limiter in the robot's time; the first call is due at once.
+
+    Parameters
+    ----------
+    rate_hz
+        How often `is_due` returns True; 0 is never.
+
+    """
 
     def __init__(self, rate_hz: float) -> None:
-        """Be due at once, the first time."""
         self._period_s = 1.0 / rate_hz if rate_hz > 0.0 else float('inf')
         self._next_s = float('-inf') if rate_hz > 0.0 else float('inf')
 

@@ -38,10 +38,19 @@ class Log(Protocol):
 
 
 class FallReport:
-    """Says it once when a robot falls, and once when it stands again."""
+    """
+    Log a message when a robot falls, and one when it stands again.
+
+    Parameters
+    ----------
+    log
+        The logger; a fall is logged as an error.
+    robot
+        Name of the robot, for the messages; empty if it is alone.
+
+    """
 
     def __init__(self, log: Log, robot: str) -> None:
-        """Begin with a robot that stands; the only robot of a node may have no name."""
         self._log = log
         self._who = f"The robot '{robot}'" if robot else 'The robot'
         self._was_down = False

@@ -29,7 +29,21 @@ from trajectory_msgs.msg import JointTrajectoryPoint
 
 
 class FollowJointTrajectoryServer(GoalServer[TrajectoryGoal, GoalResult]):
-    """The action of one controller; see `GoalServer`."""
+    """
+    Action server of one joint trajectory controller; see `GoalServer`.
+
+    Parameters
+    ----------
+    node, name
+        The node that offers the action, and the name of the action.
+    control
+        The control of the robot, which checks goals.
+    controller
+        Runs the goals.
+    refusals
+        Receives a message on each goal that is rejected.
+
+    """
 
     def __init__(
         self,

@@ -16,11 +16,23 @@ from rclpy.node import Node
 
 class GripperCommandServer(GoalServer[Grip, GripResult]):
     """
-    The action of one gripper; see `GoalServer`.
+    Action server of one gripper; see `GoalServer`.
 
     A position is the gap between the fingers in m, an effort the force of the drive in N. A goal
     succeeds if the gap is reached, and also if the fingers stop before, at what they hold:
     `stalled` and `position` tell which it was, and how wide that is.
+
+    Parameters
+    ----------
+    node, name
+        The node that offers the action, and the name of the action.
+    control
+        The control of the robot, which checks goals.
+    controller
+        Runs the goals.
+    refusals
+        Receives a message on each goal that is rejected.
+
     """
 
     def __init__(

@@ -27,10 +27,30 @@ Tell = Callable[[Mapping[str, Observation]], None]
 
 class Host:
     """
-    Ticks a control loop at a pace, in the thread of its node.
+    Tick a control loop at a pace, in the thread of its node, as soon as the node is spun.
 
-    Callbacks of the node run between ticks, never during one. Before each tick the host looks for
-    what has come; after it, it tells what was observed.
+    Callbacks of the node run between ticks, never during one.
+
+    Parameters
+    ----------
+    node
+        The node whose executor runs the ticks.
+    loop
+        The control loop.
+    pace
+        Decides when a tick is due, by a steady clock.
+    interval_s
+        Real time between two ticks at the pace; 0 is as fast as possible.
+    look
+        Called before each tick, and repeatedly in a pause, so that a stop is obeyed.
+    tell
+        Called after each tick with what was observed, by the name of the robot.
+
+    Attributes
+    ----------
+    load
+        How long ticks take; those in a pause do not count.
+
     """
 
     def __init__(
@@ -42,11 +62,6 @@ class Host:
         look: Look,
         tell: Tell,
     ) -> None:
-        """
-        Begin to tick as soon as the node is spun.
-
-        :param interval_s: between two ticks at the pace; 0 is as fast as possible
-        """
         self._loop, self._pace, self._look, self._tell = loop, pace, look, tell
         self._interval_s = interval_s
         self._paused = False

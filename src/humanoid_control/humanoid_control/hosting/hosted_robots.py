@@ -34,7 +34,26 @@ class RobotHealth:
 
 
 class HostedRobots:
-    """Wires the control of each robot to topics, actions and services in its namespace."""
+    """
+    Topics, actions and services of each robot, in its namespace.
+
+    Parameters
+    ----------
+    node
+        The node that offers them.
+    robots
+        Walker and control of each robot, by its name, which is its namespace.
+    parameters
+        Mode, rates, prefix and heartbeat timeout.
+    hardware
+        The class of what moves the joints, as package/Class.
+
+    Attributes
+    ----------
+    time_s
+        Time of the newest observation; zero before the first one.
+
+    """
 
     def __init__(
         self,
@@ -43,7 +62,6 @@ class HostedRobots:
         parameters: HostParameters,
         hardware: str,
     ) -> None:
-        """Make topics, actions and services; `hardware` is the class of what moves the joints."""
         self._robots = dict(robots)
         self.time_s = 0.0
         timeout_s = parameters.heartbeat_timeout_s

@@ -18,10 +18,17 @@ class LoadReport:
 
 
 class Load:
-    """Measures how long ticks take."""
+    """
+    Measurement of the computing time of ticks.
+
+    Parameters
+    ----------
+    now_s
+        Time of a steady clock, from which the measurement counts.
+
+    """
 
     def __init__(self, now_s: float) -> None:
-        """Begin without a tick."""
         self._since_s = now_s
         self._took_s: list[float] = []
 

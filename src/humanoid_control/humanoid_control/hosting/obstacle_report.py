@@ -27,10 +27,19 @@ class Log(Protocol):
 
 
 class ObstacleReport:
-    """Says it once when a robot meets something."""
+    """
+    Log a warning when a robot becomes blocked.
+
+    Parameters
+    ----------
+    log
+        The logger.
+    robot
+        Name of the robot, for the message; empty if it is alone.
+
+    """
 
     def __init__(self, log: Log, robot: str) -> None:
-        """Begin with a free way; the only robot of a node may have no name."""
         self._log = log
         self._who = f"The robot '{robot}' is blocked." if robot else 'The robot is blocked.'
         self._was_blocked = False

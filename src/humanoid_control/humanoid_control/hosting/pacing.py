@@ -50,14 +50,21 @@ class Pace(Protocol):
 
 class RealTimePace:
     """
-    A tick each period, with late ticks made up for.
+    Pace of one tick per period of real time, with late ticks made up for.
 
     What the computer is behind by more than a moment is given up: the robot's time is then late
-    for good, rather than in a hurry.
+    for good, rather than in a hurry. The first tick is due at once.
+
+    Parameters
+    ----------
+    period_s
+        Real time between two ticks.
+    most_behind_s
+        The longest delay that is caught up with.
+
     """
 
     def __init__(self, period_s: float, most_behind_s: float = 0.1) -> None:
-        """Begin with the first tick at once."""
         self._period_s, self._most_behind_s = period_s, most_behind_s
         self._next_s = float('-inf')
 

@@ -14,12 +14,21 @@ MOST = 10
 
 
 class Refusals:
-    """Says a sentence when it is new, and not too many of them."""
+    """
+    Log of rejected commands that repeats no message at short intervals, and limits a flood.
+
+    Parameters
+    ----------
+    say
+        Logs a message.
+    clock
+        Tells the time of a steady clock in s.
+
+    """
 
     def __init__(
         self, say: Callable[[str], None], clock: Callable[[], float] = time.monotonic
     ) -> None:
-        """Set to whom it is said."""
         self._say, self._clock = say, clock
         self._heard_s: dict[str, float] = {}
         self._since_s, self._count = clock(), 0

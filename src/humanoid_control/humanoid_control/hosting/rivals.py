@@ -13,13 +13,21 @@ PERIOD_S = 3.0
 
 class Rivals:
     """
-    Warns when topics have other publishers, such as those of a second simulator.
+    Duplicate publisher check: warns of topics with another publisher, as from a second simulator.
 
-    They must be there twice in a row: a node that ends may be seen for a moment longer.
+    It looks every few seconds. A publisher must be there twice in a row: a node that ends may be
+    seen for a moment longer.
+
+    Parameters
+    ----------
+    node
+        The node that publishes the topics, and logs the warning.
+    topics
+        Topics that this node alone may publish; names are relative to its namespace or absolute.
+
     """
 
     def __init__(self, node: Node, topics: Sequence[str]) -> None:
-        """Begin to look now and then."""
         self._node = node
         self._topics = tuple(node.resolve_topic_name(topic) for topic in topics)
         self._seen: set[str] = set()

@@ -38,10 +38,35 @@ HELD = 'The robot must hold still; stop_state says why.'
 
 class RobotControl:
     """
-    The controllers of a robot, as commands from outside and a stop reach them.
+    Control of one robot: its modes and controllers, the commands for them, and a stop.
 
     Commands are stored, and obeyed in the next period. While the robot must hold still, it walks
     at velocity zero, every joint that its mode lends is held, and commands are not heard.
+
+    Parameters
+    ----------
+    joints
+        All n joints of the robot, in the order of observations and targets.
+    limits
+        Range, velocity, effort and stiffness of the n joints.
+    modes
+        The modes, whose controllers claim all joints in that order; the first one is entered.
+    drive
+        Called in each period with the velocity at which to walk; None if nothing walks.
+    clock
+        Tells the computer's time in s: commands expire when the timeout has passed by it and by
+        the robot's time; without it the robot's time alone counts.
+    say
+        Receives a message when a controller asks for targets that are not finite.
+    hold_body
+        Called with the pose in which to hold the body, or with None to keep it as it is bent now;
+        None if nothing bends the body.
+
+    Raises
+    ------
+    ValueError
+        The controller of the first mode claims other joints, or in another order.
+
     """
 
     def __init__(
@@ -54,12 +79,6 @@ class RobotControl:
         say: Callable[[str], None] = lambda sentence: None,
         hold_body: HoldBody | None = None,
     ) -> None:
-        """
-        Begin in the first mode.
-
-        :param drive: what walks, if anything does
-        :param hold_body: what bends the body, if anything does; None is as it is now
-        """
         self._hold_body = hold_body
         self._names, self._limits, self._drive = JointNames(joints), limits, drive
         self.still = Still(joints)

@@ -21,15 +21,32 @@ from trajectory_msgs.msg import JointTrajectory
 
 class RobotInputs:
     """
-    Hears `cmd_vel`, `body_pose`, `joint_commands`, `joint_trajectory` and the topics of a stop.
+    Subscriptions by which one robot is commanded.
 
-    What it hears is stored until the next tick, or refused with the reason in the log.
+    They are `cmd_vel`, `body_pose`, `joint_commands`, `joint_trajectory` and the topics of a stop.
+    What comes is stored until the next tick, or rejected with the reason in the log.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    robot
+        Name of the robot, which is its namespace; empty if it is alone.
+    control
+        The control of the robot, which is given the commands.
+    heartbeat_timeout_s
+        How long the console in control may be silent before the robot holds still, in real time.
+
+    Attributes
+    ----------
+    stop
+        Knows whether the robot must hold still.
+
     """
 
     def __init__(
         self, node: Node, robot: str, control: RobotControl, heartbeat_timeout_s: float
     ) -> None:
-        """Begin to listen."""
         self._control = control
         self._place = topic(robot, '')
         self._refusals = Refusals(node.get_logger().warning)

@@ -18,12 +18,25 @@ BLOCKED = 'blocked'
 
 
 class RobotOutputs:
-    """Publishes what was observed and how the robot walks, each at its own rate."""
+    """
+    Publishers of what one robot observes and how it walks, each at its own rate.
+
+    Parameters
+    ----------
+    node
+        The node that publishes.
+    name
+        Name of the robot, which is its namespace; empty if it is alone.
+    robot
+        Its walker and its control.
+    parameters
+        Rates of the topics, and what the names of frames begin with.
+
+    """
 
     def __init__(
         self, node: Node, name: str, robot: WalkingRobotControl, parameters: HostParameters
     ) -> None:
-        """Prepare all topics of a robot that has a name."""
         odom = parameters.prefix + ODOM
         self._robot = robot
         self._joint_states = JointStatesTopic(node, name, robot.control.manager.joints)

@@ -10,10 +10,20 @@ TIMEOUT_S = 0.5
 
 
 class VelocityInput:
-    """The newest velocity; none after the timeout."""
+    """
+    The newest velocity command, which expires unless it is repeated.
+
+    Parameters
+    ----------
+    timeout_s
+        How long a command is in force.
+    clock
+        Tells the computer's time in s, by which the timeout must have passed, too; without it the
+        robot's time alone counts.
+
+    """
 
     def __init__(self, timeout_s: float = TIMEOUT_S, clock: Clock | None = None) -> None:
-        """Begin without a wish."""
         self._silence = Silence(timeout_s, clock)
         self._newest = STANDING
 

@@ -16,17 +16,31 @@ _ARM_ROLL_RAD = 0.4
 
 class Collapse:
     """
-    A fall that is under way, and the rest after it.
+    A compliant fall that is under way, and the rest after it.
 
     The servos only pull with a share of their stiffness, since their targets are near to where
     the joints are; their damping is whole. So the knees give way and the robot sinks. Later the
     share is zero: the robot lies still, and its joints can be moved by hand.
+
+    Parameters
+    ----------
+    robot
+        The robot, whose joints give way.
+    parameters
+        The gait, which has the stiffness of a fall and how long that lasts.
+    time_s
+        Time of the observation at which the fall begins.
+
+    Raises
+    ------
+    DynamicsError
+        The robot lacks a joint of the protective posture.
+
     """
 
     name = 'fallen'
 
     def __init__(self, robot: WalkingRobot, parameters: WalkParameters, time_s: float) -> None:
-        """Begin to fall."""
         self._parameters = parameters
         self._start_s = time_s
         self._posture_rad = _protective_posture(robot)

@@ -14,16 +14,21 @@ from humanoid_control.walking.terrain import Facet
 
 class Conforming:
     """
-    Takes over the tilt and the height at which soles come to rest.
+    Foothold adaptation: takes over the tilt and the height at which soles come to rest.
 
     A sole that lands tilted is turned by the ground until it lies flat. Its target follows what is
     measured, the faster the more weight it carries: the ankle then has no stiffness against the
     ground, and the centre of pressure comes from the efforts alone. A sole in the air follows
     nothing. That of a foot that touched but carries too little is pressed down.
+
+    Parameters
+    ----------
+    parameters
+        The gait, which has the rates of the adaptation and the loads that count.
+
     """
 
     def __init__(self, parameters: WalkParameters) -> None:
-        """Begin with feet that have just landed."""
         self._parameters = parameters
         self._since_s = [0.0, 0.0]
 

@@ -11,15 +11,20 @@ from humanoid_control.walking.velocity_command import VelocityCommand
 
 class Course:
     """
-    Where the middle between the feet would be if every step landed when and where planned.
+    Path tracking: where the middle between the feet would be if all steps landed as planned.
 
     Steps that land a little off would add up to a drift; so each one is planned from a place
-    between where the robot is and its course. The course stays near the robot: a push that
+    between where the robot is and this reference path. The path stays near the robot: a push that
     moves it farther is not made up for.
+
+    Parameters
+    ----------
+    planner
+        Plans the footsteps; its parameters have the gain and the limits of the tracking.
+
     """
 
     def __init__(self, planner: FootstepPlanner) -> None:
-        """Begin where the robot is when it first asks."""
         self._planner = planner
         self._middle: PlanarPose | None = None
 

@@ -35,10 +35,24 @@ class BalanceReference:
 
 
 class DcmPlan:
-    """A way of the zero-moment point, and of the divergent component that rests at its end."""
+    """
+    ZMP trajectory, and the DCM trajectory that belongs to it and rests at its end.
+
+    Parameters
+    ----------
+    segments
+        The ZMP trajectory, each segment of a positive duration; the robot rests at its end.
+    rate_1_s
+        The rate sqrt(g / h) of a pendulum as high as the centre of mass.
+
+    Raises
+    ------
+    WalkingError
+        There are no segments.
+
+    """
 
     def __init__(self, segments: Sequence[ZmpSegment], rate_1_s: float) -> None:
-        """Compute the divergent component at the end of every segment, from the last one on."""
         if not segments:
             raise WalkingError('A plan of the zero-moment point needs at least one segment.')
         self._rate_1_s = rate_1_s

@@ -32,10 +32,19 @@ class Foothold:
 
 
 class Footing:
-    """The footholds of both feet, and what follows from them."""
+    """
+    Footholds of both feet, and what follows from them.
+
+    Parameters
+    ----------
+    shape
+        The part of a sole that may carry load, and where that is planned.
+    footholds
+        Of the left and the right foot, in the odom frame.
+
+    """
 
     def __init__(self, shape: FootShape, footholds: Sequence[Foothold]) -> None:
-        """Begin with the feet, left and right, somewhere."""
         self._shape = shape
         self._footholds = list(footholds)
         self._polygons: dict[tuple[int, ...], SupportPolygon] = {}

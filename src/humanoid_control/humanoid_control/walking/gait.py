@@ -31,10 +31,17 @@ class GaitOutput:
 
 
 class Gait:
-    """Goes from phase to phase, and keeps the divergent component at its reference."""
+    """
+    State machine of the gait, with feedback that keeps the DCM at its reference.
+
+    Parameters
+    ----------
+    gear
+        What the phases of the gait share; the robot begins standing on its footholds.
+
+    """
 
     def __init__(self, gear: Gear) -> None:
-        """Begin standing."""
         self._gear = gear
         self._phase: Phase = Standing(gear)
 

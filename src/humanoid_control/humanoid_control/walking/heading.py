@@ -14,10 +14,17 @@ Array = NDArray[np.float64]
 
 
 class HeadingFrame:
-    """The frame whose x axis points where the base faced first."""
+    """
+    Heading of the odom frame, whose x axis points where the base faced first.
+
+    Parameters
+    ----------
+    imu_in_base
+        Rotation matrix (3, 3) from imu_link to base_link.
+
+    """
 
     def __init__(self, imu_in_base: Array) -> None:
-        """Take how the sensor sits in the base, (3, 3)."""
         self._base_in_imu: Array = imu_in_base.T
         self._offset_rad: float | None = None
         self._turn: Array = np.eye(3)

@@ -93,15 +93,25 @@ class _Course:
 
 class ObstacleGuard:
     """
-    Watch the force that acts against the motion, and turn the robot away from what exerts it.
+    Detect obstacles by the force against the motion, and turn the robot away from them.
 
-    The force is summed up with a memory that fades: a short push stays below the limit, a thing
-    that stays in the way soon exceeds it. Then the robot takes back its velocity, steps back a
-    little, and refuses to go that way until nobody wants it any more, or it is elsewhere.
+    The force is summed up with a memory that fades: a short push stays below the limit, an
+    obstacle that stays in the way soon exceeds it. Then the robot takes back its velocity, steps
+    back a little, and refuses to go that way until nobody wants it any more, or it is elsewhere.
+
+    Parameters
+    ----------
+    parameters
+        The gait, which has the thresholds of contacts and how far the robot retreats.
+
+    Attributes
+    ----------
+    blockage
+        The obstacle in the way; None while the way is free, as at the start.
+
     """
 
     def __init__(self, parameters: WalkParameters) -> None:
-        """Begin with a free way."""
         self._parameters = parameters
         self._impulse_ns: Point = 0j
         self.blockage: Blockage | None = None

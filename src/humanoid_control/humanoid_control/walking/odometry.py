@@ -46,7 +46,7 @@ class Odometry:
 
 class Uncertainty:
     """
-    The covariance of leg odometry whose heading drifts.
+    Covariance of leg odometry whose heading drifts.
 
     Dead reckoning: position errors are those of the legs, and those of the way that is taken in
     the wrong direction while the heading is off. The heading is that of a sensor without a
@@ -55,10 +55,17 @@ class Uncertainty:
     Robotics" (2005), chapters 3 and 5. A sensor that takes level ground for a slope makes the
     robot climb as long as it walks ahead, and sink on the way back: the error of the height goes
     with the way in the axes of the robot, in which the bias of the sensor stays.
+
+    Parameters
+    ----------
+    imu
+        How far the inertial sensor is off.
+    height_m
+        Height of the base above the feet, over which an error of the tilt moves the base.
+
     """
 
     def __init__(self, imu: ImuNoise = ImuNoise(), height_m: float = 0.0) -> None:
-        """Begin sure of the pose; the height is that of the base above the feet."""
         self._imu, self._height_m = imu, height_m
         self._last: PlanarPose | None = None
         self._last_s = 0.0

@@ -202,12 +202,21 @@ class Standing(_OnBothFeet):
 
 
 class Stepping:
-    """One foot swings, after the weight has gone to the other one."""
+    """
+    Phase in which one foot swings, after the weight has gone to the other one.
+
+    Parameters
+    ----------
+    step
+        The step that is to be done.
+    gear
+        What the phases of the gait share.
+
+    """
 
     name = 'walk'
 
     def __init__(self, step: Step, gear: Gear) -> None:
-        """Begin with a step."""
         self._gear = gear
         self._step = step
 
@@ -304,12 +313,23 @@ class Stepping:
 
 
 class Stopping(_OnBothFeet):
-    """Both feet are down; the weight goes to the middle between them."""
+    """
+    Phase in which both feet are down, and the weight goes to the middle between them.
+
+    Parameters
+    ----------
+    gear
+        What the phases of the gait share.
+    last_landed
+        Side of the foot that landed last, which carries the robot first if it walks on.
+    zmp
+        Zero-moment point in use at the start (m), in the odom frame.
+
+    """
 
     name = 'stop'
 
     def __init__(self, gear: Gear, last_landed: int, zmp: Point) -> None:
-        """Begin from the zero-moment point in use."""
         super().__init__(gear)
         self._last_landed = last_landed
         way = ZmpSegment(gear.parameters.stop_s, zmp, gear.footing.rest_point)

@@ -14,15 +14,24 @@ from humanoid_control.walking.walking_robot import WalkingRobot
 
 class Recovery:
     """
-    Takes over when the robot falls, and gives the robot back when it stands.
+    Fall recovery: takes over when the robot falls, and gives the robot back when it stands.
 
     It cannot get up from the ground by itself. Whoever holds it upright above its feet, by hand,
     by a hoist or by putting it there, makes it take the posture of standing; when its feet then
     carry it, it is ready to walk.
+
+    Parameters
+    ----------
+    robot
+        The robot.
+    home
+        The posture of standing, and the height of the base in it.
+    parameters
+        The gait, which has the limits by which a fall is detected and the durations.
+
     """
 
     def __init__(self, robot: WalkingRobot, home: HomePosture, parameters: WalkParameters) -> None:
-        """Watch from now on."""
         self._robot, self._home, self._parameters = robot, home, parameters
         self._detector = FallDetector(parameters, home.base_height_m)
         self._action: Collapse | Rising | None = None

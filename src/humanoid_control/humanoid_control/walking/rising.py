@@ -9,14 +9,25 @@ import numpy as np
 
 
 class Rising:
-    """The joints go to the posture of standing, smoothly (minimum jerk: Flash and Hogan 1985)."""
+    """
+    Minimum-jerk motion of the joints to the posture of standing (Flash and Hogan, 1985).
+
+    Parameters
+    ----------
+    start_rad, home_rad
+        Joint positions (n,) at the start, as measured, and in the posture of standing.
+    parameters
+        The gait, which has the duration.
+    time_s
+        Time of the observation at which the motion starts.
+
+    """
 
     name = 'stand_up'
 
     def __init__(
         self, start_rad: Array, home_rad: Array, parameters: WalkParameters, time_s: float
     ) -> None:
-        """Begin where the joints are; all arrays are (n,)."""
         self._start_rad, self._way_rad = start_rad.copy(), home_rad - start_rad
         self._duration_s = parameters.stand_up_s
         self._start_s = time_s

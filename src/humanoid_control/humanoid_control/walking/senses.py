@@ -35,10 +35,19 @@ class Sensed:
 
 
 class Senses:
-    """Reads observations of a robot."""
+    """
+    State estimator that turns each observation into a `Sensed`.
+
+    The first observation sets the zero of the heading.
+
+    Parameters
+    ----------
+    robot
+        The robot, with the dynamics of its body and how the inertial sensor sits in it.
+
+    """
 
     def __init__(self, robot: WalkingRobot) -> None:
-        """Begin; the first observation says where ahead is."""
         self._robot = robot
         self._heading = HeadingFrame(robot.imu_in_base)
         self._weight_n = robot.body.mass_kg * GRAVITY_M_S2

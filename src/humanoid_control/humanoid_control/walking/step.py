@@ -20,10 +20,34 @@ _INSTANT_S = 1e-4
 
 
 class Step:
-    """The step that is under way, with a clock that may run faster to catch the robot."""
+    """
+    The step that is under way, with a clock that may run faster to catch the robot.
+
+    Parameters
+    ----------
+    gear
+        What the phases of the gait share.
+    support
+        Side of the foot that carries the robot; the other one swings.
+    shift_s
+        How long the weight takes to the support foot, with both feet on the ground.
+    zmp
+        Zero-moment point in use at the start (m), in the odom frame.
+
+    Attributes
+    ----------
+    side
+        Side of the swing foot.
+    landing
+        Pose at which the swing foot lands, in the odom frame.
+    elapsed_s, rate
+        Time of the step's own clock, and how many times as fast as real it runs.
+    error_m
+        Distance of the divergent component of motion from its reference.
+
+    """
 
     def __init__(self, gear: Gear, support: int, shift_s: float, zmp: Point) -> None:
-        """Begin on both feet with the zero-moment point in use."""
         self._gear = gear
         self.support = support
         self.side = other(support)

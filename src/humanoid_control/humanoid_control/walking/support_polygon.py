@@ -12,10 +12,22 @@ import numpy as np
 
 
 class SupportPolygon:
-    """The convex hull of points on the ground."""
+    """
+    Convex hull of points on the ground.
+
+    Parameters
+    ----------
+    points
+        At least three, not all on a line, in any order and frame (m).
+
+    Raises
+    ------
+    WalkingError
+        The hull has no area.
+
+    """
 
     def __init__(self, points: Sequence[Point]) -> None:
-        """Find the hull, anticlockwise."""
         hull = convex_hull(np.array([(point.real, point.imag) for point in points]))
         self._corners = [complex(x, y) for x, y in hull]
         if len(self._corners) < 3:

@@ -134,21 +134,22 @@ class GroundLevel:
 
 class LevelFloor:
     """
-    Takes footholds that are about as high as those before for one floor, as rooms have.
+    Height correction that takes footholds about as high as those before for one level floor.
 
     Odometry by the legs is a little off at each foothold, and an inertial sensor that takes level
     ground for a slope makes the robot climb as long as it walks ahead: without this, the height
     of the floor drifts by centimetres in a home. A foot that stands higher or lower than where it
     stood before, by more than a tolerance, is on a step or on a slope. Left and right are not
     compared: a sensor that leans aside sees one of them higher all the time.
+
+    Parameters
+    ----------
+    tolerance_m
+        How much higher or lower than before a foothold on the same floor may seem to be.
+
     """
 
     def __init__(self, tolerance_m: float) -> None:
-        """
-        Begin with both feet on the ground.
-
-        :param tolerance_m: by how much a level foothold may seem to be higher or lower
-        """
         self._tolerance_m = tolerance_m
         self._before_m, self._rise_m = [0.0, 0.0], [0.0, 0.0]
         self._support: int | None = None

@@ -42,10 +42,24 @@ NOTHING = Touch()
 
 
 class TouchObserver:
-    """Compares the efforts of all joints with what their motion needs."""
+    """
+    Contact observer: compares the efforts of all joints with what their motion needs.
+
+    Parameters
+    ----------
+    robot
+        The robot, with the dynamics of its body.
+    parameters
+        The gait, which has the rates of the low-pass filters and the longest gap.
+
+    Raises
+    ------
+    DynamicsError
+        The robot lacks a joint of the hips or shoulders.
+
+    """
 
     def __init__(self, robot: WalkingRobot, parameters: WalkParameters) -> None:
-        """Begin without a touch."""
         self._parameters = parameters
         self._hips = _joints(robot, 'hip_pitch', 'hip_roll')
         self._shoulders = _joints(robot, 'shoulder', 'shoulder_roll')

@@ -38,7 +38,37 @@ Array = NDArray[np.float64]
 
 
 class Walk:
-    """A walk that has begun: the estimate of the robot, the gait and the references."""
+    """
+    A walk that has begun: the estimate of the robot, the gait and the references.
+
+    It begins with both feet on the ground, where they are.
+
+    Parameters
+    ----------
+    robot, shape, home
+        The robot, the part of its soles that may carry load, and its posture of standing.
+    parameters
+        The gait.
+    sensed
+        The estimated state of the robot at the start.
+    start_m
+        The point of the ground below the base at the start, in the odom frame.
+
+    Attributes
+    ----------
+    base
+        Position and velocity of the base in the odom frame, as estimated.
+    com
+        Horizontal motion of the centre of mass in the odom frame, as estimated.
+    output
+        What the gait wants in this period; None before the first `update`.
+
+    Raises
+    ------
+    DynamicsError
+        The robot lacks a joint of the hips or shoulders.
+
+    """
 
     def __init__(
         self,
@@ -49,7 +79,6 @@ class Walk:
         sensed: Sensed,
         start_m: Point,
     ) -> None:
-        """Begin with both feet on the ground where they are, the base above a point."""
         self._robot = robot
         self._parameters = parameters
         self._pendulum = Pendulum(home.com_height_m)

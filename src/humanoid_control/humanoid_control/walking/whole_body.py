@@ -35,10 +35,27 @@ class JointMotion:
 
 
 class WholeBody:
-    """Computes the motion of all joints of a robot."""
+    """
+    Whole-body inverse kinematics: legs from pelvis and soles, arms that swing with the legs.
+
+    Parameters
+    ----------
+    robot
+        The robot, with the geometry of its legs.
+    home
+        The posture of standing: the shoulders swing about it, and other joints above the
+        legs keep it.
+    parameters
+        The gait, which says how far the arms swing.
+
+    Raises
+    ------
+    DynamicsError
+        The robot lacks a shoulder joint.
+
+    """
 
     def __init__(self, robot: WalkingRobot, home: HomePosture, parameters: WalkParameters) -> None:
-        """Find the joints."""
         self._robot = robot
         self._home = home
         self._shoulders = [robot.index(f'{name}_shoulder') for name in NAMES]

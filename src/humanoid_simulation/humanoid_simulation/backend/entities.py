@@ -66,10 +66,19 @@ class EntityState:
 
 
 class Entities:
-    """The robots and things of a world, by name."""
+    """
+    The robots and objects of a world by name: their states and bounding boxes.
+
+    Parameters
+    ----------
+    model, data
+        The compiled MuJoCo world, and its state, which `put` changes.
+    names
+        The names of the entities in this model.
+
+    """
 
     def __init__(self, model: Any, data: Any, names: Names) -> None:
-        """Look up where the numbers of each entity are."""
         self._model, self._data = model, data
         self._floating = {
             name: floating_body(model, joint) for name, joint in names.floating.items()

@@ -20,10 +20,19 @@ _WORLD_ALONE = np.array([1, 0, 0, 0, 0, 0], dtype=np.uint8)
 
 
 class Hoists:
-    """One hoist at most for each robot."""
+    """
+    The hoists at work in a world, at most one for each robot.
+
+    Parameters
+    ----------
+    model, data
+        The MuJoCo model, and its state.
+    wrenches
+        Applies the forces and torques of the hoists.
+
+    """
 
     def __init__(self, model: Any, data: Any, wrenches: Wrenches) -> None:
-        """Begin without any."""
         self._model, self._data, self._wrenches = model, data, wrenches
         self._working: dict[int, tuple[Hoist, Callable[[], EntityState]]] = {}
 
@@ -86,18 +95,14 @@ class Hoists:
         period_s
             Length of a control period.
 
-        Raises
-        ------
-        SimulationError
-            Too many wrenches act already.
-
         """
         for base, (hoist, state) in list(self._working.items()):
             force, torque = hoist.wrench(state(), period_s)
             if hoist.is_done:
                 del self._working[base]
             else:
-                self._wrenches.add(Wrench(base, force, torque, np.zeros(3), period_s))
+                wrench = Wrench(base, force, torque, np.zeros(3), period_s)
+                self._wrenches.add(wrench, always=True)
 
     def _ground_m(self, position_m: Array) -> float:
         """Return how high the ground is below a place."""

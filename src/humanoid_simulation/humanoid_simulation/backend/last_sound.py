@@ -12,11 +12,18 @@ _FASTEST = 1e4
 
 
 class LastSound:
-    """Keeps the state before a step, to go back to if the step leads to no state at all."""
+    """
+    Backup of the state before a step, to restore if the physics becomes unstable.
 
-    def __init__(self, model: Any, data: Any) -> None:
-        """Keep the present state."""
-        self._model, self._data = model, data
+    Parameters
+    ----------
+    data
+        The state of MuJoCo, of which a copy is kept at once.
+
+    """
+
+    def __init__(self, data: Any) -> None:
+        self._data = data
         self._qpos, self._qvel = data.qpos.copy(), data.qvel.copy()
 
     def keep(self) -> None:

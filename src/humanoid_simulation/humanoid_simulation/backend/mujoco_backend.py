@@ -34,7 +34,31 @@ import numpy as np
 
 
 class MujocoBackend:
-    """Implements `humanoid_control.backends.Backend` in a simulated world."""
+    """
+    Implementation of `humanoid_control.backends.Backend` in a world that MuJoCo simulates.
+
+    The robots begin in the keyframe `home`. The warning handler of MuJoCo is replaced, for the
+    whole process: an unstable state is found by a check after each step instead.
+
+    Parameters
+    ----------
+    description
+        The kind of all robots; None is the humanoid in its original size, without hands.
+    scene
+        Floor and objects; by default a flat floor.
+    placements
+        The name of each robot, and where on the ground it begins.
+    settings
+        Physics steps, sensor noise with its seed, latency, and extrapolation of targets.
+    keyframes
+        The postures that `reset` knows, `home` among them; None takes the installed ones.
+
+    Raises
+    ------
+    SimulationError
+        Such a world cannot be built, or `home` is missing or sets a joint that no robot has.
+
+    """
 
     def __init__(
         self,
@@ -44,7 +68,6 @@ class MujocoBackend:
         settings: BackendSettings = BackendSettings(),
         keyframes: Mapping[str, Keyframe] | None = None,
     ) -> None:
-        """Put robots into a scene, at home; by default the humanoid, alone on a floor."""
         self._description = description = description or humanoid()
         self._placements, self._settings = tuple(placements), settings
         self._keyframes = load_keyframes() if keyframes is None else keyframes
@@ -429,7 +452,7 @@ class MujocoBackend:
         self._scene = scene
         self._names = Names(self._model, scene, self.robots, self._description.base)
         self._entities = Entities(self._model, self._data, self._names)
-        self._sound = LastSound(self._model, self._data)
+        self._sound = LastSound(self._data)
 
     def _look_again(self) -> None:
         """Compute what follows from a state that was set, and measure it."""

@@ -12,8 +12,6 @@ from humanoid_simulation.model.robot_spec import FLOATING_BASE
 from humanoid_simulation.model.world import ALONE
 from humanoid_simulation.scene import Scene
 
-"""What a robot without a name is called among the things of the world."""
-
 
 class Names:
     """
@@ -21,10 +19,21 @@ class Names:
 
     Bodies are the links of robots, with the robot's name and '/' in front if it has one, and the
     objects of the scene. Entities are the robots and the objects; only some of these can be moved.
+
+    Parameters
+    ----------
+    model
+        The compiled MuJoCo world.
+    scene
+        The scene that it was compiled from.
+    robots
+        Names of the robots; '' for a single one without a name.
+    base
+        Name of the link that floats, the same in all robots.
+
     """
 
     def __init__(self, model: Any, scene: Scene, robots: Sequence[str], base: str) -> None:
-        """Take the compiled world, the names of its robots, and that of their base links."""
         self._robots, self._base = robots, base
         self.bodies = [self._public(model.body(number).name) for number in range(model.nbody)]
         self._numbers = {name: number for number, name in enumerate(self.bodies)}

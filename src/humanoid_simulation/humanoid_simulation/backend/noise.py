@@ -105,7 +105,26 @@ _PINION_M = 0.04
 
 
 class NoiseSource:
-    """Draws the errors of the measurements of a robot with n joints."""
+    """
+    Random errors of the measurements of a robot with n driven joints.
+
+    Parameters
+    ----------
+    noise
+        Standard deviations of the errors.
+    joints
+        Number n of driven joints.
+    random
+        Source of random numbers; the biases, which then stay constant, are drawn from it at once.
+    slides
+        Whether each joint (n,) is prismatic, measured in m; empty if none is.
+
+    Attributes
+    ----------
+    is_silent
+        Whether all errors are zero.
+
+    """
 
     def __init__(
         self,
@@ -114,7 +133,6 @@ class NoiseSource:
         random: np.random.Generator,
         slides: Sequence[bool] = (),
     ) -> None:
-        """Draw the biases, which last; `slides` says which joints are measured in m."""
         self._random = random
         self._channels = channels_of(joints)
         self._deviations = _deviations(noise, self._channels)
@@ -154,7 +172,7 @@ class NoiseSource:
 
 class AttitudeError:
     """
-    How far the attitude is off that a filter makes of gyroscopes and accelerometers (6 axes).
+    Error of the attitude that a filter estimates from gyroscopes and accelerometers (6 axes).
 
     The filter integrates the angular velocity, and leans towards what the accelerometers take for
     the vertical. So its tilt stays bounded: it is off by as much as the gyroscopes drift in the
@@ -162,10 +180,15 @@ class AttitudeError:
     magnetometer corrects the heading, so that the error of the gyroscopes adds up in it.
     First-order complementary filter, linearised: Mahony, Hamel and Pflimlin, "Nonlinear
     Complementary Filters on the Special Orthogonal Group" (2008).
+
+    Parameters
+    ----------
+    acceleration_bias_m_s2
+        Bias (3,) of the accelerometers, in the axes of the sensor.
+
     """
 
     def __init__(self, acceleration_bias_m_s2: Array) -> None:
-        """Take the bias (3,) of the accelerometers, in the axes of the sensor."""
         self._bias = acceleration_bias_m_s2
         self._error_rad: Array | None = None
         self._time_s = 0.0

@@ -20,7 +20,28 @@ import numpy as np
 
 
 class SimulatedRobot:
-    """Its drives and its sensors."""
+    """
+    Servos and sensors of one robot in a simulated world.
+
+    Parameters
+    ----------
+    model, data
+        The compiled MuJoCo world, and its state, in which the inputs of the servos are set.
+    description
+        The kind of the robot.
+    place
+        Its name, and where on the ground it begins.
+    settings
+        Control period, sensor noise, latency, and extrapolation of targets.
+    random
+        Source of random numbers for the sensor noise.
+
+    Raises
+    ------
+    SimulationError
+        The inertial measurement unit is not fixed to the base.
+
+    """
 
     def __init__(
         self,
@@ -31,7 +52,6 @@ class SimulatedRobot:
         settings: BackendSettings,
         random: np.random.Generator,
     ) -> None:
-        """Find the robot in the world."""
         self._description, self._place = description, place
         self._joints, self._prefix = tuple(description.drives), description.prefix
         drives = description.drives.values()

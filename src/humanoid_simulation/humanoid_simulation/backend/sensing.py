@@ -16,14 +16,23 @@ import numpy as np
 
 class Sensors:
     """
-    Measures a robot in a world.
+    Joint encoders, inertial measurement unit and foot force sensors of a robot in a world.
 
-    Joints and rates are those of this moment; forces and accelerations are those of the physics
-    step that led to it.
+    Joint positions and all velocities are those of this moment; forces and accelerations are those
+    of the physics step that led to it.
+
+    Parameters
+    ----------
+    model, data
+        The compiled MuJoCo world, and its state, whose arrays are read at each measurement.
+    layout
+        Indices of the robot in these arrays.
+    noise
+        Draws the errors of measurements.
+
     """
 
     def __init__(self, model: Any, data: Any, layout: Layout, noise: NoiseSource) -> None:
-        """Take the arrays in which the world keeps its state."""
         self._qpos, self._qvel = data.qpos, data.qvel
         self._actuator_force, self._sensordata = data.actuator_force, data.sensordata
         self._external = [data.cfrc_ext[foot] for foot in layout.feet]

@@ -13,15 +13,24 @@ import numpy as np
 
 class Servos:
     """
-    Turns targets of n joints into what MuJoCo's position servos take.
+    Converts the targets of n joints to the inputs of MuJoCo's position servos.
 
     Such a servo exerts kp (input - q) - kd dq. Feed-forward is put into the input; positions,
-    velocities and efforts are held within what the drives can do. A target that jumps is followed
-    as fast as a joint may move.
+    velocities and efforts are clamped to the limits of the drives. A target that jumps is followed
+    as fast as a joint may move. Call `reset` with the positions of the joints first.
+
+    Parameters
+    ----------
+    drives
+        Limits and gains of the n joints, in the order of the targets.
+    period_s
+        Control period: the time from one `take` or `go_on` to the next.
+    extrapolation_s
+        How long positions go on with their velocities while no new targets come.
+
     """
 
     def __init__(self, drives: Iterable[Drive], period_s: float, extrapolation_s: float) -> None:
-        """Take the limits of the drives; for so long a target that is not renewed moves on."""
         drives = tuple(drives)
         self._lower = np.array([drive.lower for drive in drives])
         self._upper = np.array([drive.upper for drive in drives])

@@ -41,13 +41,18 @@ class Wrench:
 
 class Wrenches:
     """
-    Wrenches that act on the bodies of a world.
+    External wrenches that act on the bodies of a world for a limited time.
 
-    What ends within a period acts in all of it with so much less force that the impulse is right.
+    One that ends within a period is scaled down for all of it, so that the impulse is right.
+
+    Parameters
+    ----------
+    model, data
+        The MuJoCo model, and its state, whose `xfrc_applied` is set.
+
     """
 
     def __init__(self, model: Any, data: Any) -> None:
-        """Begin without any."""
         self._model, self._data = model, data
         self._acting: list[tuple[Wrench, float]] = []
 
@@ -70,7 +75,7 @@ class Wrenches:
             if wrench.body in numbers
         ]
 
-    def add(self, wrench: Wrench) -> None:
+    def add(self, wrench: Wrench, *, always: bool = False) -> None:
         """
         Apply a wrench from the coming period on.
 
@@ -78,6 +83,8 @@ class Wrenches:
         ----------
         wrench
             The wrench; it adds to others on the same body.
+        always
+            Whether it acts however many act already, as that of a hoist does.
 
         Raises
         ------
@@ -85,7 +92,7 @@ class Wrenches:
             `MOST` wrenches act already.
 
         """
-        if len(self._acting) >= MOST:
+        if len(self._acting) >= MOST and not always:
             raise SimulationError(
                 f'{MOST} wrenches act already, which is all that can be. Wait for their end, or '
                 'reset the simulation.'

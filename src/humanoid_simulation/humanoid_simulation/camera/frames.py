@@ -18,13 +18,29 @@ _ALIGNMENT = 64
 
 class Frames:
     """
-    One piece of memory with the positions of a state, and two pictures and a cloud of each view.
+    Shared memory for the positions of a state, and for the images and point clouds of its views.
 
     The memory has no name and is gone with the last process that holds it.
+
+    Parameters
+    ----------
+    file
+        Descriptor of the memory, from `unnamed_file`; the file is resized to what is needed.
+    nq
+        Number of generalised positions of the MuJoCo model.
+    views
+        The views, in the same order in each process.
+
+    Attributes
+    ----------
+    qpos
+        The generalised positions (nq,).
+    colors, depths, clouds
+        One array for each view, see `Color`, `Depth` and `Cloud`.
+
     """
 
     def __init__(self, file: int, nq: int, views: Sequence[CameraView]) -> None:
-        """Map the memory of an open file; give it its size if it is new."""
         sizes = [nq * 8]
         for view in views:
             pixels = view.width_px * view.height_px

@@ -21,14 +21,28 @@ _LEFT_OUT = (
 
 class GlPainter:
     """
-    Draws by the OpenGL of a method, which no other must have used before in this process.
+    Off-screen renderer by OpenGL; a process can use a single method only.
 
-    Without shadows and smoothed edges, which cost seven times as much where no graphics card
-    helps. The model must be one that nobody else uses: its picture quality is changed.
+    Without shadows and anti-aliasing, which cost seven times as much without a graphics card. The
+    model must be one that nobody else uses: its picture quality is changed.
+
+    Parameters
+    ----------
+    method
+        How OpenGL runs without a window: EGL or OSMESA.
+    model
+        The world.
+    width_px, height_px
+        Size of the largest image that will be drawn.
+
+    Raises
+    ------
+    SimulationError
+        OpenGL is not installed, cannot be used, or cannot draw without a window.
+
     """
 
     def __init__(self, method: str, model: mujoco.MjModel, width_px: int, height_px: int) -> None:
-        """Start OpenGL for pictures up to a size; raise SimulationError if it is not there."""
         self._model = model
         _make_cheap(model, width_px, height_px)
         self._scene = mujoco.MjvScene(model, maxgeom=model.ngeom + _SPARE_GEOMS)

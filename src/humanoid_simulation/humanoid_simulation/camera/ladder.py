@@ -10,14 +10,19 @@ _MOST_DEATHS = 3
 
 class Ladder:
     """
-    The methods, best first, and why those that were tried are no good.
+    Fallback order of rendering methods, and why those that were tried have failed.
 
     A method that has drawn before gets another chance when its process ends, until that happens
     three times with no picture between.
+
+    Parameters
+    ----------
+    methods
+        The methods, best first.
+
     """
 
     def __init__(self, methods: Sequence[str]) -> None:
-        """Begin with the first method."""
         self._methods = list(methods)
         self._deaths = 0
         self._has_drawn = False

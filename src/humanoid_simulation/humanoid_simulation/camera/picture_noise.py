@@ -22,10 +22,17 @@ class PictureNoise:
 
 
 class PictureNoiseSource:
-    """Adds noise to pictures, each time another."""
+    """
+    Adds Gaussian noise to images, different each time.
+
+    Parameters
+    ----------
+    noise
+        Standard deviations of pixels, and the seed: the same one gives the same sequence.
+
+    """
 
     def __init__(self, noise: PictureNoise) -> None:
-        """Begin with the first numbers of the seed."""
         self._noise = noise
         self._random = np.random.default_rng(noise.seed)
 

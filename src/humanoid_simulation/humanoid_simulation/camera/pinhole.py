@@ -68,10 +68,17 @@ class Pinhole:
 
 
 class Deprojection:
-    """Turns the depth pictures of a camera into points, one a pixel."""
+    """
+    Converts the depth images of a camera to organised point clouds, one point for each pixel.
+
+    Parameters
+    ----------
+    pinhole
+        Image size and field of view of the camera.
+
+    """
 
     def __init__(self, pinhole: Pinhole) -> None:
-        """Compute the rays of all pixels."""
         self._rays = pinhole.rays().astype(np.float32)
 
     def fill(self, cloud: Cloud, depth: Depth) -> None:

@@ -51,9 +51,21 @@ class Patience:
 
 class ProcessKeeper:
     """
-    Starts a process, and another one when it ends or hangs, and says so.
+    Supervises a render process: starts it, replaces it when it ends or hangs, and logs that.
 
-    Times are those of a clock that nobody sets.
+    No process starts before `tend`. Times are those of a monotonic clock.
+
+    Parameters
+    ----------
+    start
+        Starts a process that renders by the method given; it may raise OSError.
+    methods
+        The rendering methods to try, best first.
+    log
+        Where to report which method renders, and failures.
+    patience
+        Timeouts of the process.
+
     """
 
     def __init__(
@@ -63,7 +75,6 @@ class ProcessKeeper:
         log: Log,
         patience: Patience,
     ) -> None:
-        """Start nothing yet; `start` starts a process that draws by a method."""
         self._start = start
         self._ladder = Ladder(methods)
         self._log = log

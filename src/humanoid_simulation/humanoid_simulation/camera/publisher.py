@@ -23,11 +23,22 @@ class CameraPublisher:
     """
     Publishes color and depth below `camera`, `camera_info` beside each, and `points`.
 
-    All of them are reliable: large messages lose parts otherwise, and with them the whole.
+    All of them are reliable: a large message is lost with any of its parts otherwise.
+
+    Parameters
+    ----------
+    node
+        The node that publishes.
+    folder
+        What the names of the topics begin with: '' or the name of a robot and a slash.
+    pinhole
+        Image size and field of view of the camera.
+    frame
+        The optical frame of images and points, for their headers.
+
     """
 
     def __init__(self, node: Node, folder: str, pinhole: Pinhole, frame: str) -> None:
-        """Announce the topics; `folder` is '' or the name of a robot and a slash."""
         base = f'{folder}camera'
         self._color = node.create_publisher(Image, f'{base}/image_raw', STATE)
         self._depth = node.create_publisher(Image, f'{base}/depth/image_raw', STATE)

@@ -18,13 +18,26 @@ Array = NDArray[np.float64]
 
 class RayPainter:
     """
-    Draws matt surfaces in flat colours; depth is exact.
+    Renderer by ray casting: matt surfaces in flat colours, and exact depth.
 
-    The model must be one that nobody else uses: geoms around a camera are hidden meanwhile.
+    The model must be one that nobody else uses: its bounding volumes are disabled, and some of its
+    geoms are hidden while it draws.
+
+    Parameters
+    ----------
+    model
+        The world.
+    views
+        The cameras that `draw` can be asked for, and the sizes of their images.
+
+    Raises
+    ------
+    SimulationError
+        A view cannot be rendered, see `pinhole_of`.
+
     """
 
     def __init__(self, model: mujoco.MjModel, views: Sequence[CameraView]) -> None:
-        """Prepare the rays of all views."""
         see_all(model)
         self._model = model
         self._rays = {camera_id(model, view.camera): _unit_rays(model, view) for view in views}

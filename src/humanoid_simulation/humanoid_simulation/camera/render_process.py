@@ -22,14 +22,24 @@ _LAST_WORDS = 300
 
 class RenderProcess:
     """
-    A process that draws one request at a time; nothing here ever waits for it.
+    A process that renders one request at a time; nothing here waits for it but `wait`.
 
     It writes its noise, such as warnings of drivers, to a file in memory. It ends at the latest
     with the thread that has started it.
+
+    Parameters
+    ----------
+    assignment
+        What the process renders, by which method, and the files that it shares.
+
+    Raises
+    ------
+    OSError
+        The process cannot be started, as when memory is short.
+
     """
 
     def __init__(self, assignment: Assignment) -> None:
-        """Start the process; raise OSError if the computer has no room for it."""
         self._noise = unnamed_file('noise')
         try:
             self._process = _start(assignment, self._noise)

@@ -32,9 +32,30 @@ class Pictures:
 
 class Renderer:
     """
-    Draws one state at a time in another process, which starts with the first request.
+    Renders one state at a time in another process, which starts once `need` was called.
 
-    Nothing here waits for that process; if it ends or hangs, it is replaced.
+    Nothing here waits for that process but `close`; if it ends or hangs, it is replaced.
+
+    Parameters
+    ----------
+    model
+        The world, which is copied: later changes of it are not seen.
+    views
+        The cameras to render, and the sizes of their images.
+    methods
+        The rendering methods to try, best first.
+    log
+        Where to report which method renders, and failures.
+    patience
+        Timeouts of the process.
+    noise
+        Standard deviations of pixels.
+
+    Raises
+    ------
+    SimulationError
+        A view cannot be rendered, see `pinhole_of`.
+
     """
 
     def __init__(
@@ -46,7 +67,6 @@ class Renderer:
         patience: Patience = Patience(),
         noise: PictureNoise = PictureNoise(),
     ) -> None:
-        """Copy the model; raise SimulationError if a view cannot be drawn."""
         check_views(model, views)
         self._views, self._noise = tuple(views), noise
         self._model_file = _file_with(model)

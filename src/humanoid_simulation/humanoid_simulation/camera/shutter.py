@@ -10,13 +10,18 @@ _TINY = 1e-6
 
 class Shutter:
     """
-    Is due once a period, on a grid, so that the mean rate holds whatever the ticks are.
+    Rate limiter for images, on a grid, so that the mean rate holds whatever the ticks are.
 
-    A picture that could not be taken in time is due until it is; those in between are left out.
+    An image that could not be taken in time is due until it is; those in between are left out.
+
+    Parameters
+    ----------
+    rate_hz
+        Images in a second of simulated time, above 0.
+
     """
 
     def __init__(self, rate_hz: float) -> None:
-        """Be due at once."""
         self._rate_hz = rate_hz
         self._last: int | None = None
 

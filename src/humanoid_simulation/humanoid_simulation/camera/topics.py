@@ -38,8 +38,30 @@ class CameraTopics:
     """
     Publishes what the cameras see, at a rate in simulated time, while somebody subscribes.
 
-    One process draws the pictures of all of them; nothing here ever waits for it. In a pause,
-    new subscribers get a picture, and all of them one of what was moved.
+    One process renders the images of all of them; ticks never wait for it. In a pause, new
+    subscribers get an image, and all of them one of what was moved.
+
+    Parameters
+    ----------
+    node
+        The node that publishes.
+    cameras
+        The name of the camera in the model, by the namespace of its robot relative to the node:
+        '' for a robot alone.
+    model
+        The compiled world.
+    parameters
+        Rate, image size, frame and rendering method; at rate 0 there are no topics.
+    prefix
+        What the names of frames begin with.
+    noise
+        Standard deviations of pixels.
+
+    Raises
+    ------
+    SimulationError
+        The model does not have the cameras.
+
     """
 
     def __init__(
@@ -51,16 +73,6 @@ class CameraTopics:
         prefix: str = '',
         noise: PictureNoise = PictureNoise(),
     ) -> None:
-        """
-        Announce the topics; raise SimulationError if the model has not the cameras.
-
-        At rate 0 there are no topics.
-
-        :param cameras: the name of the camera in the model, by the namespace of its robot
-            relative to the node: '' for a robot alone
-        :param prefix: what the names of frames begin with
-        :param noise: how far pixels are off
-        """
         cameras = cameras if parameters.camera_rate_hz > 0.0 else {}
         width_px, height_px = parameters.camera_width_px, parameters.camera_height_px
         views = [CameraView(camera, width_px, height_px) for camera in cameras.values()]

@@ -42,10 +42,26 @@ class GaitRecording:
 
 
 class GaitRecorder:
-    """Collects the moments of a walk of a robot that is alone in its world."""
+    """
+    Records the centre of mass, the ZMP and the feet of a robot that is alone in its world.
+
+    Parameters
+    ----------
+    model
+        The compiled MuJoCo world; its state is computed anew from snapshots.
+    joints
+        Names of the driven joints, in the order of the observations.
+    base
+        Name of the base link of the robot, whose soles are `SOLES`.
+
+    Raises
+    ------
+    KeyError
+        The model has no robot with these links.
+
+    """
 
     def __init__(self, model: Any, joints: tuple[str, ...], base: str = 'base_link') -> None:
-        """Take the model of the world; its state is computed anew from snapshots."""
         self._model, self._data, self._joints = model, mujoco.MjData(model), joints
         self._base = model.body(in_world('', base)).id
         self._soles = [model.body(in_world('', sole)).id for sole in SOLES]

@@ -16,10 +16,21 @@ class ExampleError(NodeStartError):
 
 
 class SimulatorWatch:
-    """Ends the node, with a sentence, when nothing has come from the simulator for a while."""
+    """
+    Watchdog that ends a node with an error when nothing comes from the simulator for a while.
+
+    Parameters
+    ----------
+    node
+        The node, which calls `heard` at each message.
+    topics
+        What is listened to, as the error names it: `'odom' and 'ground_truth/odom'`.
+    patience_s
+        How often to check that something has come, in s of real time.
+
+    """
 
     def __init__(self, node: Node, topics: str, patience_s: float = PATIENCE_S) -> None:
-        """Begin to wait for something on the topics."""
         self._node = node
         self._topics = topics
         self._heard = False

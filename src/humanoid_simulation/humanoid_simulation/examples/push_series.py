@@ -48,10 +48,15 @@ class PushSeries:
     Pushes in one direction after the other, each time harder, until the robot falls.
 
     Before each push the robot has to have stood for a while, and after each it is put back.
+
+    Parameters
+    ----------
+    plan
+        Impulses and durations.
+
     """
 
     def __init__(self, plan: PushPlan) -> None:
-        """Begin with the gentlest push in the first direction."""
         self._plan = plan
         self._left = list(DIRECTIONS)
         self._impulse_ns = plan.first_ns

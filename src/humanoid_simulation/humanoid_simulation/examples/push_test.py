@@ -30,7 +30,15 @@ from simulation_interfaces.srv import ResetSimulation
 
 
 class PushTest(Node):
-    """Pushes the robot harder and harder, and resets the simulation after each push."""
+    """
+    Pushes the robot harder and harder, and resets the simulation after each push.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
 
     def __init__(self, **options: Any) -> None:
         """Wait for the robot."""

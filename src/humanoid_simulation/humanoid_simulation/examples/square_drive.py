@@ -45,14 +45,21 @@ class Corner:
 
 class SquareDrive:
     """
-    Walks along the four sides of a square that lies to the left of the start, and ends there.
+    Steers along the four sides of a square that lies to the left of the start, and ends there.
 
     A side is walked towards its corner; at the corner the robot turns to the next side. Both are
     closed loops: what the robot is beside the line, or turned away from it, is corrected.
+
+    Parameters
+    ----------
+    start
+        Pose of the robot at the start; the first side is straight ahead of it.
+    plan
+        Size of the square, speeds and tolerances.
+
     """
 
     def __init__(self, start: PlanarPose, plan: SquarePlan) -> None:
-        """Plan the corners."""
         self._plan = plan
         self._sides = [_side(start, plan.side_m, number) for number in range(CORNERS)]
         self._number = 0

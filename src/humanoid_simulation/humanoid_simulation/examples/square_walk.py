@@ -31,12 +31,23 @@ class Progress:
 
 
 class SquareWalk:
-    """Steers by odometry, and compares with ground truth where the robot began and ended."""
+    """
+    Steers round a square by odometry, and measures the closing error on ground truth as well.
+
+    Parameters
+    ----------
+    plan
+        Size of the square, speeds and tolerances.
+    time_s
+        Simulated time at the start.
+    odometry, truth
+        Pose at the start, by odometry and in the world.
+
+    """
 
     def __init__(
         self, plan: SquarePlan, time_s: float, odometry: PlanarPose, truth: PlanarPose
     ) -> None:
-        """Begin here and now."""
         self._drive = SquareDrive(odometry, plan)
         self._odometry = odometry
         self._truth = truth

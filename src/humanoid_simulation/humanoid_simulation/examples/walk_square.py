@@ -27,7 +27,15 @@ from rclpy.node import Node
 
 
 class WalkSquare(Node):
-    """Drives the robot by `cmd_vel` with what `odom` says; `ground_truth/odom` only judges."""
+    """
+    Drives the robot by `cmd_vel` with what `odom` says; `ground_truth/odom` only judges.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
 
     def __init__(self, **options: Any) -> None:
         """Wait for the robot."""

@@ -64,6 +64,25 @@ class LaserScanner:
 
     All rays of a sweep are cast at the same moment, in the plane x, y of the link. The model is
     copied: later changes of it are not seen.
+
+    Parameters
+    ----------
+    model
+        The compiled world.
+    link
+        The name of the link in it, such as `robot/laser`.
+    pattern
+        The rays.
+    noise
+        How far ranges are off.
+    number
+        Which scanner it is: each has noise of its own.
+
+    Raises
+    ------
+    SimulationError
+        The world has no link of that name.
+
     """
 
     def __init__(
@@ -74,23 +93,6 @@ class LaserScanner:
         noise: ScanNoise = ScanNoise(),
         number: int = 0,
     ) -> None:
-        """
-        Find the link in the world; raise SimulationError if there is none of that name.
-
-        Parameters
-        ----------
-        model
-            The compiled world.
-        link
-            The name of the link in it.
-        pattern
-            The rays.
-        noise
-            How far ranges are off.
-        number
-            Which scanner it is: each has noise of its own.
-
-        """
         numbers = {model.body(number).name: number for number in range(model.nbody)}
         self._link = named('link', link, numbers)
         self.pattern, self._noise, self._number = pattern, noise, number

@@ -36,6 +36,28 @@ class ScanTopics:
     The topic `scan` of each robot, at a rate in simulated time, while somebody subscribes.
 
     Sweeps show the state at the time of their stamp, in a copy of it: physics is not touched.
+
+    Parameters
+    ----------
+    node
+        The node that publishes.
+    links
+        The name of the scanner's link in the model, by the namespace of its robot relative to
+        the node: '' for a robot alone.
+    model
+        The compiled world.
+    settings
+        The pattern of the rays, and the rate.
+    prefix
+        What the names of frames begin with.
+    noise
+        How far ranges are off.
+
+    Raises
+    ------
+    SimulationError
+        The model does not have the links.
+
     """
 
     def __init__(
@@ -47,26 +69,6 @@ class ScanTopics:
         prefix: str = '',
         noise: ScanNoise = ScanNoise(),
     ) -> None:
-        """
-        Announce the topics; raise SimulationError if the model has not the links.
-
-        Parameters
-        ----------
-        node
-            The node that publishes.
-        links
-            The name of the scanner's link in the model, by the namespace of its robot relative to
-            the node: '' for a robot alone.
-        model
-            The compiled world.
-        settings
-            The pattern of the rays, and the rate.
-        prefix
-            What the names of frames begin with.
-        noise
-            How far ranges are off.
-
-        """
         self._model, self._data = model, mujoco.MjData(model)
         pattern = settings.scan_pattern
 

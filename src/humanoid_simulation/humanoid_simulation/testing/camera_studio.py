@@ -20,7 +20,33 @@ ALL = Wanted(color=True, depth=True)
 
 
 class Studio:
-    """A renderer, and the world that it draws."""
+    """
+    A renderer, whose process has been requested, and the world that it renders.
+
+    Parameters
+    ----------
+    views
+        The cameras of the world, and the sizes of their images.
+    methods
+        The rendering methods to try, best first.
+    patience
+        The timeouts of the render process.
+    noise
+        The standard deviations of pixels.
+
+    Attributes
+    ----------
+    model, data
+        The world of the camera tests, and its state, which tests may change.
+    log, renderer
+        The logger of the renderer, and the renderer itself.
+
+    Raises
+    ------
+    SimulationError
+        A view cannot be rendered, see `pinhole_of`.
+
+    """
 
     def __init__(
         self,
@@ -29,7 +55,6 @@ class Studio:
         patience: Patience,
         noise: PictureNoise,
     ) -> None:
-        """Need pictures of the views, so that the process starts."""
         self.model, self.data = world()
         self.log = logging.getLogger('camera_studio')
         self.renderer = Renderer(self.model, views, methods, self.log, patience, noise)

@@ -29,7 +29,15 @@ START = PlanarPose(1 + 2j, 0.5)
 
 
 class FakeSimulator(Node):
-    """A robot that goes exactly as it is told; without physics, and without a control of time."""
+    """
+    A robot that goes exactly as it is told; without physics, and without a control of time.
+
+    Parameters
+    ----------
+    options
+        Keyword arguments of `rclpy.node.Node`.
+
+    """
 
     def __init__(self, **options: Any) -> None:
         """Put the robot at the start."""

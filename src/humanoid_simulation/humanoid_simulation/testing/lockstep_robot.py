@@ -24,7 +24,29 @@ def never() -> bool:
 
 
 class LockstepRobot:
-    """Backend and control in lockstep; at a tick that control misses, the drives go on alone."""
+    """
+    Backend and control in lockstep; at a tick that control misses, the drives go on alone.
+
+    Parameters
+    ----------
+    settings, scene
+        How the world is simulated, and what is in it.
+    misses
+        Called at each tick; returns whether control misses it.
+    hands
+        Whether the robot has wrists and grippers.
+
+    Attributes
+    ----------
+    backend, walking
+        The world, and the walking controller of the robot.
+
+    Raises
+    ------
+    SimulationError
+        Such a world cannot be built.
+
+    """
 
     def __init__(
         self,
@@ -33,19 +55,6 @@ class LockstepRobot:
         misses: Callable[[], bool] = never,
         hands: bool = False,
     ) -> None:
-        """
-        Put the robot into a scene.
-
-        Parameters
-        ----------
-        settings, scene
-            How the world is computed, and what is in it.
-        misses
-            Tells at each tick whether control misses it.
-        hands
-            Whether the robot has wrists and grippers.
-
-        """
         description = humanoid(hands=hands)
         self.backend = MujocoBackend(description, scene, settings=settings)
         robot = load_robot(description.urdf, 'the humanoid')

@@ -33,10 +33,38 @@ REPEAT_S = 0.03
 
 
 class RobotTopics:
-    """Keeps the newest of what the robot says, and goes on to send commands."""
+    """
+    The newest messages of a simulated robot, its commands, which are repeated, and its services.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes and publishes, in the namespace of the robot.
+    simulator
+        Name of the simulator node, with its namespace: `/simulator`.
+
+    Attributes
+    ----------
+    velocity
+        The command that is repeated on `cmd_vel`; None sends none.
+    time_s
+        Stamp of the newest ground truth; minus infinity before the first one.
+    pose, height_m, tilt_rad
+        True pose on the ground and height of the base, in the world frame, and its tilt.
+    odometry
+        Pose on the ground by odometry, in `odom`.
+    positions_rad
+        Measured positions by the names of the joints.
+    walking_state
+        What the robot does, as `walking_state` says.
+    pause, steps, reset, put, push, stand_up
+        Clients of the services of the simulator.
+    emergency_stop
+        Publisher of the emergency stop.
+
+    """
 
     def __init__(self, node: Node, simulator: str) -> None:
-        """Take part; the names are in the namespace of the node."""
         self.velocity: VelocityCommand | None = None
         self.joint_commands: dict[str, float] = {}
         """Positions of joints that are sent, in radians; none if it is empty."""

@@ -31,7 +31,31 @@ class FellError(AssertionError):
 
 
 class SimulatedRobot:
-    """A robot in a simulator that runs, which is to stay on its feet in all that a test does."""
+    """
+    A robot in a simulator that runs, which is to stay on its feet in all that a test does.
+
+    Parameters
+    ----------
+    ros
+        Where the nodes of the test are, in the domain of the simulator.
+    namespace
+        Namespace of the robot; '' if it is alone.
+    simulator
+        Name of the simulator node, with its namespace.
+    runs
+        Whether simulated time passes already, so that ground truth must come.
+
+    Attributes
+    ----------
+    topics
+        The topics and services of the robot.
+
+    Raises
+    ------
+    WaitedInVainError
+        The simulator or its ground truth does not come within `PATIENCE_S`.
+
+    """
 
     def __init__(
         self,
@@ -40,7 +64,6 @@ class SimulatedRobot:
         simulator: str = '/simulator',
         runs: bool = True,
     ) -> None:
-        """Wait for the robot, and for its time unless it does not run yet."""
         self._ros = ros
         self._namespace = namespace
         node = ros.start(lambda **options: Node('robot_watcher', namespace=namespace, **options))

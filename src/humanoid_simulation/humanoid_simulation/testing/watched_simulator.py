@@ -23,10 +23,37 @@ HEADLESS = {'camera_rate_hz': 0.0, 'real_time_factor': 0.0}
 
 
 class WatchedSimulator:
-    """A simulator in this process, what it says, and how to ask it for something."""
+    """
+    A simulator in this process, what it publishes, and calls of its services.
+
+    It runs as fast as possible and without cameras, unless the parameters say otherwise.
+
+    Parameters
+    ----------
+    ros
+        Where the node of the simulator is started.
+    **parameters
+        Parameters of that node.
+
+    Attributes
+    ----------
+    node
+        Subscribes and calls services.
+    last
+        Newest message by topic, of those passed to `listen`.
+    times_s
+        All simulated times that came on `/clock`.
+    simulator
+        The node of the simulator.
+
+    Raises
+    ------
+    NodeStartError
+        The simulator cannot start with these parameters.
+
+    """
 
     def __init__(self, ros: RosSandbox, **parameters: Any) -> None:
-        """Start the simulator, as fast as possible, and without a camera."""
         self.ros, self.node = ros, ros.observer()
         self.last: dict[str, Any] = {}
         self.times_s: list[float] = []

@@ -10,10 +10,17 @@ from rosgraph_msgs.msg import Clock
 
 
 class ClockTopic:
-    """The topic `/clock`, the same in all namespaces; its time never goes back."""
+    """
+    The topic `/clock`, the same in all namespaces; its time never goes back.
+
+    Parameters
+    ----------
+    node
+        The node that publishes it.
+
+    """
 
     def __init__(self, node: Node) -> None:
-        """Prepare the message."""
         self._message = Clock()
         self._publisher = node.create_publisher(Clock, '/clock', STATE)
 

@@ -15,10 +15,21 @@ from rclpy.node import Node
 
 
 class ContactsTopic:
-    """The topic `contacts`, in world axes."""
+    """
+    The topic `contacts` of a robot, in world axes.
+
+    Parameters
+    ----------
+    node
+        The node that publishes it.
+    robot
+        Namespace of the robot, relative to that of the node; '' if it is alone.
+    links
+        Names of the bodies of the robot, as `MujocoBackend.links` gives them.
+
+    """
 
     def __init__(self, node: Node, robot: str, links: Iterable[str]) -> None:
-        """Take the names of the robot's links in the world."""
         self._links = frozenset(links)
         self._publisher = node.create_publisher(Contacts, topic(robot, 'contacts'), SENSOR)
 

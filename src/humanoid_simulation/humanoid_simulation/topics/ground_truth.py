@@ -19,10 +19,21 @@ WORLD = 'world'
 
 
 class GroundTruthTopic:
-    """The topic `ground_truth/odom`: pose in the world, velocities in the axes of the base."""
+    """
+    The topic `ground_truth/odom`: pose in the world, velocities in the axes of the base.
+
+    Parameters
+    ----------
+    node
+        The node that publishes it.
+    robot
+        Namespace of the robot, relative to that of the node; '' if it is alone.
+    prefix
+        What the name of the frame `base_link` begins with.
+
+    """
 
     def __init__(self, node: Node, robot: str, prefix: str) -> None:
-        """Prepare the message."""
         self._message = Odometry()
         self._message.header.frame_id = WORLD
         self._message.child_frame_id = f'{prefix}base_link'

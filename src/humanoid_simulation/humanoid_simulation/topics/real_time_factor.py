@@ -15,10 +15,19 @@ _PERIOD_S = 1.0
 
 
 class RealTimeFactorTopic:
-    """The topic `real_time_factor`, once a real second, while time passes."""
+    """
+    The topic `real_time_factor`, once a real second, while time passes.
+
+    Parameters
+    ----------
+    node
+        The node that publishes it.
+    speed
+        Returns the real-time factors; None if they are not known, as in a pause.
+
+    """
 
     def __init__(self, node: Node, speed: Callable[[], Speed | None]) -> None:
-        """Begin to publish what `speed` returns, unless that is None."""
         self._speed = speed
         self._publisher = node.create_publisher(Float64, 'real_time_factor', STATE)
         steady = Clock(clock_type=ClockType.STEADY_TIME)

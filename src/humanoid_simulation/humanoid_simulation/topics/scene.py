@@ -36,12 +36,21 @@ class SceneTopics:
     The first one has all that is fixed, and is published again when walls are cut elsewhere. The
     second one has what is not: all of it at the start and when somebody joins, and then only what
     has moved, also while the simulation is paused. At rest nothing is published.
+
+    Parameters
+    ----------
+    node
+        The node that publishes them.
+    backend
+        The world.
+    parameters
+        The parameters of the simulator, of which `walls_shown_up_to_m` counts.
+
     """
 
     def __init__(
         self, node: Node, backend: MujocoBackend, parameters: SimulatorParameters
     ) -> None:
-        """Publish everything once."""
         self._backend = backend
         self._walls_up_to_m = parameters.walls_shown_up_to_m
         self._scene = node.create_publisher(MarkerArray, 'ground_truth/scene', LATCHED)

@@ -19,12 +19,23 @@ from rclpy.node import Node
 
 
 class WorldTopics:
-    """Publishes the time, the scene, and of each robot the truth, contacts and wrenches."""
+    """
+    Publishes time and scene, and for each robot ground truth, contacts, wrenches and world frame.
+
+    Parameters
+    ----------
+    node
+        The node that publishes.
+    simulated
+        The world, and the controllers of its robots.
+    parameters
+        Prefix of frames, rates of the topics, and the height of the walls shown.
+
+    """
 
     def __init__(
         self, node: Node, simulated: SimulatedRobots, parameters: SimulatorParameters
     ) -> None:
-        """Prepare all topics."""
         backend, prefix = simulated.backend, parameters.prefix
         robots = backend.robots
         self._backend, self._controls = backend, simulated.controls

@@ -27,10 +27,19 @@ class WorldFrame:
     Odometry is reckoned on the ground, and so is this: a turn about the vertical, and a shift. It
     is repeated as it was until odometry is off by more than is seen, so that a viewer need not
     move the whole world at each step.
+
+    Parameters
+    ----------
+    node
+        The node that publishes it.
+    robot
+        Namespace of the robot, relative to that of the node; '' if it is alone.
+    prefix
+        What the name of the frame `odom` begins with.
+
     """
 
     def __init__(self, node: Node, robot: str, prefix: str) -> None:
-        """Prepare the message."""
         self._transform = TransformStamped(child_frame_id=WORLD)
         self._transform.header.frame_id = prefix + ODOM
         self._message = TFMessage(transforms=[self._transform])

@@ -13,10 +13,21 @@ SOLES = ('l_sole', 'r_sole')
 
 
 class WrenchTopics:
-    """The topics `l_sole/wrench` and `r_sole/wrench`, about the sole and in its axes."""
+    """
+    The topics `l_sole/wrench` and `r_sole/wrench`, about the sole and in its axes.
+
+    Parameters
+    ----------
+    node
+        The node that publishes them.
+    robot
+        Namespace of the robot, relative to that of the node; '' if it is alone.
+    prefix
+        What the names of the frames `l_sole` and `r_sole` begin with.
+
+    """
 
     def __init__(self, node: Node, robot: str, prefix: str) -> None:
-        """Prepare the messages."""
         self._messages = [WrenchStamped(), WrenchStamped()]
         for message, sole in zip(self._messages, SOLES):
             message.header.frame_id = prefix + sole

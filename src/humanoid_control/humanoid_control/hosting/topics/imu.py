@@ -20,14 +20,25 @@ _HEADING = 8
 
 class ImuTopic:
     """
-    The topic `imu/data`.
+    Publisher of `imu/data`.
 
     Covariances are those of the sensor; zero ones mean that they are not known (REP-145). That of
     the heading grows with the time since the start, as no compass corrects it.
+
+    Parameters
+    ----------
+    node
+        The node that publishes it.
+    robot
+        Name of the robot, which is its namespace; empty if it is alone.
+    prefix
+        What the name of the frame, imu_link, begins with.
+    noise
+        Standard deviations of the sensor, from which the covariances follow.
+
     """
 
     def __init__(self, node: Node, robot: str, prefix: str, noise: ImuNoise) -> None:
-        """Prepare the message."""
         self._noise = noise
         self._start_s: float | None = None
         self._message = Imu()

@@ -13,10 +13,21 @@ from sensor_msgs.msg import JointState
 
 
 class JointStatesTopic:
-    """The topic `joint_states`."""
+    """
+    Publisher of `joint_states`.
+
+    Parameters
+    ----------
+    node
+        The node that publishes it.
+    robot
+        Name of the robot, which is its namespace; empty if it is alone.
+    joints
+        All n joints, in the order of the observations.
+
+    """
 
     def __init__(self, node: Node, robot: str, joints: Sequence[str]) -> None:
-        """Prepare the message."""
         zeros = [0.0] * len(joints)
         self._message = JointState(name=list(joints), position=zeros, velocity=zeros, effort=zeros)
         self._position = view(self._message.position)

@@ -28,14 +28,23 @@ _TWIST = (1e-2, 1e-2, 1e-2, 1e-3, 1e-3, 1e-3)
 
 class OdometryTopics:
     """
-    The topics `odom` and `tf`: where the base is, and the ground below it.
+    Publishers of `odom` and `tf`: where the base is, and the ground below it.
 
     The footprint is upright on the ground under the base and faces where the base faces, as
     REP-120 has it.
+
+    Parameters
+    ----------
+    node
+        The node that publishes them.
+    robot
+        Name of the robot, which is its namespace; empty if it is alone.
+    prefix
+        What the names of frames begin with.
+
     """
 
     def __init__(self, node: Node, robot: str, prefix: str) -> None:
-        """Prepare the messages."""
         self._odometry = Odometry()
         self._odometry.header.frame_id = prefix + ODOM
         self._odometry.child_frame_id = prefix + BASE

@@ -24,10 +24,19 @@ LIFETIME_S = 1
 
 
 class WalkingStateTopic:
-    """The topic `walking_state`: said when it changes, and to those who join late."""
+    """
+    Publisher of `walking_state`: on each change, latched for those who join late.
+
+    Parameters
+    ----------
+    node
+        The node that publishes it.
+    robot
+        Name of the robot, which is its namespace; empty if it is alone.
+
+    """
 
     def __init__(self, node: Node, robot: str) -> None:
-        """Begin with nothing said."""
         self._publisher = node.create_publisher(String, topic(robot, 'walking_state'), LATCHED)
         self._said = ''
 
@@ -47,10 +56,21 @@ class WalkingStateTopic:
 
 
 class BalanceTopics:
-    """The topics `walking/dcm`, which is measured, and `walking/zmp`, which is commanded."""
+    """
+    Publishers of `walking/dcm`, which is measured, and `walking/zmp`, which is commanded.
+
+    Parameters
+    ----------
+    node
+        The node that publishes them.
+    robot
+        Name of the robot, which is its namespace; empty if it is alone.
+    frame
+        Name of its odom frame, with the prefix.
+
+    """
 
     def __init__(self, node: Node, robot: str, frame: str) -> None:
-        """Prepare the message."""
         self._message = PointStamped()
         self._message.header.frame_id = frame
         self._dcm, self._zmp = (
@@ -77,10 +97,23 @@ class BalanceTopics:
 
 
 class FootstepsTopic:
-    """The topic `footsteps`: where the parts of the feet that carry load are to land next."""
+    """
+    Publisher of `footsteps`: where the parts of the feet that carry load are to land next.
+
+    Parameters
+    ----------
+    node
+        The node that publishes it.
+    robot
+        Name of the robot, which is its namespace; empty if it is alone.
+    frame
+        Name of its odom frame, with the prefix.
+    foot
+        The rectangle of the left sole that is drawn; the right one mirrors it.
+
+    """
 
     def __init__(self, node: Node, robot: str, frame: str, foot: FootShape) -> None:
-        """Take what a foot looks like from below."""
         self._frame, self._foot = frame, foot
         self._publisher = node.create_publisher(MarkerArray, topic(robot, 'footsteps'), STATE)
 
