@@ -37,7 +37,7 @@ def run_node(factory: NodeFactory, args: Sequence[str] | None = None) -> int:
     ----------
     factory
         Makes the node, once ROS is initialised.
-    args
+    args : Sequence[str] | None
         Command line arguments, including those for ROS; by default `sys.argv`.
 
     """

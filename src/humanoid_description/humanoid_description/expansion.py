@@ -48,7 +48,7 @@ def expand(path: Path, arguments: Mapping[str, str]) -> str:
     ----------
     path
         The xacro file.
-    arguments
+    arguments : Mapping[str, str]
         The values of its xacro arguments by their names.
 
     Raises

@@ -33,7 +33,7 @@ def simulated_robots(
 
     Parameters
     ----------
-    parameters
+    parameters : SimulatorParameters
         The parameters of the simulator node.
     say
         Called with a message when a controller is at fault.

@@ -9,10 +9,10 @@ import math
 
 from humanoid_control.hosting.host import Host
 from humanoid_simulation.backend import EntityState, MujocoBackend
-from humanoid_simulation.backend.names import ALONE
 from humanoid_simulation.entity_catalogue import EntityCatalogue
 from humanoid_simulation.errors import SimulationError
 from humanoid_simulation.guarded_loop import GuardedLoop
+from humanoid_simulation.model.world import ALONE
 from humanoid_simulation.scene import Scene
 from rclpy.task import Future
 

@@ -89,7 +89,7 @@ class SimulationServices:
         The node that offers them, below its own name, but `stand_up` in that of each robot.
     world
         The world that they act on.
-    parameters
+    parameters : SimulatorParameters
         The parameters of the simulator, of which `scene` and `reset_keyframe` count.
 
     Raises
@@ -141,7 +141,7 @@ class SimulationServices:
 
         Parameters
         ----------
-        parameters
+        parameters : SimulatorParameters
             The parameters of the simulator, of which `reset_keyframe` counts.
 
         """

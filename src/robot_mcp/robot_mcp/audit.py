@@ -61,7 +61,7 @@ class AuditLog:
         ----------
         client, tool
             Who called what.
-        arguments
+        arguments : Any
             What was sent; the beginning of it, if it is endless.
         outcome
             `begun`, or what came of it.

@@ -142,7 +142,7 @@ class FreeRecognizer(Recognizer, Protocol):
 
         Parameters
         ----------
-        examples
+        examples : Sequence[str]
             Commands; a recogniser may take only the first ones.
 
         """

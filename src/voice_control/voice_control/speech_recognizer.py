@@ -303,7 +303,7 @@ def main(args: list[str] | None = None) -> int:
 
     Parameters
     ----------
-    args
+    args : list[str] | None
         The command line with its ROS arguments; None for that of the process.
 
     Returns

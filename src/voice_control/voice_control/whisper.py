@@ -88,7 +88,7 @@ class FasterWhisper:
 
         Parameters
         ----------
-        examples
+        examples : Sequence[str]
             English commands, of which about 150 words count; without effect in another language.
 
         """
@@ -173,7 +173,7 @@ class WhisperCpp:
 
         Parameters
         ----------
-        examples
+        examples : Sequence[str]
             Are left aside.
 
         """
@@ -240,7 +240,7 @@ class TranscriptionServer:
 
         Parameters
         ----------
-        examples
+        examples : Sequence[str]
             As for `FasterWhisper.expect`.
 
         """

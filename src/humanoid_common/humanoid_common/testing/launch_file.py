@@ -17,7 +17,7 @@ def main(arguments: Sequence[str]) -> int:
 
     Parameters
     ----------
-    arguments
+    arguments : Sequence[str]
         The path of the file, and then launch arguments in the form `name:=value`.
 
     """

@@ -63,7 +63,7 @@ class RosSandbox:
         ----------
         factory
             Makes the node; it takes the keyword arguments of `rclpy.node.Node`.
-        parameters
+        parameters : Mapping[str, Any]
             Values by the names of parameters.
         **options
             Further arguments for the factory.

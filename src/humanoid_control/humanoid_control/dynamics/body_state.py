@@ -85,7 +85,7 @@ class BodyState:
 
     def rotation(self, link: str) -> Array:
         """
-        Compute the rotation (3, 3) of a link in the world.
+        Compute the rotation matrix (3, 3) of a link in the world.
 
         Parameters
         ----------

@@ -43,7 +43,7 @@ class HostedRobots:
         The node that offers them.
     robots
         Walker and control of each robot, by its name, which is its namespace.
-    parameters
+    parameters : HostParameters
         Mode, rates, prefix and heartbeat timeout.
     hardware
         The class of what moves the joints, as package/Class.
@@ -91,7 +91,7 @@ class HostedRobots:
 
         Parameters
         ----------
-        parameters
+        parameters : HostParameters
             The new values; those that are read-only have their effect at the start alone.
 
         """

@@ -29,7 +29,7 @@ class RobotOutputs:
         Name of the robot, which is its namespace; empty if it is alone.
     robot
         Its walker and its control.
-    parameters
+    parameters : HostParameters
         Rates of the topics, and what the names of frames begin with.
 
     """
@@ -53,7 +53,7 @@ class RobotOutputs:
 
         Parameters
         ----------
-        parameters
+        parameters : HostParameters
             Their rates in Hz; 0 is never.
 
         """

@@ -39,7 +39,7 @@ def hip_efforts(
 
     Parameters
     ----------
-    parameters
+    parameters : WalkParameters
         Stiffness and damping of the attitude, and the fraction of both that acts on the heading.
     attitude
         Measured attitude of base_link in the odom frame, and rates in its own axes.

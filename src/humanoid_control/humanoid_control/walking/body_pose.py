@@ -33,7 +33,7 @@ class BodyPose:
 
         Parameters
         ----------
-        parameters
+        parameters : WalkParameters
             Limits of the pitch (`bend_rad`, `bend_back_rad`) and of the height (`lower_m`).
 
         Raises

@@ -26,7 +26,7 @@ class Collapse:
     ----------
     robot
         The robot, whose joints give way.
-    parameters
+    parameters : WalkParameters
         The gait, which has the stiffness of a fall and how long that lasts.
     time_s
         Time of the observation at which the fall begins.

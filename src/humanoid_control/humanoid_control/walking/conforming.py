@@ -23,7 +23,7 @@ class Conforming:
 
     Parameters
     ----------
-    parameters
+    parameters : WalkParameters
         The gait, which has the rates of the adaptation and the loads that count.
 
     """

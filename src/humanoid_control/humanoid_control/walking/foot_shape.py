@@ -34,7 +34,7 @@ class FootShape:
         ----------
         robot
             Description of the robot; its link `l_sole` is fixed to the left foot.
-        parameters
+        parameters : WalkParameters
             Margins from the edges of the sole, and the offset of the planned load point.
 
         Returns

@@ -101,7 +101,7 @@ class ObstacleGuard:
 
     Parameters
     ----------
-    parameters
+    parameters : WalkParameters
         The gait, which has the thresholds of contacts and how far the robot retreats.
 
     Attributes

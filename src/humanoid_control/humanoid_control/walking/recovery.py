@@ -26,7 +26,7 @@ class Recovery:
         The robot.
     home
         The posture of standing, and the height of the base in it.
-    parameters
+    parameters : WalkParameters
         The gait, which has the limits by which a fall is detected and the durations.
 
     """

@@ -16,7 +16,7 @@ class Rising:
     ----------
     start_rad, home_rad
         Joint positions (n,) at the start, as measured, and in the posture of standing.
-    parameters
+    parameters : WalkParameters
         The gait, which has the duration.
     time_s
         Time of the observation at which the motion starts.

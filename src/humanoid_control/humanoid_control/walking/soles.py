@@ -33,7 +33,7 @@ def soles_below(
         Position (3,) of the base in the odom frame.
     robot, sensed
         The robot, and its estimated state.
-    parameters
+    parameters : WalkParameters
         The gait, which has the steepest tilt that counts as ground.
 
     Returns
@@ -66,7 +66,7 @@ def footing_below(
         The point below the base, in the plane of the odom frame.
     robot, shape
         The robot, and the part of its soles that may carry load.
-    parameters
+    parameters : WalkParameters
         The gait, which has the steepest tilt that counts as ground.
     sensed
         The estimated state of the robot.

@@ -151,7 +151,7 @@ class Residual:
         ----------
         growth
             The factor by which an error that nothing counters grows until the landing.
-        parameters
+        parameters : WalkParameters
             The gait, which has the dead band.
 
         Returns

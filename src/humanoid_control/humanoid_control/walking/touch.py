@@ -49,7 +49,7 @@ class TouchObserver:
     ----------
     robot
         The robot, with the dynamics of its body.
-    parameters
+    parameters : WalkParameters
         The gait, which has the rates of the low-pass filters and the longest gap.
 
     Raises

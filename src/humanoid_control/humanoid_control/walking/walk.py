@@ -47,7 +47,7 @@ class Walk:
     ----------
     robot, shape, home
         The robot, the part of its soles that may carry load, and its posture of standing.
-    parameters
+    parameters : WalkParameters
         The gait.
     sensed
         The estimated state of the robot at the start.

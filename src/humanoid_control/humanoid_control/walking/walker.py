@@ -73,7 +73,7 @@ class Walker:
             The robot, and the drives of its joints by their names.
         joints
             All driven joints, in the order of observations and targets.
-        parameters
+        parameters : WalkParameters
             The gait; `WalkParameters().scaled(scale)` for a robot of another size.
         imu
             How far the inertial sensor is off, which makes odometry uncertain.

@@ -45,7 +45,7 @@ class WholeBody:
     home
         The posture of standing: the shoulders swing about it, and other joints above the
         legs keep it.
-    parameters
+    parameters : WalkParameters
         The gait, which says how far the arms swing.
 
     Raises

@@ -9,9 +9,10 @@ from typing import Any
 
 from humanoid_control.backends import Array
 from humanoid_simulation.backend.floating import floating_body
-from humanoid_simulation.backend.names import ALONE, Names
+from humanoid_simulation.backend.names import Names
 from humanoid_simulation.choosing import named
 from humanoid_simulation.errors import SimulationError
+from humanoid_simulation.model.world import ALONE
 from humanoid_simulation.rotations import inverse, rotated
 import mujoco
 import numpy as np

@@ -17,7 +17,7 @@ class Ladder:
 
     Parameters
     ----------
-    methods
+    methods : Sequence[str]
         The methods, best first.
 
     """

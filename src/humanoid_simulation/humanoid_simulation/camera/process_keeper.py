@@ -59,7 +59,7 @@ class ProcessKeeper:
     ----------
     start
         Starts a process that renders by the method given; it may raise OSError.
-    methods
+    methods : Sequence[str]
         The rendering methods to try, best first.
     log
         Where to report which method renders, and failures.

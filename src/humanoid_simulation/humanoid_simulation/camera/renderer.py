@@ -42,7 +42,7 @@ class Renderer:
         The world, which is copied: later changes of it are not seen.
     views
         The cameras to render, and the sizes of their images.
-    methods
+    methods : Sequence[str]
         The rendering methods to try, best first.
     log
         Where to report which method renders, and failures.

@@ -50,7 +50,7 @@ class CameraTopics:
         '' for a robot alone.
     model
         The compiled world.
-    parameters
+    parameters : CameraParameters
         Rate, image size, frame and rendering method; at rate 0 there are no topics.
     prefix
         What the names of frames begin with.

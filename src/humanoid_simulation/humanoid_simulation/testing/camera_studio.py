@@ -27,7 +27,7 @@ class Studio:
     ----------
     views
         The cameras of the world, and the sizes of their images.
-    methods
+    methods : Sequence[str]
         The rendering methods to try, best first.
     patience
         The timeouts of the render process.
@@ -139,7 +139,7 @@ def studio(
 
     Parameters
     ----------
-    methods
+    methods : Sequence[str]
         The rendering methods to try, best first.
     views
         The cameras of the world, and the sizes of their images.

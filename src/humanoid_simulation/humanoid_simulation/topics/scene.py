@@ -43,7 +43,7 @@ class SceneTopics:
         The node that publishes them.
     backend
         The world.
-    parameters
+    parameters : SimulatorParameters
         The parameters of the simulator, of which `walls_shown_up_to_m` counts.
 
     """
@@ -65,7 +65,7 @@ class SceneTopics:
 
         Parameters
         ----------
-        parameters
+        parameters : SimulatorParameters
             The parameters of the simulator, of which `walls_shown_up_to_m` counts.
 
         """

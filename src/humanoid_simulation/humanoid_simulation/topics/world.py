@@ -28,7 +28,7 @@ class WorldTopics:
         The node that publishes.
     simulated
         The world, and the controllers of its robots.
-    parameters
+    parameters : SimulatorParameters
         Prefix of frames, rates of the topics, and the height of the walls shown.
 
     """
@@ -53,7 +53,7 @@ class WorldTopics:
 
         Parameters
         ----------
-        parameters
+        parameters : SimulatorParameters
             The parameters of the simulator.
 
         """
