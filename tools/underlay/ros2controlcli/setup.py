@@ -14,7 +14,15 @@ verbs = (
 
 
 def class_of(verb: str) -> str:
-    """Return the class of a verb: of list_controllers, ListControllersVerb."""
+    """
+    Build the class name of a verb: for list_controllers, ListControllersVerb.
+
+    Parameters
+    ----------
+    verb
+        The verb, in snake case.
+
+    """
     return ''.join(map(str.capitalize, verb.split('_'))) + 'Verb'
 
 

@@ -32,7 +32,15 @@ class Header:
 
 
 def read_header(text: str) -> Header:
-    """Read the comments before the first statement of a source text."""
+    """
+    Read the comments before the first statement of a source text.
+
+    Parameters
+    ----------
+    text
+        The source text, in Python, C or C++.
+
+    """
     head = []
     for line in text.splitlines():
         if not COMMENT.match(line):

@@ -15,7 +15,20 @@ SOURCES = {'.py', '.c', '.cc', '.cpp', '.cxx', '.h', '.hh', '.hpp', '.hxx'}
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Check the given files and folders; return 1 if one lacks a notice, else 0."""
+    """
+    Check the copyright notices of files and folders, and print what is missing.
+
+    Parameters
+    ----------
+    argv
+        The arguments without the program's name; by default those of the process.
+
+    Returns
+    -------
+    int
+        1 if a notice or a path is missing, else 0.
+
+    """
     options = _parse(argv)
     missing = [path for path in options.paths if not Path(path).exists()]
     if missing:
@@ -44,7 +57,23 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
 
 
 def find_sources(path: Path) -> Iterator[Path]:
-    """Yield the source files at or below a path, without hidden and ignored folders."""
+    """
+    Find the source files at or below a path.
+
+    Folders whose name begins with a dot or an underscore are left out, and those that are marked
+    by AMENT_IGNORE or COLCON_IGNORE.
+
+    Parameters
+    ----------
+    path
+        A folder, or a file, which counts whatever its extension is.
+
+    Yields
+    ------
+    Path
+        The files; those of a folder sorted by name.
+
+    """
     if path.is_file():
         yield path
         return

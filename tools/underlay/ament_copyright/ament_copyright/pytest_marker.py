@@ -7,5 +7,13 @@ import pytest
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Register the marker."""
+    """
+    Register the marker `copyright` with pytest.
+
+    Parameters
+    ----------
+    config
+        The configuration of pytest.
+
+    """
     config.addinivalue_line('markers', 'copyright: checks copyright headers')

@@ -25,7 +25,22 @@ class FreeJoint:
 
     @classmethod
     def of(cls, joint: Joint, use_soft_limits: bool) -> FreeJoint:
-        """Return a joint with the limits of its description, and with nothing known."""
+        """
+        Create a joint with the limits of its description and no known values.
+
+        Parameters
+        ----------
+        joint
+            What the URDF says of the joint.
+        use_soft_limits
+            Whether to keep to the limits of `<safety_controller>` as well.
+
+        Returns
+        -------
+        FreeJoint
+            Its limits are in rad or m; -pi and pi for a continuous joint.
+
+        """
         if joint.limits is None:
             return cls(-pi, pi, joint.kind == 'continuous')
         lower, upper = joint.limits.lower, joint.limits.upper
@@ -45,7 +60,18 @@ class FreeJoint:
         return 0.0 if self.lower <= 0.0 <= self.upper else (self.lower + self.upper) / 2.0
 
     def move(self, delta: float) -> None:
-        """Go on to and fro between the limits; a continuous joint turns on and on."""
+        """
+        Advance the position by a step, to and fro between the limits.
+
+        A continuous joint goes on at the other limit instead. Nothing moves without a known
+        position.
+
+        Parameters
+        ----------
+        delta
+            The step, in rad or m.
+
+        """
         if self.position is None:
             return
         position = self.position + self._direction * delta

@@ -30,13 +30,25 @@ REPEAT_S = 10.0
 
 
 class JointStatePublisher(Node):
-    """Publishes the joint states of a robot: defaults, merged with what other topics tell."""
+    """
+    Publishes the joint states of a robot: defaults, merged with what other topics tell.
+
+    Parameters
+    ----------
+    file
+        A file with the URDF; by default the parameter or the topic robot_description has the text.
+
+    Raises
+    ------
+    ValueError
+        A parameter or the robot description is invalid.
+
+    """
 
     EXTRAS: ClassVar[Mapping[str, Extra]] = {}
     """The parameters of a node that does more."""
 
     def __init__(self, file: str | None = None) -> None:
-        """Declare the parameters; the URDF may be in a file."""
         super().__init__('joint_state_publisher', parameter_overrides=parameters_from_file(file))
         self._settings = declare_settings(self, self.EXTRAS)
         self._joints: MergedJoints | None = None

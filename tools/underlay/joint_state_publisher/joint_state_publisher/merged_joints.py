@@ -28,10 +28,29 @@ class States:
 
 
 class MergedJoints:
-    """Takes over what sources tell, and returns the states of all joints."""
+    """
+    Merges joint states of several sources, and computes the states of all joints from them.
+
+    Parameters
+    ----------
+    model
+        The robot.
+    settings
+        The parameters: defaults, limits, and which joints follow others.
+
+    Attributes
+    ----------
+    free
+        The joints that follow no other one, by name.
+
+    Raises
+    ------
+    ValueError
+        `dependent_joints` names a leader that is no moving joint, or makes a loop.
+
+    """
 
     def __init__(self, model: RobotModel, settings: Settings) -> None:
-        """Begin with the default values; ValueError if a joint depends on none of the robot."""
         mimics = _mimics(model, settings)
         moving = model.moving_joints
         self.free = {
@@ -61,10 +80,21 @@ class MergedJoints:
 
     def take(self, states: States) -> None:
         """
-        Take over what a source tells of joints that follow no other.
+        Take over what a source tells of the joints that follow no other one.
 
-        What it leaves out, or is no number, stays as it was. ValueError if the source contradicts
-        itself.
+        What it leaves out, or is not finite, stays as it was.
+
+        Parameters
+        ----------
+        states
+            Names and their positions (rad, m), velocities and efforts (N m, N); unknown names are
+            ignored.
+
+        Raises
+        ------
+        ValueError
+            A quantity has values, but not as many as there are names; nothing is taken over.
+
         """
         for quantity in QUANTITIES:
             values = getattr(states, quantity)
@@ -76,7 +106,15 @@ class MergedJoints:
                     setattr(self.free[name], quantity, value)
 
     def not_finite(self, states: States) -> list[str]:
-        """Return the joints that follow no other for which a source tells no finite position."""
+        """
+        List the joints that follow no other one and whose position is not finite in a message.
+
+        Parameters
+        ----------
+        states
+            What a source tells.
+
+        """
         return [
             name
             for name, position in zip(states.name, states.position)
@@ -84,7 +122,15 @@ class MergedJoints:
         ]
 
     def move(self, delta: float) -> None:
-        """Move every joint that follows no other by a distance."""
+        """
+        Advance every joint that follows no other one by a step, to and fro between its limits.
+
+        Parameters
+        ----------
+        delta
+            The step, in rad or m.
+
+        """
         for joint in self.free.values():
             joint.move(delta)
 
@@ -119,7 +165,20 @@ class MergedJoints:
         ]
 
     def surplus_zeros(self, settings: Settings) -> Iterator[str]:
-        """Return a sentence for each of `zeros` that is used for no joint."""
+        """
+        Warn of parameters `zeros.JOINT` that apply to no joint.
+
+        Parameters
+        ----------
+        settings
+            The parameters.
+
+        Yields
+        ------
+        str
+            A warning for each of them.
+
+        """
         for name in settings.zeros:
             if name not in self.free:
                 why = 'follows another joint' if name in self._leaders else 'is no moving joint'

@@ -27,10 +27,28 @@ class Extra:
 
 def declare_settings(node: Node, extras: Mapping[str, Extra]) -> Settings:
     """
-    Declare the parameters, those of the joints as they were given, and return the first values.
+    Declare the parameters of the node, with those of joints as they were given.
 
     rclpy has no public way to ask what was given; what it declares by itself it cannot describe,
     and it does not take an empty list.
+
+    Parameters
+    ----------
+    node
+        The node; it logs a warning for each parameter that it does not know.
+    extras
+        Further parameters of a node that does more, by name.
+
+    Returns
+    -------
+    Settings
+        The first values, without those of `extras`.
+
+    Raises
+    ------
+    ValueError
+        A value is invalid.
+
     """
     descriptions = {
         **DESCRIPTIONS,

@@ -48,7 +48,20 @@ class Settings:
 
 
 def settings_of(values: Mapping[str, Any]) -> Settings:
-    """Return the settings that parameters mean, or raise ValueError; other names do not count."""
+    """
+    Validate parameters, and convert them to settings.
+
+    Parameters
+    ----------
+    values
+        Values of parameters by name; unknown names are ignored, and missing ones get defaults.
+
+    Raises
+    ------
+    ValueError
+        A value has a wrong type or range, or `dependent_joints` is incomplete or makes a loop.
+
+    """
     known = {each.name: each.default for each in fields(Settings)}
     plain = {
         name: checked(name, value, known[name])
@@ -103,7 +116,29 @@ def _dependent(joint: str, part: Mapping[str, Any]) -> Mimic:
 
 
 def checked(name: str, value: Any, default: Any) -> Any:
-    """Return a value as the type of the default, or raise ValueError."""
+    """
+    Convert the value of a parameter to the type of its default.
+
+    Parameters
+    ----------
+    name
+        The parameter, for the error message.
+    value
+        What was given.
+    default
+        A value of the type that is wanted: a tuple of texts, a bool, a text or a number.
+
+    Returns
+    -------
+    object
+        The value; numbers as a float, lists as a tuple.
+
+    Raises
+    ------
+    ValueError
+        The value has another type, or is a number that is not finite.
+
+    """
     if isinstance(default, tuple):
         # ROS knows no type of an empty list, and hands over None.
         texts = [] if value is None else value

@@ -17,10 +17,28 @@ Take = Callable[[str, JointState], None]
 
 
 class Sources:
-    """Subscriptions that hand over each message with its topic."""
+    """
+    Subscriptions to the topics of `source_list`.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    names
+        The topics, as they are given in the parameter.
+    own_topic
+        The topic on which the node itself publishes, with its full name.
+    take
+        Called with the full name of the topic and the message, for each message.
+
+    Raises
+    ------
+    ValueError
+        A name can be no topic, or is that of the node's own topic.
+
+    """
 
     def __init__(self, node: Node, names: Iterable[str], own_topic: str, take: Take) -> None:
-        """Subscribe; ValueError if a source is what the node itself publishes."""
         self._take = take
         self.silent: set[str] = set()
         """The topics on which nothing was heard so far."""

@@ -25,12 +25,31 @@ FRAME_S = 0.1
 
 
 class JointStatePublisherGui(JointStatePublisher):
-    """Publishes the joint states of a robot, whose joints are moved in the browser."""
+    """
+    Publishes the joint states of a robot, whose joints are moved in the browser.
+
+    Parameters
+    ----------
+    file
+        A file with the URDF; by default the parameter or the topic robot_description has the text.
+
+    Attributes
+    ----------
+    page
+        The server of the page.
+    joint_page
+        The widgets of the page.
+
+    Raises
+    ------
+    ValueError
+        A parameter or the robot description is invalid, or the port is not available.
+
+    """
 
     EXTRAS = EXTRAS
 
     def __init__(self, file: str | None = None) -> None:
-        """Declare the parameters and serve the page; the URDF may be in a file."""
         self._board: Board | None = None
         self.joint_page: JointPage | None = None
         super().__init__(file)

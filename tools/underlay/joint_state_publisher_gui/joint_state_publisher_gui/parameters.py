@@ -19,7 +19,20 @@ EXTRAS = {
 
 
 def page_settings_of(values: Mapping[str, Any]) -> PageSettings:
-    """Return where the page is served, or raise ValueError."""
+    """
+    Validate the parameters that say where the page is served, and to whom.
+
+    Parameters
+    ----------
+    values
+        Values of `host`, `port` (0 for the first free one) and `token` by name.
+
+    Raises
+    ------
+    ValueError
+        A value is invalid.
+
+    """
     host = checked('host', values['host'], '')
     token = checked('token', values['token'], '')
     port = checked('port', values['port'], 0.0)

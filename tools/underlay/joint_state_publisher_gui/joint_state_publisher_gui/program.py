@@ -24,7 +24,15 @@ def _make_node(words: list[str]) -> Node:
 
 
 def main(args: Sequence[str] | None = None) -> None:
-    """Run the node."""
+    """
+    Run joint_state_publisher_gui; exit with its status.
+
+    Parameters
+    ----------
+    args : Sequence[str] | None
+        The command line with the program's name; by default that of the process.
+
+    """
     sys.exit(run_node(_make_node, args))
 
 

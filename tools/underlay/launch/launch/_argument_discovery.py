@@ -17,7 +17,26 @@ def find_arguments(
     entities: Iterable[LaunchDescriptionEntity],
     conditional: bool,
 ) -> list[tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]]:
-    """Return the first declaration of each name, with the includes that lead to it."""
+    """
+    Collect the launch arguments that a tree of entities declares.
+
+    The search is depth-first and goes into included descriptions. The first declaration of a name
+    counts. Entities that follow a `ResetLaunchConfigurations` in the same list are not searched.
+
+    Parameters
+    ----------
+    entities
+        Where to search, in the order in which they are visited.
+    conditional
+        Whether they are visited under a condition only, which is noted on the arguments declared
+        directly among them.
+
+    Returns
+    -------
+    list of tuple
+        Each declaration, with the includes that lead to it, the outermost first.
+
+    """
     found: Found = {}
     _search(entities, conditional, [], found)
     return list(found.values())

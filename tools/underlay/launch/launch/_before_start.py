@@ -27,7 +27,15 @@ class BeforeStart:
         self.files: dict[str, None] = {}
 
     def check_of_type(self, kind: Callable[[], _Check]) -> _Check:
-        """Return the check of a class, which is added when it is asked for the first time."""
+        """
+        Get the check of a class, which is added on first use.
+
+        Parameters
+        ----------
+        kind
+            The class; its instances are called with the context and raise what they find.
+
+        """
         for check in self.checks:
             if isinstance(check, kind):  # type: ignore[arg-type]
                 return check  # type: ignore[return-value]
@@ -36,7 +44,23 @@ class BeforeStart:
         return added  # type: ignore[no-any-return]
 
     def run(self, context: LaunchContext) -> None:
-        """Look at what waits for events, then do what has been asked for."""
+        """
+        Run all checks before the first process is started.
+
+        What waits for events is checked first, then the checks that were added run, and last comes
+        a warning of installed files that are older than their source.
+
+        Parameters
+        ----------
+        context
+            The context of the launch, whose first description has been visited.
+
+        Raises
+        ------
+        Exception
+            Whatever a check has found.
+
+        """
         waiting = any(handler.describe()[1] for handler in context._event_handlers)
         if self.resolves_programs and waiting:
             from launch._preflight import check_what_waits
@@ -51,11 +75,34 @@ class BeforeStart:
             warn_of_stale_files(installed)
 
     def explain_failure(self, context: LaunchContext) -> list[str]:
-        """Return what else there is to say when the visit has failed."""
+        """
+        Collect hints on why a visit may have failed.
+
+        Parameters
+        ----------
+        context
+            The context of the launch, which each hint is given.
+
+        Returns
+        -------
+        list of str
+            Lines for the log; hints that have nothing to say are left out.
+
+        """
         return [text for text in (hint(context) for hint in self.hints) if text]
 
 
 def note_file(context: LaunchContext, path: str) -> None:
-    """Note that the launch reads a file."""
+    """
+    Record a file that the launch reads, for the check of stale files.
+
+    Parameters
+    ----------
+    context
+        Where it is recorded; nothing is once the checks have run.
+    path
+        The path of the file, as it is opened.
+
+    """
     if context._before_start is not None:
         context._before_start.files[path] = None

@@ -56,7 +56,21 @@ def calling_line() -> Optional[CallSite]:
 
 
 def raising_line(error: BaseException) -> Optional[CallSite]:
-    """Return the last line of the user's own files that led to an error, None if there is none."""
+    """
+    Find the line of the user's own files at which an error was raised.
+
+    Parameters
+    ----------
+    error
+        An exception with its traceback.
+
+    Returns
+    -------
+    CallSite or None
+        The innermost line that belongs neither to launch, nor to Python, nor to an installed
+        library; None if there is no such line.
+
+    """
     found = None
     traceback = error.__traceback__
     while traceback is not None:

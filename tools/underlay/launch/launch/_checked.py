@@ -15,7 +15,22 @@ from launch.utilities.type_utils import normalize_typed_substitution
 
 
 def text_like(keyword: str, value: Any) -> list[Substitution]:
-    """Return a text, a substitution or a list of them as a list of substitutions."""
+    """
+    Normalise an argument to a list of substitutions.
+
+    Parameters
+    ----------
+    keyword
+        The name of the argument, for the error.
+    value
+        A string, a path, a substitution or an iterable of them.
+
+    Raises
+    ------
+    TypeError
+        The value is none of these.
+
+    """
     try:
         return normalize_to_list_of_substitutions(value)
     except TypeError as error:
@@ -23,12 +38,42 @@ def text_like(keyword: str, value: Any) -> list[Substitution]:
 
 
 def optional_text_like(keyword: str, value: Any) -> Optional[list[Substitution]]:
-    """Return the same, or None for None."""
+    """
+    Normalise an optional argument to a list of substitutions, or None.
+
+    Parameters
+    ----------
+    keyword, value
+        As for `text_like`; None is returned as it is.
+
+    Raises
+    ------
+    TypeError
+        The value is neither None nor anything that `text_like` takes.
+
+    """
     return None if value is None else text_like(keyword, value)
 
 
 def list_like(keyword: str, value: Any, items: str) -> list[Any]:
-    """Return an iterable as a list; a text, which would fall apart into letters, is refused."""
+    """
+    Convert an iterable argument to a list.
+
+    Parameters
+    ----------
+    keyword
+        The name of the argument, for the error.
+    value
+        Any iterable except a string, a path, a substitution or a mapping.
+    items
+        What the list is made of, as a plural for the error.
+
+    Raises
+    ------
+    TypeError
+        The value is no such iterable. The items are not checked.
+
+    """
     is_single = isinstance(value, (str, bytes, os.PathLike, Substitution, Mapping))
     if is_single or not isinstance(value, Iterable):
         _refuse(keyword, f'a list of {items}', value)
@@ -36,7 +81,22 @@ def list_like(keyword: str, value: Any, items: str) -> list[Any]:
 
 
 def mapping_like(keyword: str, value: Any) -> Mapping[Any, Any]:
-    """Return a dictionary, or pairs as one."""
+    """
+    Convert an argument to a mapping.
+
+    Parameters
+    ----------
+    keyword
+        The name of the argument, for the error.
+    value
+        A mapping, which is returned as it is, or pairs of a key and a value.
+
+    Raises
+    ------
+    TypeError
+        The value is neither.
+
+    """
     if isinstance(value, Mapping):
         return value
     try:
@@ -46,13 +106,52 @@ def mapping_like(keyword: str, value: Any) -> Mapping[Any, Any]:
 
 
 def of_type(keyword: str, value: Any, types: tuple[type, ...], expected: str) -> None:
-    """Raise an error unless a value has one of some types."""
+    """
+    Check the type of an argument.
+
+    Parameters
+    ----------
+    keyword, value
+        The name of the argument, for the error, and its value.
+    types
+        The classes of which the value must be an instance.
+    expected
+        These classes in words, for the error.
+
+    Raises
+    ------
+    TypeError
+        The value has another type.
+
+    """
     if not isinstance(value, types):
         _refuse(keyword, expected, value)
 
 
 def typed(keyword: str, value: Any, kind: Any, expected: str) -> Any:
-    """Return a value of a type as it is, and what stands for one as substitutions."""
+    """
+    Normalise an argument that is a value of a type, or stands for one.
+
+    Parameters
+    ----------
+    keyword, value
+        The name of the argument, for the error, and its value.
+    kind
+        The type that the argument has in the end, such as `bool`.
+    expected
+        What the value may be, in words for the error.
+
+    Returns
+    -------
+    Any
+        A value of the type as it is; substitutions, or a text, as a list of substitutions.
+
+    Raises
+    ------
+    TypeError
+        The value neither has the type nor can stand for it.
+
+    """
     try:
         return normalize_typed_substitution(value, kind)
     except TypeError:
@@ -60,7 +159,22 @@ def typed(keyword: str, value: Any, kind: Any, expected: str) -> Any:
 
 
 def unknown_keyword(owner: type, keyword: str) -> TypeError:
-    """Return the error about a keyword that a class does not know, with the closest one."""
+    """
+    Create the error for an unknown keyword argument, with a suggestion.
+
+    Parameters
+    ----------
+    owner
+        The class that was to be constructed; its base classes are searched as well.
+    keyword
+        The keyword that none of them knows.
+
+    Returns
+    -------
+    TypeError
+        The error, for the caller to raise.
+
+    """
     from launch._did_you_mean import did_you_mean
 
     known = {

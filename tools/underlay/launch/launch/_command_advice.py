@@ -10,12 +10,40 @@ import shutil
 
 
 def advice_on_failure(parts: Sequence[str], said: str) -> str:
-    """Return a line about a path that the command line names, or nothing new."""
+    """
+    Advise on a failed command: a path split at a space, or one that does not exist.
+
+    Parameters
+    ----------
+    parts
+        The texts that were joined to the command line.
+    said
+        The error output of the command; what it says already is not repeated.
+
+    Returns
+    -------
+    str
+        A line break and the advice, or '' if there is none.
+
+    """
     return _split_path(parts) or _missing_path(''.join(parts), said)
 
 
 def advice_on_program(parts: Sequence[str]) -> str:
-    """Return a line about a program that is not there, since no blank ends its name."""
+    """
+    Advise on a program that was not found because no blank ends its name.
+
+    Parameters
+    ----------
+    parts
+        The texts that were joined to the command line.
+
+    Returns
+    -------
+    str
+        A line break and the advice, or '' if there is none.
+
+    """
     first = parts[0].split()
     if len(parts) < 2 or not first or parts[0][-1].isspace() or shutil.which(first[-1]) is None:
         return ''

@@ -11,7 +11,6 @@ class LaunchConfigurations(dict[str, Any]):
     """A dictionary that notes which names are looked up; who goes through all sees all."""
 
     def __init__(self) -> None:
-        """Create an empty dictionary."""
         super().__init__()
         self.looked_up: set[Any] = set()
         self.declared: set[str] = set()
@@ -31,17 +30,48 @@ class LaunchConfigurations(dict[str, Any]):
         return super().__contains__(name)
 
     def get(self, name: str, default: Any = None) -> Any:
-        """Return a value, or the default if there is none."""
+        """
+        Get the value of a launch configuration, and record the look-up.
+
+        Parameters
+        ----------
+        name, default
+            The name, and what is returned if there is no such configuration.
+
+        """
         self.looked_up.add(name)
         return super().get(name, default)
 
     def pop(self, name: str, *default: Any) -> Any:
-        """Remove a value and return it."""
+        """
+        Remove a launch configuration and return its value.
+
+        Parameters
+        ----------
+        name
+            The name of the configuration.
+        *default
+            What is returned if there is none.
+
+        Raises
+        ------
+        KeyError
+            There is no such configuration, and no default.
+
+        """
         self.looked_up.add(name)
         return super().pop(name, *default)
 
     def setdefault(self, name: str, default: Any = None) -> Any:
-        """Return a value, which is set first if there is none."""
+        """
+        Get the value of a launch configuration, which is set first if there is none.
+
+        Parameters
+        ----------
+        name, default
+            The name, and the value that is set.
+
+        """
         self.looked_up.add(name)
         return super().setdefault(name, default)
 

@@ -11,7 +11,6 @@ class ContextLocals:
     """Variables that last for the handling of one event, above variables that stay."""
 
     def __init__(self) -> None:
-        """Create an empty set of variables."""
         self._globals: dict[str, Any] = {}
         self._locals: dict[str, Any] = {}
         self._stack: list[dict[str, Any]] = []
@@ -22,11 +21,27 @@ class ContextLocals:
         return {**self._globals, **self._locals}
 
     def extend(self, extra: Mapping[str, Any]) -> None:
-        """Add variables that last until the next pop."""
+        """
+        Add variables that last until the next pop.
+
+        Parameters
+        ----------
+        extra
+            The values by name; they hide global variables of the same names.
+
+        """
         self._locals.update(extra)
 
     def extend_globals(self, extra: Mapping[str, Any]) -> None:
-        """Add variables that stay."""
+        """
+        Add variables that last as long as the context.
+
+        Parameters
+        ----------
+        extra
+            The values by name.
+
+        """
         self._globals.update(extra)
 
     def push(self) -> None:
@@ -41,12 +56,19 @@ class ContextLocals:
 
 
 class LocalsView:
-    """The variables as attributes, for reading."""
+    """
+    Read-only view of variables, each as an attribute.
+
+    Parameters
+    ----------
+    owner
+        The variables that are shown, as they are at each access.
+
+    """
 
     __slots__ = ('_owner',)
 
     def __init__(self, owner: ContextLocals) -> None:
-        """Create a view of these variables."""
         object.__setattr__(self, '_owner', owner)
 
     def __getattr__(self, name: str) -> Any:

@@ -7,7 +7,22 @@ from collections.abc import Iterable
 
 
 def closest_name(name: str, known: Iterable[str]) -> str:
-    """Return what comes closest, or '' if nothing is close."""
+    """
+    Find the known name that is closest to a misspelt one.
+
+    Parameters
+    ----------
+    name
+        The name as it was written.
+    known
+        The names to choose from.
+
+    Returns
+    -------
+    str
+        The closest name, or '' if none is close.
+
+    """
     import difflib
 
     close = difflib.get_close_matches(name, list(known), n=1)
@@ -15,6 +30,19 @@ def closest_name(name: str, known: Iterable[str]) -> str:
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return a question that names what comes closest, or '' if nothing is close."""
+    """
+    Suggest the known name that is closest to a misspelt one.
+
+    Parameters
+    ----------
+    name, known
+        As for `closest_name`.
+
+    Returns
+    -------
+    str
+        A question for the user, or '' if no name is close.
+
+    """
     close = closest_name(name, known)
     return f"Did you mean '{close}'?" if close else ''

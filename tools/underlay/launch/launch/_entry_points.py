@@ -13,7 +13,17 @@ if TYPE_CHECKING:
 
 
 def entry_points_of(group: str) -> list[EntryPoint]:
-    """Return the entry points of a group; importlib.metadata is loaded only if there are any."""
+    """
+    List the entry points of a group in all installed distributions.
+
+    `importlib.metadata` is loaded only if there are any.
+
+    Parameters
+    ----------
+    group
+        The name of the group, such as `launch.frontend.parser`.
+
+    """
     section = f'[{group}]'.encode()
     if not any(section in content for content in _contents()):
         return []

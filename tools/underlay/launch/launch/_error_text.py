@@ -10,7 +10,15 @@ _TOO_DEEP = (
 
 
 def error_text(error: BaseException) -> str:
-    """Return the text of an error; one of Python's that says little is explained."""
+    """
+    Format an exception for the user.
+
+    Parameters
+    ----------
+    error
+        The exception; a `RecursionError`, whose own text says little, is explained.
+
+    """
     if isinstance(error, RecursionError):
         return _TOO_DEEP.format(error=error)
     return str(error)

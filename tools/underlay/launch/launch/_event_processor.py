@@ -23,10 +23,28 @@ if TYPE_CHECKING:
 
 
 class EventProcessor:
-    """Takes one event after the other from the queue of a context."""
+    """
+    Handles the events in the queue of a launch context, one after the other.
+
+    To be created in the thread that runs the loop.
+
+    Parameters
+    ----------
+    context
+        The context whose event queue and event handlers are used.
+    loop
+        The event loop of the run.
+
+    Attributes
+    ----------
+    return_code
+        0, or 1 after an error.
+    first_error
+        The first exception of the run, or None.
+
+    """
 
     def __init__(self, context: LaunchContext, loop: asyncio.AbstractEventLoop) -> None:
-        """Create the processor of one run."""
         self.return_code = 0
         self.first_error: Optional[BaseException] = None
         self._context = context
@@ -48,7 +66,20 @@ class EventProcessor:
             pass
 
     async def run(self, *, shutdown_when_idle: bool) -> int:
-        """Handle events until the launch is shut down and all is done."""
+        """
+        Handle events until the launch is shut down and all its futures are done.
+
+        Parameters
+        ----------
+        shutdown_when_idle
+            Whether the launch is shut down when neither events nor futures are left.
+
+        Returns
+        -------
+        int
+            The return code: 0, or 1 after an error.
+
+        """
         while True:
             self._track(self._context._completion_futures)
             if self._context._event_queue:
@@ -67,7 +98,15 @@ class EventProcessor:
             await self._awake.wait()
 
     def fail(self, error: BaseException) -> None:
-        """Report an error and shut the launch down, with 1 as its return code."""
+        """
+        Report an error and shut the launch down, with 1 as its return code.
+
+        Parameters
+        ----------
+        error
+            The exception that was raised.
+
+        """
         self.return_code = 1
         self.first_error = self.first_error or error
         report_failure(self._logger, error)
@@ -80,7 +119,19 @@ class EventProcessor:
             self._context.emit_event_sync(Shutdown(reason=str(error)))
 
     def on_loop_error(self, loop: asyncio.AbstractEventLoop, details: dict[str, Any]) -> None:
-        """Report an error that a callback of the loop raised."""
+        """
+        Report an exception that a callback of the event loop raised.
+
+        The exception handler for `loop.set_exception_handler`.
+
+        Parameters
+        ----------
+        loop
+            The event loop, which is not used.
+        details
+            What asyncio tells: a `message`, and the `exception` if there is one.
+
+        """
         self.fail(details.get('exception') or RuntimeError(details['message']))
 
     # Events.

@@ -28,7 +28,20 @@ class FailurePlace(NamedTuple):
 
 
 def place_of(error: Optional[BaseException]) -> Optional[FailurePlace]:
-    """Return the place that was noted on an error, or else on what caused it."""
+    """
+    Find the place that was noted on an error, or else on one that caused it.
+
+    Parameters
+    ----------
+    error
+        The exception, or None.
+
+    Returns
+    -------
+    FailurePlace or None
+        The first place along the chain of `__cause__`, None if there is none.
+
+    """
     while error is not None:
         found: Optional[FailurePlace] = getattr(error, 'launch_place', None)
         if found is not None:
@@ -43,7 +56,23 @@ def note_line(
     action: str = '',
     includes: tuple[CallSite, ...] = (),
 ) -> None:
-    """Note the line of a file that raised an error, and the includes that led to it so far."""
+    """
+    Note on an error which line of a launch file it comes from.
+
+    Nothing is done if the line is not known, or a place has been noted already.
+
+    Parameters
+    ----------
+    error
+        The exception on which the place is noted.
+    call_site
+        The line of the file.
+    action
+        The tag or the class of the action at that line, if it is known.
+    includes
+        The lines of the includes that led there so far, the innermost first.
+
+    """
     if call_site is not None and place_of(error) is None:
         _set(error, FailurePlace(call_site, action, includes))
 
@@ -53,7 +82,21 @@ def note_place(
     entity: LaunchDescriptionEntity,
     context: LaunchContext,
 ) -> None:
-    """Note which action failed, unless it has been noted further inside."""
+    """
+    Note on an error which entity failed, with all includes that led to it.
+
+    To be called at each level of a visit that the error passes: the innermost call counts.
+
+    Parameters
+    ----------
+    error
+        The exception on which the place is noted.
+    entity
+        The entity whose visit raised it.
+    context
+        The context of the launch, which knows the files that are being read.
+
+    """
     if getattr(error, 'launch_place_is_complete', False):
         return
     created = getattr(entity, 'call_site', None)

@@ -7,7 +7,19 @@ import logging
 
 
 def report_failure(logger: logging.Logger, error: BaseException) -> None:
-    """Log an error and the line of the launch file that it comes from."""
+    """
+    Log an error and the line of the launch file that it comes from.
+
+    The traceback is logged at the level DEBUG.
+
+    Parameters
+    ----------
+    logger
+        The logger that gets it.
+    error
+        The exception.
+
+    """
     from launch._call_site import raising_line
     from launch._error_text import error_text
     from launch._failure_place import FailurePlace, place_of

@@ -28,7 +28,25 @@ class CircularIncludeError(RuntimeError):
 
 
 def open_file(context: LaunchContext, path: str, call_site: Optional[CallSite]) -> OpenFile:
-    """Return the file as the next one to be read; an error shows the circle if it is in one."""
+    """
+    Create the entry of the include stack for a launch file that is to be read.
+
+    Parameters
+    ----------
+    context
+        The context of the launch; its stack is read only.
+    path
+        The absolute path of the launch file.
+    call_site
+        The line that includes it, if it is known.
+
+    Raises
+    ------
+    CircularIncludeError
+        The file is being read already with the same launch configurations and environment, or
+        `MAX_NESTED` times.
+
+    """
     configurations = context.launch_configurations.snapshot()
     before = [each for each in context._open_files if each.path == path]
     if not before or not os.path.isfile(path):

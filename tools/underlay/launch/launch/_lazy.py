@@ -13,7 +13,15 @@ _WORD_BORDER = re.compile(r'(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])')
 
 
 def snake_case(name: str) -> str:
-    """Return the name of the module that holds a class of this name."""
+    """
+    Convert the name of a class to that of the module that holds it.
+
+    Parameters
+    ----------
+    name
+        The name in CamelCase; `OnProcessExit` becomes `on_process_exit`.
+
+    """
     return _WORD_BORDER.sub('_', name).lower()
 
 
@@ -23,10 +31,22 @@ def lazy_exports(
     elsewhere: Mapping[str, str] | None = None,
 ) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
     """
-    Return the `__getattr__` and `__dir__` of a package (PEP 562).
+    Create the `__getattr__` and `__dir__` of a package that imports its names lazily (PEP 562).
 
-    Each name lies in the module of its snake_case name, unless `elsewhere` says otherwise;
-    there, an empty text marks a sub-package.
+    Parameters
+    ----------
+    package
+        The `__name__` of the package.
+    names
+        Its public names, each of which lies in the module of its snake_case name.
+    elsewhere
+        The modules of names that lie in others; an empty text marks a sub-package.
+
+    Returns
+    -------
+    tuple of callable
+        `__getattr__`, which suggests a close name in its AttributeError, and `__dir__`.
+
     """
     modules = {name: snake_case(name) for name in names}
     modules.update(elsewhere or {})

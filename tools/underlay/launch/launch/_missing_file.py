@@ -19,14 +19,47 @@ _RELATIVE = (
 
 
 def explain_missing_include(path: str, reading: Container[str]) -> str:
-    """Return sentences about a launch file that is included by those that are being read."""
+    """
+    Explain that an included launch file does not exist.
+
+    Parameters
+    ----------
+    path
+        The path of the file, as it was asked for.
+    reading
+        The absolute paths of the launch files being read, which are not suggested.
+
+    Returns
+    -------
+    str
+        The lines of the message; for a relative path they say where it is looked up.
+
+    """
     text = explain_missing_file('launch file', path, reading)
     relative = '' if os.path.isabs(path) else _RELATIVE.format(folder=os.getcwd())
     return '\n'.join(filter(None, [text, relative]))
 
 
 def explain_missing_file(what: str, path: str, but: Container[str] = ()) -> str:
-    """Return sentences about a file: the closest one but some, what is there, or its source."""
+    """
+    Explain that a file does not exist, and suggest which one is meant.
+
+    Parameters
+    ----------
+    what
+        What the file is, such as `launch file`.
+    path
+        The path of the file, as it was asked for.
+    but
+        The absolute paths of files that are not suggested.
+
+    Returns
+    -------
+    str
+        The lines of the message: the closest name or what is in the folder, and whether the source
+        of an installed package has the file.
+
+    """
     return '\n'.join(filter(None, [_sentence(what, path, but), _source_of(path)]))
 
 

@@ -17,7 +17,22 @@ _NOT_SEARCHED = ('launch._supervision.supervisor', 'launch.launch_context')
 
 
 def check_what_waits(context: LaunchContext) -> None:
-    """Raise the error of the first waiting entity that can be told to fail."""
+    """
+    Check the entities that wait for events, without visiting them.
+
+    Entities under a condition are left out.
+
+    Parameters
+    ----------
+    context
+        The context of the launch, whose event handlers are searched.
+
+    Raises
+    ------
+    Exception
+        The first error that is certain already, with the place that it comes from.
+
+    """
     seen: set[int] = set()
     for handler in tuple(context._event_handlers):
         context._open_files = handler._open_files
@@ -25,7 +40,15 @@ def check_what_waits(context: LaunchContext) -> None:
 
 
 def waiting_entities(context: LaunchContext) -> list[LaunchDescriptionEntity]:
-    """Return all entities that wait for an event, those inside them too."""
+    """
+    Collect all entities that wait for an event, including nested ones.
+
+    Parameters
+    ----------
+    context
+        The context of the launch, whose event handlers are searched.
+
+    """
     found: list[LaunchDescriptionEntity] = []
     for handler in tuple(context._event_handlers):
         for entity in handler.describe()[1]:
@@ -34,7 +57,22 @@ def waiting_entities(context: LaunchContext) -> list[LaunchDescriptionEntity]:
 
 
 def constant_text(parts: Any, context: LaunchContext) -> Optional[str]:
-    """Return what substitutions stand for if that does not depend on anything, else None."""
+    """
+    Perform substitutions in advance if they depend only on what is installed.
+
+    Parameters
+    ----------
+    parts
+        A string, a path, a substitution or an iterable of them.
+    context
+        The context in which they are performed.
+
+    Returns
+    -------
+    str or None
+        The text, or None if it may be another one later.
+
+    """
     from launch.utilities.normalize_to_list_of_substitutions_impl import (
         normalize_to_list_of_substitutions,
     )
@@ -47,7 +85,19 @@ def constant_text(parts: Any, context: LaunchContext) -> Optional[str]:
 
 
 def may_look_up(name: str, context: LaunchContext) -> bool:
-    """Return whether what waits for an event looks up a configuration, as far as one can tell."""
+    """
+    Whether what waits for an event may look up a launch configuration.
+
+    Code of the user cannot be searched, so it may.
+
+    Parameters
+    ----------
+    name
+        The name of the configuration.
+    context
+        The context of the launch, whose event handlers are searched.
+
+    """
     from launch.substitutions.launch_configuration import LaunchConfiguration
     from launch.utilities.perform_substitutions_impl import perform_substitutions
 
@@ -63,7 +113,20 @@ def may_look_up(name: str, context: LaunchContext) -> bool:
 
 
 def substitutions_in(value: Any) -> list[Substitution]:
-    """Return all substitutions that a value holds, at any depth."""
+    """
+    Collect all substitutions that a value holds, at any depth.
+
+    Parameters
+    ----------
+    value
+        A container, an entity, a substitution, or anything else.
+
+    Returns
+    -------
+    list of Substitution
+        Each of them once, an outer one before those in it.
+
+    """
     found: list[Substitution] = []
     _search(value, found, set())
     return found

@@ -17,10 +17,21 @@ class ProgramNotFoundError(FileNotFoundError):
 
 def require_program(details: Mapping[str, Any]) -> None:
     """
-    Raise an error that explains it if the program of a process is not there.
+    Check that the program of a process exists and may be executed.
 
-    Of its folder, which may be made until then, there is only a warning: a process that cannot
-    be started in it is an error of that process alone.
+    A folder that does not exist is only warned of, as it may be made until then: a process that
+    cannot be started in it is an error of that process alone.
+
+    Parameters
+    ----------
+    details
+        `name`, `cmd`, `cwd` and `env`, as `ExecuteLocal.description_of_process` returns them.
+
+    Raises
+    ------
+    ProgramNotFoundError
+        The program is not there, or may not be executed.
+
     """
     program, folder = details['cmd'][0], details['cwd']
     if folder is not None and not os.path.isdir(folder):
@@ -41,9 +52,24 @@ def _warn_of_folder(label: str, folder: str) -> None:
 
 def require_later_program(parts: Any, env: Any, context: LaunchContext) -> None:
     """
-    Raise an error if it is clear that a process that waits for an event has no program.
+    Check the program of a process that waits for an event, as far as it is known.
 
-    What a path names may be made until then: there is only a warning.
+    What a path names may be made until then, and is only warned of.
+
+    Parameters
+    ----------
+    parts
+        The substitutions that stand for the program.
+    env
+        The whole environment of the process; nothing is checked unless it is None.
+    context
+        The context in which the substitutions are performed.
+
+    Raises
+    ------
+    ProgramNotFoundError
+        A program that is given by its name is not on the PATH.
+
     """
     from launch._preflight import constant_text
 
@@ -59,7 +85,19 @@ def require_later_program(parts: Any, env: Any, context: LaunchContext) -> None:
 
 
 def is_there(program: str, folder: Optional[str], env: Optional[Mapping[str, str]]) -> bool:
-    """Return whether a program would be found; `env` may have a PATH of its own."""
+    """
+    Whether a program exists and may be executed.
+
+    Parameters
+    ----------
+    program
+        Its name, or its path.
+    folder
+        The working directory, from which a relative path leads; None for that of this process.
+    env
+        The environment with the PATH that is searched; None for that of this process.
+
+    """
     if os.path.dirname(program):
         return _is_program(os.path.join(folder or '', program))
     return find_program(program, env) is not None
@@ -67,9 +105,22 @@ def is_there(program: str, folder: Optional[str], env: Optional[Mapping[str, str
 
 def find_program(program: str, env: Optional[Mapping[str, str]] = None) -> Optional[str]:
     """
-    Return where the shell would find a program, or None; `env` may have a PATH of its own.
+    Find a program on the PATH, as the shell does.
 
     `shutil.which` does the same, but shutil loads five libraries of compression.
+
+    Parameters
+    ----------
+    program
+        Its name; a path is checked and returned as it is.
+    env
+        The environment with the PATH that is searched; None for that of this process.
+
+    Returns
+    -------
+    str or None
+        The path of the program, None if it was not found.
+
     """
     if os.path.dirname(program):
         return program if _is_program(program) else None
@@ -86,7 +137,20 @@ def explain_missing_program(
     folder: Optional[str] = None,
     env: Optional[Mapping[str, str]] = None,
 ) -> str:
-    """Return a sentence about a program that is not there, or may not be executed."""
+    """
+    Explain that a program is not there, or may not be executed.
+
+    Parameters
+    ----------
+    program, folder, env
+        As for `is_there`.
+
+    Returns
+    -------
+    str
+        The message, with a suggestion if there is one.
+
+    """
     from launch._did_you_mean import did_you_mean
     from launch._missing_file import explain_missing_file
 

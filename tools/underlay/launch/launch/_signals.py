@@ -17,7 +17,20 @@ def handled_signals(
     loop: asyncio.AbstractEventLoop,
     react: Callable[[signal.Signals], None],
 ) -> Iterator[None]:
-    """Call `react` from the loop on signals that ask to end; restore what was before."""
+    """
+    Handle the signals that ask to end, as a context manager.
+
+    These are SIGINT, SIGTERM, SIGQUIT, and SIGHUP unless it is ignored, as under nohup. The
+    handlers of before are restored at the end. To be used in the main thread.
+
+    Parameters
+    ----------
+    loop
+        The event loop that calls `react`.
+    react
+        Called with each signal.
+
+    """
     before: dict[signal.Signals, Any] = {
         number: signal.getsignal(number) for number in _WATCHED if _is_wanted(number)
     }

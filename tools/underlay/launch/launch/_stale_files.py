@@ -17,7 +17,17 @@ _SHARE = '/share/'
 
 
 def warn_of_stale_files(paths: Iterable[str]) -> None:
-    """Log a line for each installed file whose source is newer and has another content."""
+    """
+    Warn of installed files whose source is newer and has another content.
+
+    Without the package `ros_environment` nothing is checked.
+
+    Parameters
+    ----------
+    paths
+        The paths of the installed files.
+
+    """
     try:
         from ros_environment.stale import StaleFiles
     except ImportError:
@@ -36,7 +46,17 @@ def warn_of_stale_files(paths: Iterable[str]) -> None:
 
 
 def note_files_of_command(context: LaunchContext, command: str) -> None:
-    """Note the installed files that a command line names, such as a model for xacro."""
+    """
+    Record the installed files that a command line names, such as a model for xacro.
+
+    Parameters
+    ----------
+    context
+        Where they are recorded; nothing is once the checks have run.
+    command
+        The command line, which is split as a shell does.
+
+    """
     if context._before_start is None or _SHARE not in command:
         return
     for word in shlex.split(command):

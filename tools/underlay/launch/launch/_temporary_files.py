@@ -14,10 +14,17 @@ _listeners: list[Listener] = []
 
 
 class FileListening:
-    """Lets a function hear of each file, until it is closed; the last one removes the files."""
+    """
+    Subscription to the temporary files; when the last one is closed, they are removed.
+
+    Parameters
+    ----------
+    listener
+        Called with the path of each file that there is, and of each other one before it is made.
+
+    """
 
     def __init__(self, listener: Listener) -> None:
-        """Tell the function of the files that there are, and of others before they are made."""
         self._listener = listener
         _listeners.append(listener)
         for path in _paths:
@@ -31,7 +38,22 @@ class FileListening:
 
 
 def write_temporary_file(prefix: str, text: str) -> str:
-    """Write a file into the folder for temporary files, and return its path."""
+    """
+    Write a temporary file, which is removed when the launch ends.
+
+    Parameters
+    ----------
+    prefix
+        The beginning of its name, before random digits.
+    text
+        The content, which is written as UTF-8.
+
+    Returns
+    -------
+    str
+        The absolute path of the file, which only its owner may read.
+
+    """
     if not _paths:
         atexit.register(_remove_all)
     path = os.path.join(_folder(), f'{prefix}{os.urandom(6).hex()}')
@@ -45,7 +67,15 @@ def write_temporary_file(prefix: str, text: str) -> str:
 
 
 def is_temporary_file(path: str) -> bool:
-    """Return whether a file is one of those that were written here."""
+    """
+    Whether `write_temporary_file` has made a file that is still there.
+
+    Parameters
+    ----------
+    path
+        The path that it returned.
+
+    """
     return path in _paths
 
 

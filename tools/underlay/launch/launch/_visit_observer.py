@@ -14,23 +14,88 @@ class VisitObserver:
     """Is told about each entity; this one ignores it all."""
 
     def enter(self, entity: LaunchDescriptionEntity) -> None:
-        """Hear that an entity is about to be visited."""
+        """
+        Handle the start of the visit of an entity.
+
+        Parameters
+        ----------
+        entity
+            The entity that is about to be visited.
+
+        """
 
     def leave(self, entity: LaunchDescriptionEntity) -> None:
-        """Hear that an entity and all that it returned have been visited."""
+        """
+        Handle the end of the visit of an entity, unless it has failed.
+
+        Parameters
+        ----------
+        entity
+            The entity, which has been visited with all that it returned.
+
+        """
 
     def expanded(self, text: str) -> None:
-        """Hear what the expression of a condition expanded to."""
+        """
+        Handle the expansion of the expression of a condition.
+
+        Parameters
+        ----------
+        text
+            What the expression became.
+
+        """
 
     def decided(self, entity: LaunchDescriptionEntity, value: bool) -> None:
-        """Hear what the condition of an entity is."""
+        """
+        Handle the evaluation of the condition of an entity.
+
+        Parameters
+        ----------
+        entity
+            The entity that has the condition.
+        value
+            Whether the condition is fulfilled.
+
+        """
 
     def note(self, **facts: Any) -> None:
-        """Hear facts about the entity that is being visited."""
+        """
+        Handle facts about the entity that is being visited.
+
+        Parameters
+        ----------
+        **facts
+            The facts by name; `launch._rehearsal.record` lists the names.
+
+        """
 
     def note_waiting(self, event: str, entities: Iterable[LaunchDescriptionEntity]) -> None:
-        """Hear what the entity leaves waiting for an event."""
+        """
+        Handle what the entity that is being visited leaves waiting for an event.
+
+        Parameters
+        ----------
+        event
+            The event in words.
+        entities
+            The entities that are visited when it comes.
+
+        """
 
     def environment_changes(self, environment: dict[str, str]) -> dict[str, Optional[str]]:
-        """Return how an environment differs from that at the start; None stands for unset."""
+        """
+        Compare the environment of a process with that at the start of the visit.
+
+        Parameters
+        ----------
+        environment
+            The variables of the process.
+
+        Returns
+        -------
+        dict
+            The variables that differ, None for those that are unset; always empty here.
+
+        """
         return {}

@@ -17,12 +17,31 @@ if TYPE_CHECKING:
 
 
 class Action(LaunchDescriptionEntity):
-    """Something to do, at once or when an event happens, perhaps under a condition."""
+    """
+    Base class of actions: something to do, at once or on an event, perhaps under a condition.
+
+    Parameters
+    ----------
+    condition
+        The action is executed only if this is fulfilled; without one, always.
+    **unknown
+        Keywords that no class knows, which are an error.
+
+    Attributes
+    ----------
+    call_site
+        The line of the launch file that created the action, None if it is not known.
+
+    Raises
+    ------
+    TypeError
+        The condition cannot be evaluated, or a keyword is unknown; the closest one is suggested.
+
+    """
 
     call_site: Optional[CallSite] = None
 
     def __init__(self, *, condition: Optional[Condition] = None, **unknown: Any) -> None:
-        """Create an action that is executed if `condition` is None or fulfilled."""
         if unknown:
             from launch._checked import unknown_keyword
 
@@ -38,9 +57,27 @@ class Action(LaunchDescriptionEntity):
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
         """
-        Return the class, and what to construct it with, for an element of a launch file.
+        Read from an element of a launch file what its action is constructed with.
 
         Subclasses extend what this returns.
+
+        Parameters
+        ----------
+        entity
+            The element; here its attributes `if` and `unless` are read.
+        parser
+            The parser of the file, which makes substitutions of texts.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        Raises
+        ------
+        RuntimeError
+            The element has both `if` and `unless`.
+
         """
         from launch.conditions.if_condition import IfCondition
         from launch.conditions.unless_condition import UnlessCondition
@@ -81,7 +118,20 @@ class Action(LaunchDescriptionEntity):
         return [(f'Conditionally included by {self.describe()}', self.get_sub_entities())]
 
     def visit(self, context: LaunchContext) -> Optional[Iterable[LaunchDescriptionEntity]]:
-        """Execute the action if its condition allows it."""
+        """
+        Execute the action if its condition allows it.
+
+        Parameters
+        ----------
+        context
+            The state of the launch.
+
+        Returns
+        -------
+        iterable of LaunchDescriptionEntity or None
+            What `execute` returns; None if the condition is not fulfilled.
+
+        """
         if self.__condition is not None and not self._is_wanted(self.__condition, context):
             return None
         try:
@@ -118,7 +168,25 @@ class Action(LaunchDescriptionEntity):
             future.add_done_callback(lambda _: context.emit_event_sync(event))
 
     def execute(self, context: LaunchContext) -> Optional[Iterable[LaunchDescriptionEntity]]:
-        """Do it; the entities returned are visited next. Subclasses override this."""
+        """
+        Carry out the action; subclasses override this.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which substitutions are performed.
+
+        Returns
+        -------
+        iterable of LaunchDescriptionEntity or None
+            The entities that are visited next.
+
+        Raises
+        ------
+        NotImplementedError
+            The class does not override it.
+
+        """
         raise NotImplementedError(
             f"the action class '{type(self).__name__}' does not define execute(context)"
         )

@@ -11,10 +11,17 @@ if TYPE_CHECKING:
 
 
 class Condition:
-    """A question that decides at run time whether an action is executed."""
+    """
+    Base class of conditions: a question that decides whether an action is executed.
+
+    Parameters
+    ----------
+    predicate
+        Called with the launch context; without one the condition is never fulfilled.
+
+    """
 
     def __init__(self, *, predicate: Optional[Callable[[LaunchContext], bool]] = None) -> None:
-        """Create a condition that asks `predicate`; without one it is never fulfilled."""
         self._predicate = predicate
 
     def describe(self) -> str:
@@ -22,5 +29,18 @@ class Condition:
         return repr(self)
 
     def evaluate(self, context: LaunchContext) -> bool:
-        """Return whether the condition is fulfilled now."""
+        """
+        Evaluate the condition as things are now.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, which the predicate is given.
+
+        Returns
+        -------
+        bool
+            Whether the condition is fulfilled.
+
+        """
         return self._predicate(context) if self._predicate is not None else False

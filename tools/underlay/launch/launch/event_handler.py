@@ -16,12 +16,21 @@ if TYPE_CHECKING:
 
 
 class BaseEventHandler:
-    """Something that may react to an event."""
+    """
+    Base class of event handlers.
+
+    Parameters
+    ----------
+    matcher
+        Called with an event; returns whether the handler reacts to it.
+    handle_once
+        Whether the handler unregisters itself when it handles an event.
+
+    """
 
     _open_files: tuple[OpenFile, ...] = ()
 
     def __init__(self, *, matcher: Callable[[Any], bool], handle_once: bool = False) -> None:
-        """Create a handler of the events that `matcher` accepts, or of the first only."""
         self.__matcher = matcher
         self.__handle_once = handle_once
 
@@ -45,7 +54,15 @@ class BaseEventHandler:
         return f'an event ({type(self).__name__})'
 
     def matches(self, event: Event) -> bool:
-        """Return whether the handler reacts to an event."""
+        """
+        Whether the handler reacts to an event.
+
+        Parameters
+        ----------
+        event
+            The event that was emitted, or may be.
+
+        """
         return self.__matcher(event)
 
     def describe(self) -> tuple[str, list[Any]]:
@@ -53,7 +70,22 @@ class BaseEventHandler:
         return f"{type(self).__name__}(matcher='{self.matcher_description}')", []
 
     def handle(self, event: Event, context: LaunchContext) -> Optional[SomeEntitiesType]:
-        """Make the event known to the context; subclasses react to it."""
+        """
+        Make the event known to the context; subclasses react to it.
+
+        Parameters
+        ----------
+        event
+            The event that has happened, which `matches` accepts.
+        context
+            The state of the launch, in which the local variable `event` is set.
+
+        Returns
+        -------
+        SomeEntitiesType or None
+            The entities that are visited next; None here.
+
+        """
         context.extend_locals({'event': event})
         if self.__handle_once:
             context.unregister_event_handler(self)
@@ -61,7 +93,19 @@ class BaseEventHandler:
 
 
 class EventHandler(BaseEventHandler):
-    """Visits entities when an event happens."""
+    """
+    Event handler that visits entities when an event happens.
+
+    Parameters
+    ----------
+    matcher
+        Called with an event; returns whether the handler reacts to it.
+    entities
+        What is visited then; an iterable is gone through at each event.
+    handle_once
+        Whether the handler unregisters itself when it handles an event.
+
+    """
 
     def __init__(
         self,
@@ -70,7 +114,6 @@ class EventHandler(BaseEventHandler):
         entities: Optional[SomeEntitiesType] = None,
         handle_once: bool = False,
     ) -> None:
-        """Create a handler that visits `entities` when `matcher` accepts an event."""
         super().__init__(matcher=matcher, handle_once=handle_once)
         if entities is None or isinstance(entities, LaunchDescriptionEntity):
             self.__entities: Iterable[LaunchDescriptionEntity] = (
@@ -89,6 +132,14 @@ class EventHandler(BaseEventHandler):
         return super().describe()[0], list(self.__entities)
 
     def handle(self, event: Event, context: LaunchContext) -> Optional[SomeEntitiesType]:
-        """Return the entities, which are visited next."""
+        """
+        Return the entities, which are visited next.
+
+        Parameters
+        ----------
+        event, context
+            As for `BaseEventHandler.handle`.
+
+        """
         super().handle(event, context)
         return self.__entities

@@ -26,7 +26,19 @@ if TYPE_CHECKING:
 
 
 class LaunchContext:
-    """The launch configurations, the environment, the event handlers and the event queue."""
+    """
+    State of a launch: configurations, environment, local variables, event handlers and queue.
+
+    It needs no running event loop.
+
+    Parameters
+    ----------
+    argv
+        The arguments that the launch was started with.
+    noninteractive
+        Whether nobody sits at a terminal.
+
+    """
 
     def __init__(
         self,
@@ -34,7 +46,6 @@ class LaunchContext:
         argv: Optional[Iterable[str]] = None,
         noninteractive: bool = False,
     ) -> None:
-        """Create a context; it needs no running event loop."""
         self.__argv = list(argv) if argv is not None else []
         self.__noninteractive = noninteractive
         self.__is_shutdown = False
@@ -93,7 +104,20 @@ class LaunchContext:
     # Substitutions and launch configurations.
 
     def perform_substitution(self, sub: Substitution) -> str:
-        """Return the text that a substitution stands for now."""
+        """
+        Perform a substitution.
+
+        Parameters
+        ----------
+        sub
+            The substitution.
+
+        Returns
+        -------
+        str
+            The text that it stands for now.
+
+        """
         return sub.perform(self)
 
     @property
@@ -139,11 +163,27 @@ class LaunchContext:
         return self.__locals.as_dict()
 
     def extend_locals(self, extra_locals: Mapping[str, Any]) -> None:
-        """Add local variables; they last until the current event is handled."""
+        """
+        Add local variables; they last until the current event is handled.
+
+        Parameters
+        ----------
+        extra_locals
+            The values by name.
+
+        """
         self.__locals.extend(extra_locals)
 
     def extend_globals(self, extra_globals: Mapping[str, Any]) -> None:
-        """Add variables that last as long as the context does."""
+        """
+        Add variables that last as long as the context does.
+
+        Parameters
+        ----------
+        extra_globals
+            The values by name; local variables of the same names hide them.
+
+        """
         self.__locals.extend_globals(extra_globals)
 
     def _push_locals(self) -> None:
@@ -159,7 +199,17 @@ class LaunchContext:
         event_handler: BaseEventHandler,
         append: bool = False,
     ) -> None:
-        """Register a handler before all others, or behind them with `append`."""
+        """
+        Register an event handler.
+
+        Parameters
+        ----------
+        event_handler
+            The handler, which gets each event from now on.
+        append
+            Whether it comes after all other handlers rather than before them.
+
+        """
         event_handler._open_files = self._open_files
         if append:
             self._event_handlers.append(event_handler)
@@ -167,27 +217,72 @@ class LaunchContext:
             self._event_handlers.appendleft(event_handler)
 
     def unregister_event_handler(self, event_handler: BaseEventHandler) -> None:
-        """Remove a handler; a ValueError says that it was not registered."""
+        """
+        Unregister an event handler.
+
+        Parameters
+        ----------
+        event_handler
+            The handler.
+
+        Raises
+        ------
+        ValueError
+            The handler is not registered.
+
+        """
         if event_handler not in self._event_handlers:
             raise ValueError(f'the event handler {event_handler!r} is not registered')
         self._event_handlers.remove(event_handler)
 
     def would_handle_event(self, event: Event) -> bool:
-        """Return whether any handler matches an event now."""
+        """
+        Whether any registered handler matches an event now.
+
+        Parameters
+        ----------
+        event
+            The event, which need not have been emitted.
+
+        """
         return any(handler.matches(event) for handler in tuple(self._event_handlers))
 
     def emit_event_sync(self, event: Event) -> None:
-        """Queue an event; this may be called from any thread."""
+        """
+        Queue an event; this may be called from any thread.
+
+        Parameters
+        ----------
+        event
+            The event, which is handled after those that were queued before.
+
+        """
         self._event_queue.append(event)
         if self.__wake_up is not None:
             self.__wake_up()
 
     async def emit_event(self, event: Event) -> None:
-        """Queue an event."""
+        """
+        Queue an event from a coroutine.
+
+        Parameters
+        ----------
+        event
+            The event, as for `emit_event_sync`.
+
+        """
         self.emit_event_sync(event)
 
     def add_completion_future(self, completion_future: asyncio.Future[Any]) -> None:
-        """Keep the launch running until a future is done."""
+        """
+        Keep the launch running until a future is done.
+
+        Parameters
+        ----------
+        completion_future
+            The future, of the event loop that runs the launch; its exception ends the launch.
+
+        """
         self._completion_futures.append(completion_future)
         if self.__wake_up is not None:
             self.__wake_up()

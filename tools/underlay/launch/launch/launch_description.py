@@ -17,7 +17,18 @@ if TYPE_CHECKING:
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """A list of entities, visited in order."""
+    """
+    Description of what to launch: a list of entities that are visited in order.
+
+    Parameters
+    ----------
+    initial_entities
+        The entities, to which others can be added.
+    deprecated_reason
+        Why the description should no longer be used, which is warned of when it is visited; None
+        if it may.
+
+    """
 
     def __init__(
         self,
@@ -25,7 +36,6 @@ class LaunchDescription(LaunchDescriptionEntity):
         *,
         deprecated_reason: Optional[str] = None,
     ) -> None:
-        """Create a description; one with a `deprecated_reason` warns when it is used."""
         self.__entities = list(initial_entities) if initial_entities is not None else []
         self.__deprecated_reason = deprecated_reason
 
@@ -45,15 +55,39 @@ class LaunchDescription(LaunchDescriptionEntity):
         return self.__deprecated_reason
 
     def add_entity(self, entity: LaunchDescriptionEntity) -> None:
-        """Append an entity."""
+        """
+        Append an entity.
+
+        Parameters
+        ----------
+        entity
+            The entity, which is visited after those that there are.
+
+        """
         self.__entities.append(entity)
 
     def add_action(self, action: LaunchDescriptionEntity) -> None:
-        """Append an action."""
+        """
+        Append an action; the same as `add_entity`.
+
+        Parameters
+        ----------
+        action
+            The action, or any other entity.
+
+        """
         self.add_entity(action)
 
     def visit(self, context: LaunchContext) -> Iterable[LaunchDescriptionEntity]:
-        """Return the entities, which are visited next."""
+        """
+        Return the entities, which are visited next; warn if the description is deprecated.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, which knows the launch file for the warning.
+
+        """
         if self.deprecated:
             from launch.logging import get_logger
 
@@ -71,7 +105,20 @@ class LaunchDescription(LaunchDescriptionEntity):
         self,
         conditional_inclusion: bool = False,
     ) -> list[DeclareLaunchArgument]:
-        """Return the arguments declared here and in what is included, each name once."""
+        """
+        List the launch arguments declared here and in what is included.
+
+        Parameters
+        ----------
+        conditional_inclusion
+            Whether the description itself is included under a condition only.
+
+        Returns
+        -------
+        list of DeclareLaunchArgument
+            The first declaration of each name.
+
+        """
         found = self.get_launch_arguments_with_include_launch_description_actions(
             conditional_inclusion
         )
@@ -81,7 +128,20 @@ class LaunchDescription(LaunchDescriptionEntity):
         self,
         conditional_inclusion: bool = False,
     ) -> list[ArgumentWithIncludes]:
-        """Return the arguments, each with the includes that lead to its declaration."""
+        """
+        List the launch arguments, each with the includes that lead to its declaration.
+
+        Parameters
+        ----------
+        conditional_inclusion
+            As for `get_launch_arguments`.
+
+        Returns
+        -------
+        list of tuple
+            The first declaration of each name, and its includes, the outermost first.
+
+        """
         from launch._argument_discovery import find_arguments
 
         return find_arguments(self.__entities, conditional_inclusion)

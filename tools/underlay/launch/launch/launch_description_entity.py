@@ -21,7 +21,25 @@ class LaunchDescriptionEntity:
         self,
         context: LaunchContext,
     ) -> Optional[Iterable[LaunchDescriptionEntity]]:
-        """Do what the entity stands for; the entities returned are visited next."""
+        """
+        Do what the entity stands for.
+
+        Parameters
+        ----------
+        context
+            The state of the launch.
+
+        Returns
+        -------
+        iterable of LaunchDescriptionEntity or None
+            The entities that are visited next.
+
+        Raises
+        ------
+        NotImplementedError
+            The class does not override it.
+
+        """
         raise NotImplementedError(
             f"the class '{type(self).__name__}' does not define visit(context)"
         )

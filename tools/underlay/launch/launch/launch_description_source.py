@@ -19,7 +19,19 @@ if TYPE_CHECKING:
 
 
 class LaunchDescriptionSource:
-    """A launch description, or the file that it is loaded from when it is needed."""
+    """
+    Source of a launch description: the description itself, or what it is loaded from when needed.
+
+    Parameters
+    ----------
+    launch_description
+        The description; None if a subclass loads it from `location`.
+    location
+        The path of the launch file, or what the source is called.
+    method
+        How the description is loaded, for people.
+
+    """
 
     _loads_file = False
 
@@ -29,7 +41,6 @@ class LaunchDescriptionSource:
         location: SomeSubstitutionsType = '<string>',
         method: str = 'unspecified mechanism from a script',
     ) -> None:
-        """Create the source of a description, or of what lies at `location`."""
         self.__launch_description = launch_description
         self.__location = normalize_to_list_of_substitutions(location)
         self.__expanded_location: Optional[str] = None
@@ -49,7 +60,20 @@ class LaunchDescriptionSource:
         return self.__method
 
     def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
-        """Return the description; it is loaded once."""
+        """
+        Return the launch description, which is loaded once.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the location is performed.
+
+        Raises
+        ------
+        FileNotFoundError
+            The description is to be loaded from a file that does not exist.
+
+        """
         location = self._expand_location(context)
         if self.__launch_description is None:
             self._require_file(location, context)

@@ -19,7 +19,20 @@ class LaunchIntrospector:
     """Formats what can be told about entities before they are visited."""
 
     def format_launch_description(self, launch_description: LaunchDescription) -> str:
-        """Return a line for each entity, indented by how deep it lies."""
+        """
+        Format a launch description as an indented tree, without running it.
+
+        Parameters
+        ----------
+        launch_description
+            The description; what it includes is loaded if that needs no context.
+
+        Returns
+        -------
+        str
+            A line for each entity, indented by how deep it lies.
+
+        """
         return '\n'.join(_lines(launch_description, ()))
 
 

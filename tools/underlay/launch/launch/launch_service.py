@@ -23,7 +23,21 @@ if TYPE_CHECKING:
 
 
 class LaunchService:
-    """Visits launch descriptions and handles events until nothing is left to do."""
+    """
+    Runs launch descriptions: visits them and handles events until nothing is left to do.
+
+    Parameters
+    ----------
+    argv
+        The arguments that the context knows the launch to be started with.
+    noninteractive
+        Whether nobody sits at a terminal.
+    debug
+        Whether the log level is set to DEBUG.
+    prefork
+        Whether Python nodes may be forked from a template rather than executed.
+
+    """
 
     def __init__(
         self,
@@ -33,11 +47,6 @@ class LaunchService:
         debug: bool = False,
         prefork: bool = True,
     ) -> None:
-        """
-        Create a service; `argv` is what the context knows as its arguments.
-
-        Without `prefork`, Python nodes are executed and never forked from a template.
-        """
         self.__context = LaunchContext(argv=argv, noninteractive=noninteractive)
         self.__context._before_start = BeforeStart()
         self.__context.register_event_handler(_IncludeHandler())
@@ -65,18 +74,43 @@ class LaunchService:
         return self.__task
 
     def emit_event(self, event: Event) -> None:
-        """Queue an event; this may be called from any thread, also before the service runs."""
+        """
+        Queue an event; this may be called from any thread, also before the service runs.
+
+        Parameters
+        ----------
+        event
+            The event, which is handled after those that were queued before.
+
+        """
         self.__context.emit_event_sync(event)
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
-        """Queue a description to be visited; this may be called from any thread."""
+        """
+        Queue a launch description to be visited; this may be called from any thread.
+
+        Parameters
+        ----------
+        launch_description
+            The description.
+
+        """
         self.emit_event(IncludeLaunchDescription(launch_description))
 
     def shutdown(self, force_sync: bool = False) -> Optional[asyncio.Future[None]]:
         """
-        End the service; this may be called from any thread.
+        Shut the service down; this may be called from any thread.
 
-        In the thread of a running service, unless `force_sync` is set, the result can be awaited.
+        Parameters
+        ----------
+        force_sync
+            Whether None is returned in any case.
+
+        Returns
+        -------
+        Future or None
+            A future that is done already, in the main thread while the service runs; else None.
+
         """
         self.emit_event(Shutdown(reason='LaunchService.shutdown() called'))
         loop = self.__loop
@@ -91,7 +125,25 @@ class LaunchService:
         return future
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
-        """Run until all is done; return 0, or 1 if an exception occurred in the launch."""
+        """
+        Run the service in a new event loop until all is done.
+
+        Parameters
+        ----------
+        shutdown_when_idle
+            Whether it shuts down when neither events nor futures are left.
+
+        Returns
+        -------
+        int
+            0, or 1 if an exception occurred in the launch.
+
+        Raises
+        ------
+        RuntimeError
+            This is not the main thread, or the service is running already.
+
+        """
         _require_main_thread()
         import asyncio
 
@@ -105,7 +157,25 @@ class LaunchService:
             loop.close()
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """Do the same in the running event loop."""
+        """
+        Run the service in the running event loop until all is done.
+
+        Parameters
+        ----------
+        shutdown_when_idle
+            As for `run`.
+
+        Returns
+        -------
+        int
+            0, or 1 if an exception occurred in the launch.
+
+        Raises
+        ------
+        RuntimeError
+            This is not the main thread, or the service is running already.
+
+        """
         _require_main_thread()
         import asyncio
 
@@ -218,7 +288,15 @@ def _require_main_thread() -> None:
 
 
 def cancel_all_tasks(loop: asyncio.AbstractEventLoop) -> None:
-    """Let what is still in the loop come to an end."""
+    """
+    Cancel all tasks of an event loop and wait until they have ended.
+
+    Parameters
+    ----------
+    loop
+        The event loop, which must not be running.
+
+    """
     import asyncio
 
     tasks = asyncio.all_tasks(loop)

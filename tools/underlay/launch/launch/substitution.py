@@ -20,7 +20,25 @@ class Substitution:
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for arguments in a launch file."""
+        """
+        Read the arguments that a substitution has in a launch file.
+
+        Parameters
+        ----------
+        data
+            The arguments, each as a list of substitutions.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        Raises
+        ------
+        TypeError
+            There are too few or too many arguments.
+
+        """
         names = cls.frontend_required + cls.frontend_optional
         if not len(cls.frontend_required) <= len(data) <= len(names):
             described = [*cls.frontend_required, *(f'[{name}]' for name in cls.frontend_optional)]
@@ -31,7 +49,20 @@ class Substitution:
         return cls, dict(zip(names, data))
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the text; subclasses override this."""
+        """
+        Resolve the text that the substitution stands for; subclasses override this.
+
+        Parameters
+        ----------
+        context
+            The state of the launch.
+
+        Raises
+        ------
+        NotImplementedError
+            The class does not override it.
+
+        """
         raise NotImplementedError(
             f"the substitution class '{type(self).__name__}' does not define perform(context)"
         )

@@ -36,7 +36,32 @@ def collect(
     function: Callable[..., Any],
     mark: pytest.Mark,
 ) -> list[pytest.Function]:
-    """Return the items of a test function."""
+    """
+    Collect the items of a test function with the marker `launch`.
+
+    A generator function is split if it shares its launch with other tests: what comes behind its
+    `yield` is an item of its own, which runs after the shutdown.
+
+    Parameters
+    ----------
+    collector
+        The module or class that the function is in.
+    name, function
+        The test function.
+    mark
+        The marker, with `fixture` and perhaps `shutdown`.
+
+    Returns
+    -------
+    list of pytest.Function
+        The items, which note what they need in their stash.
+
+    Raises
+    ------
+    pytest.UsageError
+        The marker names no fixture that launches something.
+
+    """
     fixture = launch_fixture_of(mark, f'{collector.nodeid}::{name}')
     pytest.mark.usefixtures(fixture.name)(getattr(function, '__func__', function))
     is_after_shutdown = bool(mark.kwargs.get('shutdown', False))
@@ -66,7 +91,15 @@ def _second_part(item: pytest.Function, fixture: LaunchFixture) -> pytest.Functi
 
 
 def put_after_shutdown_last(items: list[pytest.Item]) -> None:
-    """Move the tests that end a launch behind all others on the same launch."""
+    """
+    Move the tests that end a launch behind all others on the same launch.
+
+    Parameters
+    ----------
+    items
+        All tests of the run, which are reordered in place.
+
+    """
     launches = [_launch_of(item) for item in items]
     last = {launch: index for index, launch in enumerate(launches) if launch is not None}
     keys = []

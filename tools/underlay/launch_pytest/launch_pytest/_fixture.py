@@ -32,12 +32,25 @@ def fixture(
     """
     Make a fixture of a function that returns a launch description.
 
-    The function may also return, or yield, a sequence that begins with a launch description. The
-    other arguments are those of pytest.fixture.
+    The function may also return, or yield, a sequence that begins with a launch description.
 
-    :param scope: how long the launch lasts, as for pytest.fixture
-    :param auto_shutdown: whether the launch is shut down when the tests are done, and stays until
-        then; otherwise it ends when its processes have
+    Parameters
+    ----------
+    decorated
+        The function, if this is used as a decorator without arguments.
+    scope
+        How long the launch lasts, as for pytest.fixture.
+    auto_shutdown
+        Whether the launch is shut down when the tests are done, and stays until then; otherwise it
+        ends when its processes have.
+    **kwargs
+        The other arguments of pytest.fixture.
+
+    Returns
+    -------
+    Any
+        The fixture, or the decorator that makes it.
+
     """
 
     def decorate(function: Callable[..., Any]) -> Any:
@@ -51,7 +64,22 @@ def fixture(
 
 
 def launch_fixture_of(mark: pytest.Mark, nodeid: str) -> LaunchFixture:
-    """Return what a mark says about the fixture that launches what the test needs."""
+    """
+    Return the launch fixture that the marker of a test names.
+
+    Parameters
+    ----------
+    mark
+        The marker `launch`.
+    nodeid
+        The test, for error messages.
+
+    Raises
+    ------
+    pytest.UsageError
+        The marker names no fixture that launches something.
+
+    """
     found = getattr(mark.kwargs.get('fixture'), _ATTRIBUTE, None)
     if not isinstance(found, LaunchFixture):
         raise pytest.UsageError(

@@ -15,7 +15,22 @@ _END = object()
 
 
 def session_of(item: pytest.Item, fixture_name: str) -> LaunchSession:
-    """Return the session that a fixture has started for an item."""
+    """
+    Return the session that a fixture has started for a test.
+
+    Parameters
+    ----------
+    item
+        The test.
+    fixture_name
+        The fixture.
+
+    Raises
+    ------
+    RuntimeError
+        The fixture has launched nothing for it.
+
+    """
     for node in reversed(item.listchain()):
         session = node.stash.get(SESSIONS, {}).get(fixture_name)
         if session is not None:
@@ -24,7 +39,17 @@ def session_of(item: pytest.Item, fixture_name: str) -> LaunchSession:
 
 
 def run(item: pytest.Function, test: LaunchTest) -> None:
-    """Run a test; if it fails, its report shows the processes."""
+    """
+    Run a test; if it fails, its report shows the processes.
+
+    Parameters
+    ----------
+    item
+        The test function.
+    test
+        The launch that it needs, and when it runs.
+
+    """
     session = session_of(item, test.fixture.name)
     try:
         _run(item, test, session)
@@ -85,7 +110,15 @@ async def _next(generator: Any) -> Any:
 
 
 def run_marked(item: pytest.Function) -> bool:
-    """Run a test if it needs a launch; return whether it does."""
+    """
+    Run a test if it needs a launch, and return whether it does.
+
+    Parameters
+    ----------
+    item
+        Any test function.
+
+    """
     test = item.stash.get(LAUNCH_TEST, None)
     if test is not None:
         run(item, test)

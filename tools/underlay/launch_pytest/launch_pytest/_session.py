@@ -22,7 +22,26 @@ SESSIONS: pytest.StashKey[dict[str, LaunchSession]] = pytest.StashKey()
 
 
 class LaunchSession:
-    """Runs a launch, in the main thread, whenever a test is running or waited for."""
+    """
+    Runs a launch, in the main thread, whenever a test is running or waited for.
+
+    Parameters
+    ----------
+    description
+        What is launched by `start`.
+    auto_shutdown
+        Whether the launch is shut down by `shutdown`; otherwise it ends when its processes have.
+    ready_timeout_s
+        How long `start` waits for every ReadyToTest, in s.
+
+    Attributes
+    ----------
+    service
+        The launch service.
+    suspended
+        The generators of tests that have come to their `yield`, by the ids of their nodes.
+
+    """
 
     def __init__(
         self,
@@ -31,7 +50,6 @@ class LaunchSession:
         auto_shutdown: bool,
         ready_timeout_s: float = _READY_TIMEOUT_S,
     ) -> None:
-        """Create the session of a launch that was not started."""
         self.service = LaunchService(noninteractive=True)
         self._description = description
         self._auto_shutdown = auto_shutdown
@@ -127,13 +145,31 @@ class LaunchSession:
     # Tests.
 
     def call(self, function: Callable[[], Any]) -> Any:
-        """Call a function while the launch goes on, in another thread; return its result."""
+        """
+        Call a function in another thread while the launch goes on, and return its result.
+
+        Parameters
+        ----------
+        function
+            Called without arguments; in this thread if the launch has ended.
+
+        """
         if not self.is_running:
             return function()
         return self.wait_for(lambda: _in_thread(function, self._loop))
 
     def wait_for(self, function: Callable[[], Awaitable[Any]]) -> Any:
-        """Run a coroutine while the launch goes on; return its result."""
+        """
+        Await something in the event loop of the launch, and return its result.
+
+        The test fails if the launch fails meanwhile.
+
+        Parameters
+        ----------
+        function
+            Called in the event loop; returns a coroutine or a future.
+
+        """
         return self._loop.run_until_complete(self._beside_launch(function))
 
     async def _beside_launch(self, function: Callable[[], Awaitable[Any]]) -> Any:

@@ -20,7 +20,15 @@ _MARKER = 'launch'
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Register the marker."""
+    """
+    Register the marker `launch`.
+
+    Parameters
+    ----------
+    config
+        The configuration of the pytest run.
+
+    """
     config.addinivalue_line(
         'markers',
         f'{_MARKER}(*, fixture, shutdown=False): runs the test while the launch of a fixture '
@@ -34,7 +42,22 @@ def pytest_pycollect_makeitem(
     name: str,
     obj: object,
 ) -> Optional[list[pytest.Function]]:
-    """Collect a test function that has the marker."""
+    """
+    Collect a test function that has the marker.
+
+    Parameters
+    ----------
+    collector
+        The module or class that is being collected.
+    name, obj
+        An attribute of it.
+
+    Returns
+    -------
+    list of pytest.Function or None
+        None leaves the object to others.
+
+    """
     if not collector.istestfunction(obj, name):
         return None
     mark = _mark(collector, obj)
@@ -57,7 +80,15 @@ def _mark(collector: Any, function: object) -> Optional[pytest.Mark]:
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Move the tests that end a launch behind all others on the same launch."""
+    """
+    Move the tests that end a launch behind all others on the same launch.
+
+    Parameters
+    ----------
+    items
+        All tests of the run, which are reordered in place.
+
+    """
     if _is_used():
         from launch_pytest._collection import put_after_shutdown_last
 
@@ -66,7 +97,20 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> Optional[bool]:
-    """Run a test function that has the marker."""
+    """
+    Run a test function that has the marker.
+
+    Parameters
+    ----------
+    pyfuncitem
+        Any test function.
+
+    Returns
+    -------
+    bool or None
+        True if it has been run; None leaves it to others.
+
+    """
     if not _is_used():
         return None
     from launch_pytest._running import run_marked
@@ -81,13 +125,29 @@ def _is_used() -> bool:
 
 @pytest.fixture
 def launch_service(request: pytest.FixtureRequest) -> LaunchService:
-    """Return the service of the test's launch."""
+    """
+    Return the LaunchService that runs the launch of the test.
+
+    Parameters
+    ----------
+    request
+        The request of a test for this fixture.
+
+    """
     return _session(request).service
 
 
 @pytest.fixture
 def launch_context(request: pytest.FixtureRequest) -> LaunchContext:
-    """Return the context of the test's launch."""
+    """
+    Return the LaunchContext of the launch of the test.
+
+    Parameters
+    ----------
+    request
+        The request of a test for this fixture.
+
+    """
     return _session(request).context
 
 

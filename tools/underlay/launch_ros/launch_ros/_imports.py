@@ -23,7 +23,23 @@ Import = tuple[str, tuple[str, ...]]
 
 
 def imports_of(scripts: Sequence[str]) -> Iterator[Import]:
-    """Yield what scripts, and the modules of the workspace behind them, import from elsewhere."""
+    """
+    Yield what Python scripts import from outside the workspace, without running them.
+
+    Modules that are not installed with this Python are followed into their sources, up to a fixed
+    number. Scripts that setuptools has installed are followed to the module of their entry point.
+
+    Parameters
+    ----------
+    scripts
+        Paths of Python files; one that cannot be read or parsed has no imports.
+
+    Yields
+    ------
+    Import
+        A module that is not followed, and the names imported from it.
+
+    """
     waiting = [item for script in scripts for item in _imports_of_script(script)]
     seen: set[Import] = set()
     while waiting and len(seen) < _MOST_MODULES:

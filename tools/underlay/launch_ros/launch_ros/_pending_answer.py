@@ -9,10 +9,24 @@ from typing import Any, Optional
 
 
 class PendingAnswer:
-    """A request that has been sent; on leaving, its answer is not waited for any more."""
+    """
+    A service request that was sent from an event loop; leaving the context drops its response.
+
+    Parameters
+    ----------
+    client
+        The rclpy client that sends the request. Its node is spun in another thread.
+    request
+        The request message of the service.
+
+    Raises
+    ------
+    RuntimeError
+        No event loop is running in this thread.
+
+    """
 
     def __init__(self, client: Any, request: Any) -> None:
-        """Send the request."""
         loop = asyncio.get_running_loop()
         self._client = client
         self._arrived = asyncio.Event()
@@ -31,7 +45,20 @@ class PendingAnswer:
         self._client.remove_pending_request(self._future)
 
     async def arrives_within(self, seconds: float) -> bool:
-        """Wait for the answer, but not longer than this."""
+        """
+        Wait for the service response with a timeout.
+
+        Parameters
+        ----------
+        seconds
+            The timeout in s.
+
+        Returns
+        -------
+        bool
+            Whether the response has arrived; then `result` returns it.
+
+        """
         try:
             await asyncio.wait_for(self._arrived.wait(), seconds)
         except asyncio.TimeoutError:

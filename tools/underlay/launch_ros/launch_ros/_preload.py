@@ -33,7 +33,17 @@ _tracing = Tracing()
 
 
 def preload(scripts: Sequence[str]) -> None:
-    """Import what the nodes behind some scripts need; nothing of it is initialised."""
+    """
+    Import what Python nodes need: rclpy, numpy, yaml and the type supports of interfaces.
+
+    Nothing of it is initialised, so that processes can be forked afterwards.
+
+    Parameters
+    ----------
+    scripts
+        Paths of the Python programs that are going to be forked from this process.
+
+    """
     from launch_ros._imports import imports_of
 
     for module, names in (*_COMMON, *imports_of(scripts)):

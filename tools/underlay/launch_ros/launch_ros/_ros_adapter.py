@@ -24,7 +24,17 @@ _ENDING_S = 10.0
 
 
 class ROSAdapter:
-    """A ROS node in a ROS context of its own, whose callbacks run in a thread of their own."""
+    """
+    The ROS node of a launch, in a ROS context of its own, spun by a thread of its own.
+
+    Parameters
+    ----------
+    use_sim_time
+        Whether the clock of the node follows `/clock` from the start.
+    loop
+        The event loop that runs the launch. Without one no tasks can be started.
+
+    """
 
     def __init__(
         self,
@@ -32,7 +42,6 @@ class ROSAdapter:
         use_sim_time: bool = False,
         loop: Optional[asyncio.AbstractEventLoop] = None,
     ) -> None:
-        """Make the node and start the thread; `loop` is the one that runs the launch."""
         self._loop = loop
         self._tasks: set[asyncio.Task[Any]] = set()
         self._stopping = threading.Event()
@@ -74,11 +83,37 @@ class ROSAdapter:
         return not self._stopping.is_set()
 
     def set_use_sim_time(self, value: bool) -> None:
-        """Choose whether the node's clock follows /clock."""
+        """
+        Set the parameter `use_sim_time` of the node.
+
+        Parameters
+        ----------
+        value
+            Whether its clock follows `/clock`.
+
+        """
         self._ros_node.set_parameters([_use_sim_time(value)])
 
     def start_task(self, coroutine: Coroutine[Any, Any, Any]) -> asyncio.Task[Any]:
-        """Start a coroutine that uses the node; it is canceled before the node ends."""
+        """
+        Start a coroutine that uses the node; it is canceled before the node ends.
+
+        Parameters
+        ----------
+        coroutine
+            Runs in the event loop of the launch.
+
+        Returns
+        -------
+        asyncio.Task
+            The task that runs it.
+
+        Raises
+        ------
+        RuntimeError
+            There is no event loop, as the launch is not running.
+
+        """
         if self._loop is None:
             coroutine.close()
             raise RuntimeError("the launch's own ROS node can only be used by a running launch")
@@ -124,7 +159,17 @@ class ROSAdapter:
         atexit.unregister(self.shutdown)
 
     def end_within(self, context: LaunchContext) -> None:
-        """End the node while the loop of the launch goes on, which waits for it at its end."""
+        """
+        Shut the node down without blocking the event loop of the launch.
+
+        Tasks are canceled first. The launch waits for the end of the node before it ends itself.
+
+        Parameters
+        ----------
+        context
+            The context of the launch that is shutting down.
+
+        """
         if self._loop is None:
             self.shutdown()
         else:

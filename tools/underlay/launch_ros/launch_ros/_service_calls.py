@@ -28,12 +28,33 @@ class ServiceGoneError(RuntimeError):
 
 class ServiceCaller:
     """
-    Calls a service of a node when it is there.
+    Calls a service of a node as soon as it is available.
 
-    A node that has just been discovered may not know yet where to send its answers, and drops
-    them. So a harmless question comes first, again and again until it is answered. As the client
-    for it is made after that for the service, and after what was subscribed to before, its answer
-    shows that the node knows those as well.
+    A node that has just been discovered may not know yet where to send its responses, and drops
+    them. So a harmless request (GetParameterTypes) comes first, repeated until it is answered. As
+    its client is created after that for the service, and after all earlier subscriptions, its
+    response shows that the node knows those as well.
+
+    Parameters
+    ----------
+    ros_node
+        The launch's own rclpy node, which is spun in another thread.
+    service_type
+        The class of the service, such as `composition_interfaces.srv.LoadNode`.
+    node_name
+        The full name of the node that offers the service.
+    service
+        The name of the service below that of the node.
+    logger
+        Receives warnings about a service that is late or that is given up.
+    server
+        Done when the process of that node has ended for good; None if it is not of this launch.
+
+    Attributes
+    ----------
+    has_asked
+        Whether a request has been sent, so that a server that dies may have lost it.
+
     """
 
     def __init__(
@@ -45,14 +66,6 @@ class ServiceCaller:
         logger: logging.Logger,
         server: Optional[asyncio.Future[Any]] = None,
     ) -> None:
-        """
-        Create the caller.
-
-        :param ros_node: the launch's own node
-        :param node_name: the full name of the node that has the service
-        :param service: the name of the service below that of the node
-        :param server: what is done when the process of that node has ended for good
-        """
         self._ros_node = ros_node
         self._name = f'{node_name}/{service}'
         self._client = ros_node.create_client(service_type, self._name)
@@ -68,7 +81,27 @@ class ServiceCaller:
         self._ros_node.destroy_client(self._client)
 
     async def call(self, request: Any) -> Any:
-        """Wait for the service and return its answer; report if the launch ends meanwhile."""
+        """
+        Wait for the service, send a request, and wait for the response.
+
+        A cancellation meanwhile is logged as due to the shutdown, except with `STARTED_ANEW`.
+
+        Parameters
+        ----------
+        request
+            The request message of the service.
+
+        Returns
+        -------
+        Any
+            The response message.
+
+        Raises
+        ------
+        ServiceGoneError
+            The process of the node has ended, or the service has disappeared before it answered.
+
+        """
         with self._abandoned('service'):
             await self._until_ready()
             await self._until_heard()
@@ -76,7 +109,15 @@ class ServiceCaller:
             return await self._answer(request)
 
     def report_abandoned(self, what: str = 'service') -> None:
-        """Log that nobody waits for the service any more."""
+        """
+        Log that the shutdown of the launch ends the wait for the service.
+
+        Parameters
+        ----------
+        what
+            What was waited for: `service` or `service response`.
+
+        """
         self._logger.warning("Abandoning wait for the '%s' %s, due to shutdown.", self._name, what)
 
     @contextmanager

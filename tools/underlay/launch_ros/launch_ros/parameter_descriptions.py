@@ -20,10 +20,24 @@ _NOT_YET = object()
 
 
 class ParameterValue:
-    """A value with the type that it must have."""
+    """
+    The value of a parameter, with the type that it must have.
+
+    Parameters
+    ----------
+    value
+        A scalar, a list, or substitutions.
+    value_type
+        Such as `str` or `list[int]`; None leaves the type of a text to YAML rules.
+
+    Raises
+    ------
+    TypeError
+        The value is not of this type, nor like a text.
+
+    """
 
     def __init__(self, value: Any, *, value_type: Optional[Any] = None) -> None:
-        """Create the value; without a type YAML rules decide on that of a text."""
         self.__value = normalize_typed_substitution(value, value_type)
         self.__value_type = value_type
         self.__evaluated: Any = _NOT_YET
@@ -39,7 +53,20 @@ class ParameterValue:
         return self.__value_type
 
     def evaluate(self, context: LaunchContext) -> Any:
-        """Return the value that there is when this is first asked for."""
+        """
+        Evaluate the value on the first call; later calls return the same.
+
+        Parameters
+        ----------
+        context
+            What substitutions are performed with.
+
+        Raises
+        ------
+        ValueError
+            What substitutions stand for cannot be read as the type.
+
+        """
         if self.__evaluated is _NOT_YET:
             self.__evaluated = perform_typed_substitution(context, self.__value, self.__value_type)
         return self.__evaluated
@@ -50,7 +77,22 @@ class ParameterValue:
 
 
 class Parameter:
-    """A single parameter, which is given on the command line of the node."""
+    """
+    A single parameter, which is given on the command line of the node.
+
+    Parameters
+    ----------
+    name
+        The name of the parameter.
+    value, value_type
+        As for `ParameterValue`.
+
+    Raises
+    ------
+    TypeError
+        The name is not like a text, or the value not of the type.
+
+    """
 
     def __init__(
         self,
@@ -59,14 +101,31 @@ class Parameter:
         *,
         value_type: Optional[Any] = None,
     ) -> None:
-        """Create the parameter."""
         ensure_argument_type(name, SomeSubstitutionsType_types_tuple, 'name', 'Parameter')
         self.__name = normalize_to_list_of_substitutions(name)
         self.__value = ParameterValue(value, value_type=value_type)
         self.__rule: Optional[str] = None
 
     def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
-        """Return the name and the value now."""
+        """
+        Evaluate the name and the value; afterwards `get_parameter_rule` can be called.
+
+        Parameters
+        ----------
+        context
+            What substitutions are performed with.
+
+        Returns
+        -------
+        tuple
+            The name and the value.
+
+        Raises
+        ------
+        TypeError
+            A parameter cannot have the value.
+
+        """
         from launch_ros.utilities.parameter_values import checked
         from launch_ros.utilities.yaml_text import flow_text
 
@@ -83,10 +142,24 @@ class Parameter:
 
 
 class ParameterFile:
-    """A file of parameters."""
+    """
+    A file of parameters.
+
+    Parameters
+    ----------
+    param_file
+        The path.
+    allow_substs
+        Whether substitutions in the file, such as `$(var name)`, are performed.
+
+    Raises
+    ------
+    TypeError
+        An argument has another type.
+
+    """
 
     def __init__(self, param_file: SomeSubstitutionsType, *, allow_substs: bool = False) -> None:
-        """Create the description of the file at a path."""
         ensure_argument_type(
             param_file, SomeSubstitutionsType_types_tuple, 'param_file', 'ParameterFile'
         )
@@ -105,7 +178,20 @@ class ParameterFile:
         return self.__allow_substs
 
     def evaluate(self, context: LaunchContext) -> str:
-        """Return the path of the file, or of a copy without substitutions."""
+        """
+        Evaluate the path of the file, or of a temporary copy with its substitutions performed.
+
+        Parameters
+        ----------
+        context
+            What substitutions in the path and in the file are performed with.
+
+        Raises
+        ------
+        ValueError
+            The copy is not valid YAML.
+
+        """
         path = os.fspath(perform_substitutions(context, self.__param_file))
         if self.__allow_substs and os.path.isfile(path):
             from launch_ros.utilities.substituted_file import substitute_parameter_file

@@ -15,7 +15,20 @@ _KEY = 'ros_adapter'
 
 
 def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
-    """Return what runs the launch's own node; it is made when it is first asked for."""
+    """
+    Return the adapter that runs the launch's own node; it is created on the first call.
+
+    Parameters
+    ----------
+    context
+        The context of the launch, which keeps it.
+
+    Raises
+    ------
+    RuntimeError
+        The launch is shutting down, and the node has ended.
+
+    """
     adapter = find_ros_adapter(context)
     if adapter is None:
         if context.is_shutdown:
@@ -25,12 +38,30 @@ def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
 
 
 def get_ros_node(context: LaunchContext) -> Any:
-    """Return the launch's own node, an rclpy node whose callbacks run in a thread of their own."""
+    """
+    Return the launch's own rclpy node, which a thread of its own spins.
+
+    Parameters
+    ----------
+    context
+        As for `get_ros_adapter`, which may raise an error.
+
+    """
     return get_ros_adapter(context).ros_node
 
 
 def find_ros_adapter(context: LaunchContext) -> Optional[ROSAdapter]:
-    """Return what runs the launch's own node, None if nobody has asked for it by now."""
+    """
+    Return the adapter that runs the launch's own node, None if it has not been created.
+
+    An adapter that is about to end counts as none.
+
+    Parameters
+    ----------
+    context
+        The context of the launch.
+
+    """
     adapter: Optional[ROSAdapter] = context.get_locals_as_dict().get(_KEY)
     return adapter if adapter is not None and adapter.is_running else None
 

@@ -16,7 +16,27 @@ _OF_INSTANCE = ('setUp', 'tearDown', 'asyncSetUp', 'asyncTearDown')
 
 
 def bind(cases: list[unittest.TestCase], injected: Mapping[str, Any]) -> unittest.TestSuite:
-    """Return a suite of copies of tests, to which the objects are handed."""
+    """
+    Bind objects to copies of tests, as attributes and as arguments requested by name.
+
+    Parameters
+    ----------
+    cases
+        The tests, which stay as they are.
+    injected
+        The objects, by the names that tests request.
+
+    Returns
+    -------
+    unittest.TestSuite
+        The copies, in the same order.
+
+    Raises
+    ------
+    TypeError
+        A test requests an object that does not exist.
+
+    """
     classes: dict[type[unittest.TestCase], type[unittest.TestCase]] = {}
     suite = unittest.TestSuite()
     for case in cases:

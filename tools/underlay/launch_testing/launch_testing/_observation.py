@@ -53,7 +53,17 @@ class Observation:
         )
 
     def explain_end(self, status: int, *, were_tests_running: bool) -> str:
-        """Return why a launch ended that should not have."""
+        """
+        Explain why a launch ended too early, as text for a failure.
+
+        Parameters
+        ----------
+        status
+            What the launch service returned; 0 if it did not fail.
+        were_tests_running
+            Whether the tests had begun, or the launch was not yet ready for them.
+
+        """
         when = 'before the tests were done' if were_tests_running else 'before it was ready'
         if status != 0:
             reason = self._shutdown.reason if self._shutdown else 'see its output'

@@ -16,10 +16,23 @@ def parametrize(
     argvalues: Iterable[Any],
 ) -> Callable[[FunctionT], FunctionT]:
     """
-    Return a decorator that has a function called with each of some values.
+    Return a decorator that has a function called with each of some sets of arguments.
 
-    It is meant for `generate_test_description`, and takes its arguments as that of pytest does:
-    one name with a value each, or several names with as many values each.
+    It is meant for `generate_test_description`, and takes its arguments as that of pytest does.
+    Several decorators are combined: the function is called with each combination.
+
+    Parameters
+    ----------
+    argnames
+        The names of the arguments, as a list or separated by commas.
+    argvalues
+        One value for each call, or a sequence of values if there are several names.
+
+    Raises
+    ------
+    ValueError
+        There are not as many values as names.
+
     """
     names = _split(argnames)
     sets = [dict(zip(names, _checked(names, values))) for values in argvalues]
@@ -33,7 +46,15 @@ def parametrize(
 
 
 def parameter_sets(function: Callable[..., Any]) -> list[dict[str, Any]]:
-    """Return the arguments of each call of a function that may be parametrized."""
+    """
+    Return the keyword arguments of each call of a function that may be parametrized.
+
+    Parameters
+    ----------
+    function
+        The function; one that is not parametrized is called once, without arguments.
+
+    """
     sets: list[dict[str, Any]] = getattr(function, _ATTRIBUTE, [{}])
     return sets
 

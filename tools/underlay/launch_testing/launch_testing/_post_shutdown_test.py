@@ -27,5 +27,13 @@ def post_shutdown_test() -> Callable[[CaseT], CaseT]:
 
 
 def is_post_shutdown_test(case: unittest.TestCase) -> bool:
-    """Return whether a test runs after the end of the launch."""
+    """
+    Whether a test runs after the shutdown of the launch.
+
+    Parameters
+    ----------
+    case
+        The test.
+
+    """
     return bool(getattr(case, _ATTRIBUTE, False))

@@ -14,31 +14,57 @@ if TYPE_CHECKING:
 
 
 class TestsMayBegin(Event):
-    """An action of the class ReadyToTest was visited."""
+    """
+    A ReadyToTest action was visited.
+
+    Parameters
+    ----------
+    action
+        That action.
+
+    """
 
     __test__ = False
     name = 'launch_testing.TestsMayBegin'
 
     def __init__(self, action: object) -> None:
-        """Create the event."""
         self.action = action
 
 
 class ReadyHandler(EventHandler):
-    """Calls a function as soon as every ReadyToTest of a description was visited."""
+    """
+    Calls a function as soon as every ReadyToTest of a description was visited.
+
+    Parameters
+    ----------
+    description
+        What is launched; files that it includes are not searched.
+    on_ready
+        Called without arguments, and again for each event after that.
+
+    """
 
     def __init__(
         self,
         description: LaunchDescriptionEntity,
         on_ready: Callable[[], None],
     ) -> None:
-        """Create the handler."""
         super().__init__(matcher=lambda event: isinstance(event, TestsMayBegin))
         self._missing = set(ready_actions([description]))
         self._on_ready = on_ready
 
     def handle(self, event: Any, context: LaunchContext) -> None:
-        """Note the action of the event."""
+        """
+        Record that the action of the event was visited.
+
+        Parameters
+        ----------
+        event
+            A TestsMayBegin.
+        context
+            The context of the launch.
+
+        """
         super().handle(event, context)
         self._missing.discard(event.action)
         if not self._missing:
@@ -46,7 +72,15 @@ class ReadyHandler(EventHandler):
 
 
 def ready_actions(entities: Iterable[LaunchDescriptionEntity]) -> Iterator[object]:
-    """Yield every ReadyToTest that can be found without running anything."""
+    """
+    Yield every ReadyToTest that can be found without executing anything.
+
+    Parameters
+    ----------
+    entities
+        Where to search, including what their actions hold; files that they include are left out.
+
+    """
     from launch_testing.actions.ready_to_test import ReadyToTest
 
     for entity in entities:

@@ -26,7 +26,24 @@ class SingleRun:
     """
     Runs the launch in this thread and the tests of it in another one.
 
-    When the tests are done the launch is shut down; then the other tests run in this thread.
+    When the tests are done the launch is shut down; then the post-shutdown tests run in this
+    thread.
+
+    Parameters
+    ----------
+    run
+        The launch description and its tests.
+    arguments : Sequence[str]
+        The arguments of the launch description (`name:=value`).
+    debug
+        Whether the launch logs debug messages.
+    verbosity
+        How much is printed about the tests, as for unittest.
+    ready_timeout_s
+        How long to wait for ReadyToTest, in s.
+    stream
+        Where that is printed; None is the standard error output.
+
     """
 
     def __init__(
@@ -39,7 +56,6 @@ class SingleRun:
         ready_timeout_s: float = _READY_TIMEOUT_S,
         stream: Optional[TextIO] = None,
     ) -> None:
-        """Create the run."""
         self._run = run
         self._arguments = list(arguments)
         self._verbosity = verbosity

@@ -32,13 +32,41 @@ class Waiting:
             self._closed = True
 
     def why_in_vain(self, timeout: float) -> str:
-        """Return the beginning of an error text."""
+        """
+        Return the beginning of the message about a wait that has failed.
+
+        Parameters
+        ----------
+        timeout
+            How long was waited, in s.
+
+        """
         if self._closed:
             return 'The launch ended while a test waited'
         return f'Waited {timeout:g} s in vain'
 
     def wait_until(self, predicate: Callable[[], bool], timeout: float) -> bool:
-        """Wait until a predicate holds; return whether it does in time."""
+        """
+        Wait until a predicate holds, or until the end of the launch.
+
+        Parameters
+        ----------
+        predicate
+            Called without arguments whenever something has changed.
+        timeout
+            The timeout in s.
+
+        Returns
+        -------
+        bool
+            Whether the predicate holds.
+
+        Raises
+        ------
+        NoMatchingProcessException
+            The predicate still raises this at the end, as no process is the one meant.
+
+        """
         end = time.monotonic() + timeout
         with self._condition:
             while not self._holds(predicate):

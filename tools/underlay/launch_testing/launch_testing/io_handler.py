@@ -28,11 +28,27 @@ class IoHandler:
         self._all: list[ProcessIO] = []
 
     def track(self, process: ExecuteLocal) -> None:
-        """Know a process also before it writes anything."""
+        """
+        Register a process before it writes anything.
+
+        Parameters
+        ----------
+        process
+            The action of the process.
+
+        """
         self._outputs.setdefault(process, [])
 
     def append(self, process_io: ProcessIO) -> None:
-        """Add an event."""
+        """
+        Add an output event.
+
+        Parameters
+        ----------
+        process_io
+            The event, with the bytes that a process has written.
+
+        """
         self._outputs.setdefault(process_io.action, []).append(process_io)
         self._all.append(process_io)
 
@@ -54,7 +70,17 @@ class IoHandler:
         return [(action.process_details or {})['name'] for action in self._outputs]
 
     def text(self, process: ExecuteLocal, stream: Optional[str] = None) -> str:
-        """Return all that a process has written to `stdout`, to `stderr`, or to both."""
+        """
+        Return all that a process has written, decoded as UTF-8.
+
+        Parameters
+        ----------
+        process
+            The action of the process; one that is not known has written nothing.
+        stream
+            `stdout` or `stderr`; None for both, in the order of the events.
+
+        """
         return b''.join(
             event.text
             for event in list(self._outputs.get(process, ()))
@@ -62,7 +88,15 @@ class IoHandler:
         ).decode('utf-8', 'replace')
 
     def last_output(self, processes: Iterable[ExecuteLocal]) -> str:
-        """Return the last lines that processes have written, for error texts."""
+        """
+        Format the last lines of output of processes, for error messages.
+
+        Parameters
+        ----------
+        processes
+            The actions of the processes.
+
+        """
         return ''.join(
             f"\n  The last output of '{(each.process_details or {})['name']}':\n"
             + (_indented(self.text(each).splitlines()[-_LAST_LINES:]) or '    (nothing)')
@@ -79,12 +113,28 @@ class ActiveIoHandler(Waiting, IoHandler):
         IoHandler.__init__(self)
 
     def track(self, process: ExecuteLocal) -> None:
-        """Know a process also before it writes anything."""
+        """
+        Register a process before it writes anything, and wake those who wait.
+
+        Parameters
+        ----------
+        process
+            The action of the process.
+
+        """
         with self.changing():
             super().track(process)
 
     def append(self, process_io: ProcessIO) -> None:
-        """Add an event."""
+        """
+        Add an output event, and wake those who wait.
+
+        Parameters
+        ----------
+        process_io
+            The event, with the bytes that a process has written.
+
+        """
         with self.changing():
             super().append(process_io)
 
@@ -99,7 +149,29 @@ class ActiveIoHandler(Waiting, IoHandler):
         strip_ansi_escape_sequences: bool = True,
         stream: Optional[str] = None,
     ) -> bool:
-        """Wait until a process has written something; return whether it has in time."""
+        """
+        Wait until a process has written some output.
+
+        Parameters
+        ----------
+        expected_output, process, cmd_args, output_filter
+            As for `assertInStream`.
+        timeout
+            The timeout in s.
+        strict_proc_matching, strip_ansi_escape_sequences, stream
+            As for `assertInStream`.
+
+        Returns
+        -------
+        bool
+            Whether the output is there; False after the timeout or the end of the launch.
+
+        Raises
+        ------
+        NoMatchingProcessException
+            No process, or more than one, is the one meant at the end of the wait.
+
+        """
 
         def is_there() -> bool:
             processes = resolveProcesses(
@@ -133,7 +205,26 @@ class ActiveIoHandler(Waiting, IoHandler):
         strip_ansi_escape_sequences: bool = True,
         stream: Optional[str] = None,
     ) -> None:
-        """Do the same, and fail if the time is over."""
+        """
+        Wait until a process has written some output, and fail if it has not.
+
+        Parameters
+        ----------
+        expected_output, process, cmd_args, output_filter
+            As for `assertInStream`.
+        timeout
+            The timeout in s.
+        strict_proc_matching, strip_ansi_escape_sequences, stream
+            As for `assertInStream`.
+
+        Raises
+        ------
+        AssertionError
+            The output is not there at the end of the wait; the text shows the last lines.
+        NoMatchingProcessException
+            No process, or more than one, is the one meant at the end of the wait.
+
+        """
         if not self.waitFor(
             expected_output,
             process,

@@ -22,7 +22,17 @@ def unittestResultsToXml(  # noqa: N802
     name: str = 'launch_test',
     test_results: Mapping[str, TestResult],
 ) -> ElementTree.ElementTree:
-    """Return the results of several runs as a document, with a test suite for each run."""
+    """
+    Convert the results of several runs into a JUnit XML document.
+
+    Parameters
+    ----------
+    name
+        The name of the whole, with which the class names begin, too.
+    test_results
+        The results by the names of the runs; each becomes a test suite.
+
+    """
     root = ElementTree.Element('testsuites', {'name': name})
     everything = [each for result in test_results.values() for each in result.outcomes]
     root.attrib.update(_counts(everything))

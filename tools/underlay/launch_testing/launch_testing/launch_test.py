@@ -18,7 +18,25 @@ __all__ = ['main']
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:
-    """Run a launch test file; return 0 if all went well."""
+    """
+    Run a launch test file from the command line.
+
+    Parameters
+    ----------
+    argv
+        The arguments without the program; None takes those of the process.
+
+    Returns
+    -------
+    int
+        The exit code: 0 if all went well, 1 if not, 130 after an interrupt.
+
+    Raises
+    ------
+    SystemExit
+        The arguments are wrong, or there is no such file.
+
+    """
     parser = _parser()
     options = parser.parse_args(argv)
     if not os.path.isfile(options.test_file):

@@ -43,7 +43,24 @@ class LaunchTestService:
         action: Action,
         required: bool = False,
     ) -> Action:
-        """Add what the tests need; the launch fails if it is required and ends before them."""
+        """
+        Add an action that the tests need to a launch description.
+
+        Parameters
+        ----------
+        launch_description
+            What is launched.
+        action
+            The action.
+        required
+            Whether its end before that of the tests is a failure, which shuts the launch down.
+
+        Returns
+        -------
+        Action
+            The same action.
+
+        """
         if required:
             self._require(launch_description, action)
         launch_description.add_action(action)
@@ -55,6 +72,19 @@ class LaunchTestService:
 
         It succeeds if the exit code is 0, or no exception is raised. The launch is shut down when
         all tests have ended, or one has failed.
+
+        Parameters
+        ----------
+        launch_description
+            What is launched.
+        action
+            The test.
+
+        Returns
+        -------
+        Action
+            The same action.
+
         """
         name = self._arm(f'test {len(self._tests) + 1}')
         if isinstance(action, ExecuteLocal):
@@ -85,12 +115,33 @@ class LaunchTestService:
         """
         Add a test of what a process writes to its standard output.
 
-        :param launch_description: what is launched, with the process in it
-        :param action: the process
-        :param output_test: a text, a regular expression, a list of lines, or a function
-        :param test_suffix: the name of the test
-        :param output_filter: a function through which the output goes before
-        :param side_effect: 'shutdown' shuts the launch down when the output is there
+        Parameters
+        ----------
+        launch_description
+            What is launched, with the process in it.
+        action
+            The process.
+        output_test
+            A text, a regular expression, a function of the output, or a list of those for its
+            lines.
+        test_suffix
+            The name of the test.
+        output_filter
+            A function that the output goes through first.
+        side_effect
+            `shutdown` shuts the launch down as soon as the output is there, whatever other tests
+            do.
+
+        Returns
+        -------
+        Action
+            The same action.
+
+        Raises
+        ------
+        ValueError
+            There is no such side effect.
+
         """
         if side_effect not in (None, 'shutdown'):
             raise ValueError(f"side_effect is None or 'shutdown', not {side_effect!r}")
@@ -120,11 +171,41 @@ class LaunchTestService:
     # What comes of it.
 
     def run(self, launch_service: LaunchService, *args: Any, **kwargs: Any) -> int:
-        """Run a service; return 0 if it and all tests went well."""
+        """
+        Run a launch and report the tests that failed on the standard error output.
+
+        Parameters
+        ----------
+        launch_service
+            The service that includes the launch description.
+        *args, **kwargs
+            The arguments of its `run`.
+
+        Returns
+        -------
+        int
+            0 if the launch and all tests succeeded.
+
+        """
         return self._result(launch_service.run(*args, **kwargs))
 
     async def run_async(self, launch_service: LaunchService, *args: Any, **kwargs: Any) -> int:
-        """Do the same in the running event loop."""
+        """
+        Run a launch in the running event loop, and report the tests that failed.
+
+        Parameters
+        ----------
+        launch_service
+            The service that includes the launch description.
+        *args, **kwargs
+            The arguments of its `run_async`.
+
+        Returns
+        -------
+        int
+            0 if the launch and all tests succeeded.
+
+        """
         return self._result(await launch_service.run_async(*args, **kwargs))
 
     def _result(self, status: int) -> int:

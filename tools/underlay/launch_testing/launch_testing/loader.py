@@ -20,7 +20,21 @@ _FUNCTION = 'generate_test_description'
 
 
 class TestRun:
-    """A launch description, and the tests to run on it."""
+    """
+    A launch description, and the tests to run on it.
+
+    Parameters
+    ----------
+    name
+        The name of the run, without its arguments.
+    test_description_function
+        The function `generate_test_description` of the module.
+    param_args
+        The keyword arguments to call it with; tests may request them, too.
+    cases
+        All tests of the module.
+
+    """
 
     __test__ = False
 
@@ -31,7 +45,6 @@ class TestRun:
         param_args: Mapping[str, Any],
         cases: list[unittest.TestCase],
     ) -> None:
-        """Create a run from a function, its arguments, and all tests of the module."""
         self.name = name
         self.test_description_function = test_description_function
         self.param_args = dict(param_args)
@@ -56,7 +69,25 @@ class TestRun:
         self,
         ready_fn: Optional[Callable[[], None]] = None,
     ) -> tuple[LaunchDescription, dict[str, Any]]:
-        """Return the launch description, and what it offers to the tests."""
+        """
+        Call the function of the run for the launch description.
+
+        Parameters
+        ----------
+        ready_fn
+            Passed to the function if it takes an argument of this name, to call when it is ready.
+
+        Returns
+        -------
+        tuple
+            The LaunchDescription, and the dictionary of what it offers to the tests.
+
+        Raises
+        ------
+        TypeError
+            The function has returned something else.
+
+        """
         arguments = dict(self.param_args)
         if 'ready_fn' in inspect.signature(self.test_description_function).parameters:
             arguments['ready_fn'] = ready_fn or (lambda: None)
@@ -76,7 +107,15 @@ class TestRun:
     def bind(
         self, cases: list[unittest.TestCase], injected: Mapping[str, Any]
     ) -> unittest.TestSuite:
-        """Return a suite of tests that get objects as attributes and arguments."""
+        """
+        Bind objects, and the arguments of the run, to copies of tests.
+
+        Parameters
+        ----------
+        cases, injected
+            As for `launch_testing._injection.bind`, which may raise an error.
+
+        """
         return bind(cases, {**self.param_args, **injected})
 
 
@@ -85,7 +124,24 @@ def LoadTestsFromPythonModule(  # noqa: N802
     *,
     name: str = 'launch_tests',
 ) -> list[TestRun]:
-    """Return a run for each set of arguments of `generate_test_description`."""
+    """
+    Load the runs of a launch test: one for each set of arguments of its function.
+
+    Parameters
+    ----------
+    module
+        The module, with `generate_test_description` and test cases in it.
+    name
+        The name of the runs.
+
+    Raises
+    ------
+    AttributeError
+        The module has no such function.
+    TypeError
+        The function cannot be called with its arguments.
+
+    """
     function = getattr(module, _FUNCTION, None)
     if function is None:
         raise AttributeError(

@@ -16,13 +16,29 @@ _KEEP_ALIVE = '__launch_test_keep_alive__'
 
 
 def keep_alive(function: FunctionT) -> FunctionT:
-    """Let the launch of a `generate_test_description` stay when its processes have ended."""
+    """
+    Mark a `generate_test_description` whose launch stays when its processes have ended.
+
+    Parameters
+    ----------
+    function
+        The function, which is returned.
+
+    """
     setattr(function, _KEEP_ALIVE, True)
     return function
 
 
 def is_kept_alive(function: Callable[..., Any]) -> bool:
-    """Return whether the launch stays when its processes have ended."""
+    """
+    Whether the launch of a function stays when its processes have ended.
+
+    Parameters
+    ----------
+    function
+        A `generate_test_description`.
+
+    """
     return bool(getattr(function, _KEEP_ALIVE, False))
 
 
@@ -31,7 +47,22 @@ def retry_on_failure(
     times: int,
     delay: Optional[float] = None,
 ) -> Callable[[FunctionT], FunctionT]:
-    """Return a decorator that tries a test again, with `delay` seconds between two attempts."""
+    """
+    Return a decorator that repeats a test after an AssertionError.
+
+    Parameters
+    ----------
+    times
+        How many attempts there are at most.
+    delay
+        The time between two attempts, in s; None is none.
+
+    Raises
+    ------
+    ValueError
+        There is not even one attempt.
+
+    """
     if times < 1:
         raise ValueError(f'a test must be tried at least once, but times={times}')
 

@@ -25,7 +25,15 @@ class ProcInfoHandler:
         self._infos: dict[ExecuteLocal, ProcessInfo] = {}
 
     def append(self, process_info: ProcessInfo) -> None:
-        """Add an event."""
+        """
+        Add a start or an end, which replaces the last event of the process.
+
+        Parameters
+        ----------
+        process_info
+            The event.
+
+        """
         self._infos[process_info.action] = process_info
 
     def __iter__(self) -> Iterator[ProcessInfo]:
@@ -55,20 +63,68 @@ class ActiveProcInfoHandler(Waiting, ProcInfoHandler):
         ProcInfoHandler.__init__(self)
 
     def append(self, process_info: ProcessInfo) -> None:
-        """Add an event."""
+        """
+        Add a start or an end, and wake those who wait.
+
+        Parameters
+        ----------
+        process_info
+            The event.
+
+        """
         with self.changing():
             super().append(process_info)
 
     def waitForStartup(  # noqa: N802
         self, process: SomeProcess, cmd_args: Any = None, *, timeout: float = 10
     ) -> bool:
-        """Wait until a process was started; return whether it was in time."""
+        """
+        Wait until a process was started.
+
+        Parameters
+        ----------
+        process, cmd_args
+            As for `resolveProcesses`; exactly one process must be meant.
+        timeout
+            The timeout in s.
+
+        Returns
+        -------
+        bool
+            Whether it was started in time.
+
+        Raises
+        ------
+        NoMatchingProcessException
+            No process, or more than one, is the one meant at the end of the wait.
+
+        """
         return self.wait_until(lambda: bool(self._matching(process, cmd_args)), timeout)
 
     def waitForShutdown(  # noqa: N802
         self, process: Optional[SomeProcess], cmd_args: Any = None, *, timeout: float = 10
     ) -> bool:
-        """Wait until a process, or each one if it is None, has ended; return whether it has."""
+        """
+        Wait until a process, or each one, has ended.
+
+        Parameters
+        ----------
+        process, cmd_args
+            As for `resolveProcesses`; without a process, all that have been started are meant.
+        timeout
+            The timeout in s.
+
+        Returns
+        -------
+        bool
+            Whether it has ended in time.
+
+        Raises
+        ------
+        NoMatchingProcessException
+            No process, or more than one, is the one meant at the end of the wait.
+
+        """
         return self.wait_until(
             lambda: all(
                 isinstance(self._infos[action], ProcessExited)
@@ -80,14 +136,44 @@ class ActiveProcInfoHandler(Waiting, ProcInfoHandler):
     def assertWaitForStartup(  # noqa: N802
         self, process: SomeProcess, cmd_args: Any = None, *, timeout: float = 10
     ) -> None:
-        """Wait until a process was started, and fail if the time is over."""
+        """
+        Wait until a process was started, and fail if it was not.
+
+        Parameters
+        ----------
+        process, cmd_args, timeout
+            As for `waitForStartup`.
+
+        Raises
+        ------
+        AssertionError
+            It was not started in time.
+        NoMatchingProcessException
+            No process, or more than one, is the one meant at the end of the wait.
+
+        """
         if not self.waitForStartup(process, cmd_args, timeout=timeout):
             raise AssertionError(f'{self.why_in_vain(timeout)} for the start of {process!r}')
 
     def assertWaitForShutdown(  # noqa: N802
         self, process: Optional[SomeProcess], cmd_args: Any = None, *, timeout: float = 10
     ) -> None:
-        """Wait until a process has ended, and fail if the time is over."""
+        """
+        Wait until a process, or each one, has ended, and fail if it has not.
+
+        Parameters
+        ----------
+        process, cmd_args, timeout
+            As for `waitForShutdown`.
+
+        Raises
+        ------
+        AssertionError
+            A process has not ended in time.
+        NoMatchingProcessException
+            No process, or more than one, is the one meant at the end of the wait.
+
+        """
         if not self.waitForShutdown(process, cmd_args, timeout=timeout):
             running = [
                 self._infos[action].process_name

@@ -15,10 +15,19 @@ _TIMEOUT_S = 10.0
 
 
 class MessagePump:
-    """Spins a node in a thread of its own; also a context manager."""
+    """
+    Spins a node in a thread of its own; also a context manager.
+
+    Parameters
+    ----------
+    node
+        The node, which must not be spun elsewhere.
+    context
+        The ROS context of the executor; None takes that of the node.
+
+    """
 
     def __init__(self, node: Node, context: Optional[Context] = None) -> None:
-        """Create the pump of a node, with the node's context unless another one is given."""
         from rclpy.executors import SingleThreadedExecutor
 
         self._executor = SingleThreadedExecutor(

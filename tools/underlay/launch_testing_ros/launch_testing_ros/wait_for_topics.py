@@ -17,10 +17,29 @@ OnMessage = Callable[[str, Any], Any]
 
 class WaitForTopics:
     """
-    Subscribes topics and waits until there was a message on each of them.
+    Subscribes to topics and waits until there was a message on each of them.
 
-    As a context manager it waits at the beginning of the block, and raises a RuntimeError if
-    messages are missing then.
+    The node that subscribes is started at once. As a context manager this waits at the beginning
+    of the block, and raises a RuntimeError if messages are missing then.
+
+    Parameters
+    ----------
+    topic_tuples
+        The name and the type of each topic, and perhaps a QoS profile; without it the subscription
+        is best effort and volatile: it matches every publisher, but gets no message from before.
+    timeout
+        How long to wait for the messages, in s.
+    messages_received_buffer_length
+        How many messages of each topic are kept.
+    trigger
+        Called with the node before each wait, and with the trigger arguments.
+    node_namespace
+        The namespace of the node.
+    callback
+        Called with the name of the topic and each message, from the thread that spins the node.
+    **trigger_arguments
+        The keyword arguments of the trigger.
+
     """
 
     def __init__(
@@ -33,17 +52,6 @@ class WaitForTopics:
         callback: Optional[OnMessage] = None,
         **trigger_arguments: Any,
     ) -> None:
-        """
-        Create the object, and start a node that subscribes.
-
-        :param topic_tuples: the name and the type of each topic, and perhaps a QoS profile;
-            without it every publisher matches whose messages need not be kept for late comers
-        :param timeout: the seconds to wait for the messages
-        :param messages_received_buffer_length: how many messages of each topic are kept
-        :param trigger: is called with the node before the wait, and with all other arguments
-        :param node_namespace: the namespace of the node that subscribes
-        :param callback: is called with the name of the topic and each message
-        """
         self._timeout = timeout
         self._callback = callback
         self._trigger = partial(trigger, **trigger_arguments) if trigger is not None else None
@@ -105,7 +113,20 @@ class WaitForTopics:
             return self._missing()
 
     def received_messages(self, topic_name: str) -> list[Any]:
-        """Return the last messages on a topic."""
+        """
+        Return the last messages on a topic, the oldest first.
+
+        Parameters
+        ----------
+        topic_name
+            The name as it was given.
+
+        Raises
+        ------
+        KeyError
+            The topic is not among those that were given.
+
+        """
         if topic_name not in self._messages:
             raise KeyError(f"'{topic_name}' is not among the topics: {', '.join(self._messages)}")
         with self._condition:

@@ -30,7 +30,25 @@ class NotXMLError(Exception):
 
 
 def read_tree(content: Union[str, bytes]) -> Element:
-    """Return the root of the tree in a text."""
+    """
+    Read XML into a tree whose elements know their lines.
+
+    Parameters
+    ----------
+    content
+        The text of the document.
+
+    Returns
+    -------
+    Element
+        The root.
+
+    Raises
+    ------
+    NotXMLError
+        The text is not XML.
+
+    """
     from xml.parsers.expat import ExpatError, ParserCreate
 
     parser = ParserCreate()

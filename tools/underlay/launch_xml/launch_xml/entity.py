@@ -15,7 +15,19 @@ _SEPARATOR = '-sep'
 
 
 class Entity(BaseEntity):
-    """An element; the values of its attributes get the types that are asked for."""
+    """
+    An element; the values of its attributes get the types that are asked for.
+
+    Parameters
+    ----------
+    element
+        The element of the tree that was read, with its children.
+    file_name
+        The file that it is in, for error messages.
+    parent
+        The element around this one, None for the root.
+
+    """
 
     def __init__(
         self,
@@ -24,7 +36,6 @@ class Entity(BaseEntity):
         file_name: str = '<string>',
         parent: Optional[BaseEntity] = None,
     ) -> None:
-        """Create the element of a tree that was read from a file."""
         super().__init__(element.tag, parent=parent, call_site=CallSite(file_name, element.line))
         self.__attributes = element.attributes
         self.__children = [

@@ -21,7 +21,20 @@ class Parser(BaseParser):
 
     @classmethod
     def load(cls, file: SomeFile) -> tuple[Entity, Parser]:
-        """Return the root element of a file, and a parser for it."""
+        """
+        Load the root element of a launch file, and a parser for it.
+
+        Parameters
+        ----------
+        file
+            The path, or an open file.
+
+        Raises
+        ------
+        InvalidFrontendLaunchFileError
+            The file is not XML.
+
+        """
         from launch_xml._tree import NotXMLError, read_tree
         from launch_xml.entity import Entity
 

@@ -54,7 +54,25 @@ _Loader.add_constructor('tag:yaml.org,2002:seq', _Loader._sequence)
 
 
 def read_document(content: Union[str, bytes]) -> Any:
-    """Return what is in a text."""
+    """
+    Read a YAML document whose lists and dictionaries know their lines.
+
+    Parameters
+    ----------
+    content
+        The text of the document.
+
+    Returns
+    -------
+    Any
+        Nested Mapping and Sequence with scalars in them; None if it is empty.
+
+    Raises
+    ------
+    NotYAMLError
+        The text is not YAML.
+
+    """
     try:
         return yaml.load(content, Loader=_Loader)  # noqa: S506
     except yaml.YAMLError as error:

@@ -15,7 +15,21 @@ _CHILDREN = 'children'
 
 
 class Entity(BaseEntity):
-    """A key with what lies below it: a dictionary of attributes, or a list of children."""
+    """
+    A key with what lies below it: a dictionary of attributes, or a list of children.
+
+    Parameters
+    ----------
+    element
+        What lies below the key; None is an empty dictionary.
+    type_name
+        The key.
+    file_name, line
+        Where the element begins, for error messages; lines count from 1.
+    parent
+        The element around this one, None for the root.
+
+    """
 
     def __init__(
         self,
@@ -26,7 +40,6 @@ class Entity(BaseEntity):
         line: int = 1,
         parent: Optional[BaseEntity] = None,
     ) -> None:
-        """Create the element of what lies below the key `type_name`."""
         super().__init__(type_name, parent=parent, call_site=CallSite(file_name, line))
         self.__element = {} if element is None else element
         self.__file_name = file_name

@@ -21,7 +21,20 @@ class Parser(BaseParser):
 
     @classmethod
     def load(cls, file: SomeFile) -> tuple[Entity, Parser]:
-        """Return the root element of a file, and a parser for it."""
+        """
+        Load the root element of a launch file, and a parser for it.
+
+        Parameters
+        ----------
+        file
+            The path, or an open file.
+
+        Raises
+        ------
+        InvalidFrontendLaunchFileError
+            The file is not YAML, or not a mapping with one key.
+
+        """
         from launch_yaml._document import NotYAMLError, read_document
         from launch_yaml.entity import Entity
 

@@ -71,10 +71,22 @@ class DwbParameters:
 
 class DWBLocalPlanner(Controller):
     """
-    Chooses among sampled velocities, also sideways, by a sum of scores of critics.
+    Chooses among sampled velocities, also sideways, by a weighted sum of the scores of critics.
 
     Source: D. Fox, W. Burgard, S. Thrun, The Dynamic Window Approach to Collision Avoidance, IEEE
     Robotics and Automation Magazine 4 (1997).
+
+    Parameters
+    ----------
+    context
+        The plugin's name, which is the prefix of its parameters, and the control period.
+
+    Raises
+    ------
+    ConfigurationError
+        `critics` is empty, a critic or the generator is unknown or misconfigured, or no velocity
+        limit is above 0.
+
     """
 
     def __init__(self, context: PluginContext) -> None:
@@ -93,13 +105,40 @@ class DWBLocalPlanner(Controller):
         self._critics = [_make_critic(context, name) for name in names]
 
     def new_plan(self, *, is_new_goal: bool) -> None:
-        """Follow another path from now on."""
+        """
+        Reset the critics if the new path leads to a new goal.
+
+        Parameters
+        ----------
+        is_new_goal
+            Whether it leads elsewhere; otherwise the critics keep what they remember.
+
+        """
         if is_new_goal:
             for critic in self._critics:
                 critic.reset()
 
     def compute(self, state: ControlState) -> Command:
-        """Compute the velocity for the next period."""
+        """
+        Choose the sampled velocity with the lowest total score.
+
+        Parameters
+        ----------
+        state
+            Pose, velocity, path and costmap of this control period.
+
+        Returns
+        -------
+        Command
+            The velocity in the base frame, with its trajectory and a part of the others for
+            display.
+
+        Raises
+        ------
+        NoValidControl
+            The critics reject every velocity; the message says which share each of them rejects.
+
+        """
         state = _shortened(state, self._parameters.current)
         ratio = self.limit_ratio(self._generator.fastest)
         velocities = self._generator.velocities(state.velocity, ratio)

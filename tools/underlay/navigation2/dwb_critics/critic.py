@@ -24,7 +24,20 @@ FloatArray = npt.NDArray[np.float64]
 
 
 def invalid_costs(costs: npt.NDArray[np.uint8]) -> npt.NDArray[np.bool_]:
-    """Return where a robot's centre must not be."""
+    """
+    Find the costs at which the robot's centre must not be.
+
+    Parameters
+    ----------
+    costs
+        Costs of a costmap, of any shape.
+
+    Returns
+    -------
+    numpy.ndarray
+        Of the same shape: True from INSCRIBED_INFLATED_OBSTACLE on, also for NO_INFORMATION.
+
+    """
     invalid: npt.NDArray[np.bool_] = np.greater_equal(costs, INSCRIBED_INFLATED_OBSTACLE)
     return invalid
 
@@ -51,7 +64,20 @@ class Scene:
         return self.costs_at(self.rollouts.x, self.rollouts.y)
 
     def costs_at(self, x: Floats, y: Floats) -> npt.NDArray[np.uint8]:
-        """Return the costs at points in m; NO_INFORMATION off the costmap."""
+        """
+        Look up the costs at points.
+
+        Parameters
+        ----------
+        x, y
+            Positions in m in the frame of the costmap, both of the same shape.
+
+        Returns
+        -------
+        numpy.ndarray
+            Costs of that shape; NO_INFORMATION off the costmap.
+
+        """
         costs: npt.NDArray[np.uint8] = self.look_up(
             self.state.surroundings.grid.cells, x, y, NO_INFORMATION
         )
@@ -60,7 +86,24 @@ class Scene:
     def look_up(
         self, values: npt.NDArray[Any], x: Floats, y: Floats, outside: float
     ) -> npt.NDArray[Any]:
-        """Return what an array of the shape of the costmap holds at points in m."""
+        """
+        Look up at points what an array holds for the cells of the costmap.
+
+        Parameters
+        ----------
+        values
+            One value for each cell of the costmap (rows, columns).
+        x, y
+            Positions in m in the frame of the costmap, both of the same shape.
+        outside
+            The value of points off the costmap.
+
+        Returns
+        -------
+        numpy.ndarray
+            Values of the shape of the positions.
+
+        """
         grid = self.state.surroundings.grid
         scale = np.float32(1.0 / grid.resolution)
         u = np.floor((x - np.float32(grid.origin_x)) * scale).astype(np.int32)
@@ -77,7 +120,21 @@ class Scene:
         return self.distances_to(self.state.plan)
 
     def distances_to(self, plan: FloatArray) -> Floats:
-        """Return the distance in cells from each cell of the costmap to (N, 2 or more) points."""
+        """
+        Compute the distance transform of a path over the costmap.
+
+        Parameters
+        ----------
+        plan
+            Points (N, 2 or more), x and y first, in m in the frame of the costmap.
+
+        Returns
+        -------
+        numpy.ndarray
+            Distance in cells from each cell (rows, columns) to the nearest one with a point. If no
+            point is on the costmap, the number of cells along its longer side.
+
+        """
         grid = self.state.surroundings.grid
         away = np.ones(grid.cells.shape, np.uint8)
         columns, rows = grid.world_to_map_array(plan[:, :2]).T
@@ -116,14 +173,43 @@ class Critic:
         """Forget everything: there is a new goal."""
 
     def begin(self, scene: Scene) -> None:
-        """Look at the scene before scores are asked for."""
+        """
+        Prepare for the scores of one control period; called before `scale` and `scores`.
+
+        Parameters
+        ----------
+        scene
+            The state and all trajectories of this period.
+
+        """
 
     def scale(self, scene: Scene) -> float:
-        """Return the factor of the scores."""
+        """
+        Return the weight of the scores; where it is 0, `scores` is not called.
+
+        Parameters
+        ----------
+        scene
+            The state and all trajectories of this period.
+
+        """
         return self._scale
 
     def scores(self, scene: Scene) -> Floats:
-        """Return (S,) scores, lower is better; infinite for a trajectory that is illegal."""
+        """
+        Score all trajectories; lower is better.
+
+        Parameters
+        ----------
+        scene
+            The state and all trajectories of this period.
+
+        Returns
+        -------
+        numpy.ndarray
+            One score for each of the S trajectories (S,); infinite for one that is illegal.
+
+        """
         raise NotImplementedError
 
     def objection(self) -> str:
@@ -131,9 +217,32 @@ class Critic:
         return 'are refused'
 
     def debrief(self, velocity: Velocity) -> None:
-        """Regard which velocity was chosen."""
+        """
+        Take note of the chosen velocity; called once per control period that has a valid one.
+
+        Parameters
+        ----------
+        velocity
+            The velocity in the base frame.
+
+        """
 
 
 def illegal(scores: Floats, mask: Any) -> Floats:
-    """Return scores that are infinite where a mask is true."""
+    """
+    Make the scores of illegal trajectories infinite.
+
+    Parameters
+    ----------
+    scores
+        One score for each trajectory (S,).
+    mask
+        Which trajectories are illegal (S,).
+
+    Returns
+    -------
+    numpy.ndarray
+        A new array (S,).
+
+    """
     return np.where(mask, np.float32(math.inf), scores)

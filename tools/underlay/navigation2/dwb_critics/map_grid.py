@@ -87,7 +87,20 @@ class GoalDistCritic(_MapGridCritic):
 
 
 class PathAlignCritic(PathDistCritic):
-    """Scores how far a point ahead of the robot is from the path, so that it faces along it."""
+    """
+    Scores how far a point ahead of the robot is from the path, so that it faces along it.
+
+    Parameters
+    ----------
+    context
+        The name of the critic, which is the prefix of its parameters.
+
+    Raises
+    ------
+    ConfigurationError
+        `aggregation_type` is not last, sum or product.
+
+    """
 
     def __init__(self, context: PluginContext) -> None:
         super().__init__(context)
@@ -95,18 +108,47 @@ class PathAlignCritic(PathDistCritic):
         self._is_near_goal = False
 
     def begin(self, scene: Scene) -> None:
-        """Look at the scene before scores are asked for."""
+        """
+        Check whether the end of the local path is too near for the robot to align with the path.
+
+        Parameters
+        ----------
+        scene
+            The state and all trajectories of this period.
+
+        """
         x, y = scene.local_goal[:2]
         pose = scene.state.pose
         self._is_near_goal = math.hypot(pose.x - x, pose.y - y) <= self.forward_m
 
     def scale(self, scene: Scene) -> float:
-        """Return the factor of the scores."""
+        """
+        Return the weight of the scores: 0 within `forward_point_distance` of the end of the path.
+
+        Parameters
+        ----------
+        scene
+            The state and all trajectories of this period.
+
+        """
         return 0.0 if self._is_near_goal else super().scale(scene)
 
 
 class GoalAlignCritic(GoalDistCritic):
-    """Scores how far a point ahead of the robot is from one beyond the goal."""
+    """
+    Scores how far a point ahead of the robot is from one beyond the goal.
+
+    Parameters
+    ----------
+    context
+        The name of the critic, which is the prefix of its parameters.
+
+    Raises
+    ------
+    ConfigurationError
+        `aggregation_type` is not last, sum or product.
+
+    """
 
     def __init__(self, context: PluginContext) -> None:
         super().__init__(context)

@@ -64,7 +64,15 @@ class PreferForwardParameters:
 
 
 class RotateToGoalCritic(Critic):
-    """Near the goal, lets the robot stop first, and then only turn to the goal's orientation."""
+    """
+    Near the goal, lets the robot stop first, and then only turn to the goal's orientation.
+
+    Parameters
+    ----------
+    context
+        The name of the critic, which is the prefix of its parameters.
+
+    """
 
     def __init__(self, context: PluginContext) -> None:
         super().__init__(context)
@@ -76,14 +84,36 @@ class RotateToGoalCritic(Critic):
         self._is_near = self._is_turning = False
 
     def begin(self, scene: Scene) -> None:
-        """Look at the scene before scores are asked for."""
+        """
+        Update whether the robot is near the goal, and whether it has stopped there and only turns.
+
+        Parameters
+        ----------
+        scene
+            The state and all trajectories of this period.
+
+        """
         state, p = scene.state, self._parameters.current
         self._is_near |= state.is_goal_in_plan and state.goal_distance_m <= p.xy_goal_tolerance
         stopped = state.velocity.linear <= p.trans_stopped_velocity
         self._is_turning = self._is_near and (self._is_turning or stopped)
 
     def scores(self, scene: Scene) -> Floats:
-        """Return (S,) scores; infinite for trajectories that are illegal."""
+        """
+        Score the heading error at the goal, and the speed until the robot has stopped.
+
+        Parameters
+        ----------
+        scene
+            The state and all trajectories of this period.
+
+        Returns
+        -------
+        numpy.ndarray
+            Heading errors in rad plus weighted speeds (S,), 0 far from the goal; infinite for
+            velocities that do not slow down, or that drive on while the robot is to turn in place.
+
+        """
         rollouts, state = scene.rollouts, scene.state
         if not self._is_near:
             return np.zeros(len(rollouts), np.float32)
@@ -129,7 +159,15 @@ class _Trend:
 
 
 class OscillationCritic(Critic):
-    """Refuses to turn back at once after the sign of a velocity has changed."""
+    """
+    Rejects velocities that reverse again right after a component has changed its sign.
+
+    Parameters
+    ----------
+    context
+        The name of the critic, which is the prefix of its parameters.
+
+    """
 
     def __init__(self, context: PluginContext) -> None:
         super().__init__(context)
@@ -145,13 +183,34 @@ class OscillationCritic(Critic):
         self._start = None
 
     def begin(self, scene: Scene) -> None:
-        """Look at the scene before scores are asked for."""
+        """
+        Allow all directions again once the robot has moved or turned enough, or time has passed.
+
+        Parameters
+        ----------
+        scene
+            The state and all trajectories of this period.
+
+        """
         self._here = scene.state.pose, scene.state.now_s
         if self._start is not None and self._has_left(*self._start):
             self.reset()
 
     def scores(self, scene: Scene) -> Floats:
-        """Return (S,) scores; infinite for trajectories that are illegal."""
+        """
+        Reject velocities opposed to the direction that the last reversal led to.
+
+        Parameters
+        ----------
+        scene
+            The state and all trajectories of this period.
+
+        Returns
+        -------
+        numpy.ndarray
+            Zeros (S,); infinite for velocities that would reverse again.
+
+        """
         velocities = scene.rollouts.velocities
         wrong = (
             self._x.opposed(velocities[:, 0])
@@ -161,7 +220,15 @@ class OscillationCritic(Critic):
         return illegal(np.zeros(len(velocities), np.float32), wrong)
 
     def debrief(self, velocity: Velocity) -> None:
-        """Note the signs of the velocity that was chosen."""
+        """
+        Note the signs of the chosen velocity; a reversal starts the count of distance and time.
+
+        Parameters
+        ----------
+        velocity
+            The velocity in the base frame; y and yaw only count while x is slow.
+
+        """
         flipped = self._x.regard(velocity.x)
         if abs(velocity.x) <= self._parameters.current.x_only_threshold:
             flipped |= self._y.regard(velocity.y)
@@ -186,14 +253,35 @@ class OscillationCritic(Critic):
 
 
 class PreferForwardCritic(Critic):
-    """Scores what is not forward, and turning."""
+    """
+    Penalises what is not forward, and turning.
+
+    Parameters
+    ----------
+    context
+        The name of the critic, which is the prefix of its parameters.
+
+    """
 
     def __init__(self, context: PluginContext) -> None:
         super().__init__(context)
         self._parameters = context.declare(PreferForwardParameters)
 
     def scores(self, scene: Scene) -> Floats:
-        """Return (S,) scores; infinite for trajectories that are illegal."""
+        """
+        Score backward and sideways motion by the penalty, and other motion by how fast it turns.
+
+        Parameters
+        ----------
+        scene
+            The state and all trajectories of this period.
+
+        Returns
+        -------
+        numpy.ndarray
+            Scores (S,), none infinite.
+
+        """
         p, velocities = self._parameters.current, scene.rollouts.velocities
         turn = np.abs(velocities[:, 2])
         strafes = (velocities[:, 0] < p.strafe_x) & (turn < p.strafe_theta)
@@ -208,5 +296,18 @@ class TwirlingCritic(Critic):
     default_scale = 0.0
 
     def scores(self, scene: Scene) -> Floats:
-        """Return (S,) scores; infinite for trajectories that are illegal."""
+        """
+        Score how fast trajectories turn.
+
+        Parameters
+        ----------
+        scene
+            The state and all trajectories of this period.
+
+        Returns
+        -------
+        numpy.ndarray
+            Magnitudes of the angular velocities (S,) in rad/s.
+
+        """
         return np.asarray(np.abs(scene.rollouts.velocities[:, 2]), np.float32)

@@ -13,7 +13,15 @@ __all__ = ['BaseObstacleCritic', 'ObstacleFootprintCritic']
 
 
 class BaseObstacleCritic(Critic):
-    """Scores the cost at the robot's centre; illegal where a circular robot would collide."""
+    """
+    Scores the cost at the robot's centre; illegal where a circular robot would collide.
+
+    Parameters
+    ----------
+    context
+        The name of the critic, which is the prefix of its parameters.
+
+    """
 
     def __init__(self, context: PluginContext) -> None:
         super().__init__(context)
@@ -24,7 +32,21 @@ class BaseObstacleCritic(Critic):
         )
 
     def scores(self, scene: Scene) -> Floats:
-        """Return (S,) scores; infinite for trajectories that are illegal."""
+        """
+        Score the costs at the robot's centre along the trajectories.
+
+        Parameters
+        ----------
+        scene
+            The state and all trajectories of this period.
+
+        Returns
+        -------
+        numpy.ndarray
+            The last cost, or the sum of all with `sum_scores` (S,); infinite for trajectories with
+            a point where a circular robot collides, nothing is known, or the costmap ends.
+
+        """
         costs = scene.costs
         found = costs.sum(axis=1) if self._sums else costs[:, -1]
         return illegal(found.astype(np.float32), invalid_costs(costs).any(axis=1))
@@ -35,7 +57,15 @@ class BaseObstacleCritic(Critic):
 
 
 class ObstacleFootprintCritic(BaseObstacleCritic):
-    """Scores the highest cost on the robot's outline; illegal where it is on an obstacle."""
+    """
+    Scores the cost at the robot's centre; illegal where its footprint hits an obstacle.
+
+    Parameters
+    ----------
+    context
+        The name of the critic, which is the prefix of its parameters.
+
+    """
 
     def __init__(self, context: PluginContext) -> None:
         super().__init__(context)
@@ -47,7 +77,23 @@ class ObstacleFootprintCritic(BaseObstacleCritic):
         )
 
     def scores(self, scene: Scene) -> Floats:
-        """Return (S,) scores; infinite for trajectories that are illegal."""
+        """
+        Score the costs at the centre, and reject trajectories on which the footprint collides.
+
+        A circular robot is scored as by `BaseObstacleCritic`.
+
+        Parameters
+        ----------
+        scene
+            The state and all trajectories of this period.
+
+        Returns
+        -------
+        numpy.ndarray
+            The last cost, or the sum of all with `sum_scores` (S,); infinite for trajectories that
+            hit an obstacle, or whose points are unknown or off the costmap.
+
+        """
         surroundings = scene.state.surroundings
         if surroundings.is_circular:
             return super().scores(scene)

@@ -85,10 +85,21 @@ class Rollouts:
 
 class StandardTrajectoryGenerator:
     """
-    Tries all velocities that can be reached within the time of a trajectory.
+    Samples all velocities that can be reached within the time of a trajectory.
 
     Source: D. Fox, W. Burgard, S. Thrun, The Dynamic Window Approach to Collision Avoidance, IEEE
     Robotics and Automation Magazine 4 (1997).
+
+    Parameters
+    ----------
+    context
+        The controller's name, which is the prefix of its parameters.
+
+    Raises
+    ------
+    ConfigurationError
+        The highest velocities are all 0, so that the robot cannot move.
+
     """
 
     accelerates = True
@@ -214,7 +225,20 @@ class StandardTrajectoryGenerator:
 
 
 class LimitedAccelGenerator(StandardTrajectoryGenerator):
-    """Tries only velocities that can be reached within a control period."""
+    """
+    Samples only velocities that can be reached within a control period.
+
+    Parameters
+    ----------
+    context
+        The controller's name, which is the prefix of its parameters, and the control period.
+
+    Raises
+    ------
+    ConfigurationError
+        The highest velocities are all 0, so that the robot cannot move.
+
+    """
 
     accelerates = False
 
@@ -234,7 +258,22 @@ class LimitedAccelGenerator(StandardTrajectoryGenerator):
 
 
 def make_generator(name: str, context: PluginContext) -> StandardTrajectoryGenerator:
-    """Return the generator of an official name, such as dwb_plugins::LimitedAccelGenerator."""
+    """
+    Make the trajectory generator of a name.
+
+    Parameters
+    ----------
+    name
+        Such as `dwb_plugins::LimitedAccelGenerator`; the prefix may be left out.
+    context
+        The controller's name, which is the prefix of its parameters, and the control period.
+
+    Raises
+    ------
+    ConfigurationError
+        There is no such generator, or its parameters do not let the robot move.
+
+    """
     kinds = {
         'StandardTrajectoryGenerator': StandardTrajectoryGenerator,
         'LimitedAccelGenerator': LimitedAccelGenerator,

@@ -47,6 +47,12 @@ class AmclNode(LifecycleNode):
     It publishes `amcl_pose`, `particle_cloud` and the transform from the map to odometry, takes
     `scan`, `map` and `initialpose`, and offers `set_initial_pose`, `request_nomotion_update` and
     `reinitialize_global_localization`.
+
+    Parameters
+    ----------
+    node_name, options
+        As for `LifecycleNode`.
+
     """
 
     def __init__(self, node_name: str = 'amcl', **options: Any) -> None:

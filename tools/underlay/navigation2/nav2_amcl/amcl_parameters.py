@@ -116,12 +116,17 @@ class AmclParameters:
 
 def settings_of(values: AmclParameters) -> LocalizerSettings:
     """
-    Return what parameters mean to the localizer.
+    Convert the parameters of the node to the settings of the localizer.
+
+    Parameters
+    ----------
+    values
+        The parameters.
 
     Raises
     ------
     ValueError
-        Values do not go together.
+        `min_particles` is larger than `max_particles`; the text is the rest of a sentence.
 
     """
     if values.min_particles > values.max_particles:

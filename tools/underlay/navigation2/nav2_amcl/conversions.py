@@ -29,12 +29,18 @@ _PLANE = np.array([0, 1, 5])
 
 def map_of(message: Any) -> OccupancyMap:
     """
-    Return the map of a `nav_msgs/OccupancyGrid`.
+    Convert a `nav_msgs/OccupancyGrid` to a map.
+
+    Parameters
+    ----------
+    message
+        The grid; its origin may be turned.
 
     Raises
     ------
     ValueError
-        It has no cells, or another number of them than it says.
+        It has no cells, or another number of them than it says; the text is the rest of a
+        sentence.
 
     """
     info = message.info
@@ -49,7 +55,15 @@ def map_of(message: Any) -> OccupancyMap:
 
 
 def scan_of(message: Any) -> Scan:
-    """Return the readings of a `sensor_msgs/LaserScan`."""
+    """
+    Convert a `sensor_msgs/LaserScan` to the readings of a scan.
+
+    Parameters
+    ----------
+    message
+        The scan; its ranges are not copied.
+
+    """
     return Scan(
         np.frombuffer(message.ranges, np.float32),
         message.angle_min,
@@ -60,14 +74,37 @@ def scan_of(message: Any) -> Scan:
 
 
 def covariance_of(message: PoseWithCovarianceStamped) -> FloatArray:
-    """Return the (3, 3) covariance of x, y (m) and yaw (rad) of a pose."""
+    """
+    Extract the covariance of a pose in the plane.
+
+    Parameters
+    ----------
+    message
+        A pose with the 6 x 6 covariance of x, y, z, roll, pitch and yaw.
+
+    Returns
+    -------
+    numpy.ndarray
+        Covariance (3, 3) of x, y (m) and yaw (rad).
+
+    """
     whole = np.asarray(message.pose.covariance, float).reshape(6, 6)
     found: FloatArray = whole[np.ix_(_PLANE, _PLANE)]
     return found
 
 
 def pose_message(estimate: Cluster, frame: str, stamp: Any) -> PoseWithCovarianceStamped:
-    """Return the message of an estimate."""
+    """
+    Convert an estimated pose and its covariance to a message.
+
+    Parameters
+    ----------
+    estimate
+        The cluster of particles whose mean is the pose.
+    frame, stamp
+        The header: the frame of the map, and the time of the scan.
+
+    """
     message = PoseWithCovarianceStamped()
     message.header.frame_id, message.header.stamp = frame, stamp
     message.pose.pose = make_pose(Pose2D(*estimate.pose))
@@ -78,7 +115,20 @@ def pose_message(estimate: Cluster, frame: str, stamp: Any) -> PoseWithCovarianc
 
 
 def rotation_and_translation(transform: TransformStamped) -> tuple[FloatArray, FloatArray]:
-    """Return the (3, 3) rotation and the (3,) translation in m of a transform."""
+    """
+    Convert a transform to a rotation matrix and a vector.
+
+    Parameters
+    ----------
+    transform
+        As tf2 looks it up; its quaternion is taken for normalised.
+
+    Returns
+    -------
+    tuple of numpy.ndarray
+        Rotation (3, 3) and translation (3,) in m, from the child frame to the parent frame.
+
+    """
     moved = transform.transform
     q, t = moved.rotation, moved.translation
     x, y, z, w = q.x, q.y, q.z, q.w
@@ -93,7 +143,19 @@ def rotation_and_translation(transform: TransformStamped) -> tuple[FloatArray, F
 
 
 def transform_message(pose: Pose2D, frame: str, child: str, stamp: Any) -> TransformStamped:
-    """Return the transform of a frame that is at a pose in another one."""
+    """
+    Make the transform from a frame to its child.
+
+    Parameters
+    ----------
+    pose
+        The child frame in its parent: x, y (m) and yaw (rad).
+    frame, child
+        The names of the parent frame and of the child frame.
+    stamp
+        The time of the transform, a `builtin_interfaces/Time`.
+
+    """
     message = TransformStamped(child_frame_id=child)
     message.header.frame_id, message.header.stamp = frame, stamp
     message.transform.translation.x = pose.x
@@ -108,6 +170,16 @@ def cloud_bytes(particles: FloatArray, weights: FloatArray, frame: str, stamp: A
 
     It is CDR, little-endian: the header, the number of particles, and eight doubles of each from
     an offset that is a multiple of eight.
+
+    Parameters
+    ----------
+    particles
+        Poses (N, 3): x, y (m) and yaw (rad).
+    weights
+        Their weights (N,).
+    frame, stamp
+        The header: the frame of the poses, and a `builtin_interfaces/Time`.
+
     """
     name = frame.encode() + b'\0'
     data = struct.pack('<iII', stamp.sec, stamp.nanosec, len(name)) + name

@@ -96,6 +96,15 @@ class LikelihoodField:
 
     Source: Thrun, Burgard, Fox: Probabilistic Robotics, 2005, table 6.3. Beams without return say
     nothing. Beams are counted as partly dependent, which keeps more particles.
+
+    Parameters
+    ----------
+    grid
+        The map.
+    noise
+        Which errors of readings to expect; `z_hit`, `z_rand`, `sigma_hit_m`, `max_distance_m`
+        count.
+
     """
 
     def __init__(self, grid: OccupancyMap, noise: LaserNoise) -> None:
@@ -104,7 +113,20 @@ class LikelihoodField:
         self._table: SingleArray = np.zeros(0, np.float32)
 
     def log_likelihoods(self, particles: FloatArray, beams: Beams) -> FloatArray:
-        """Compute the logarithm of how likely a scan is; see `LaserModel`."""
+        """
+        Compute the logarithm of how likely a scan is for each particle.
+
+        Parameters
+        ----------
+        particles, beams
+            As for `LaserModel.log_likelihoods`.
+
+        Returns
+        -------
+        numpy.ndarray
+            Log-likelihoods (N,), as of at most 20 independent beams.
+
+        """
         points = beams.points()
         return _tempered(self._rated(particles, points, beams.max_range_m), len(points))
 
@@ -162,7 +184,20 @@ class LikelihoodFieldProb(LikelihoodField):
         self._distances = np.pad(grid.distances, 1, constant_values=np.inf).ravel()
 
     def log_likelihoods(self, particles: FloatArray, beams: Beams) -> FloatArray:
-        """Compute the logarithm of how likely a scan is; see `LaserModel`."""
+        """
+        Compute the logarithm of how likely a scan is for each particle, without skipped beams.
+
+        Parameters
+        ----------
+        particles, beams
+            As for `LaserModel.log_likelihoods`.
+
+        Returns
+        -------
+        numpy.ndarray
+            Log-likelihoods (N,), as of independent beams.
+
+        """
         points = beams.points()
         if self._skipping is not None and len(points):
             near = self._distances[self._cells(particles, points)] < self._skipping.distance_m
@@ -180,13 +215,34 @@ class BeamModel:
 
     Source: Thrun, Burgard, Fox: Probabilistic Robotics, 2005, table 6.1. Beams are counted as
     partly dependent, which keeps more particles.
+
+    Parameters
+    ----------
+    grid
+        The map.
+    noise
+        Which errors of readings to expect.
+
     """
 
     def __init__(self, grid: OccupancyMap, noise: LaserNoise) -> None:
         self._caster, self._noise = RayCaster(grid), noise
 
     def log_likelihoods(self, particles: FloatArray, beams: Beams) -> FloatArray:
-        """Compute the logarithm of how likely a scan is; see `LaserModel`."""
+        """
+        Compute the logarithm of how likely a scan is for each particle, by ray casting.
+
+        Parameters
+        ----------
+        particles, beams
+            As for `LaserModel.log_likelihoods`.
+
+        Returns
+        -------
+        numpy.ndarray
+            Log-likelihoods (N,), as of at most 20 independent beams.
+
+        """
         if not len(beams.ranges):
             return np.zeros(len(particles))
         noise, far = self._noise, np.float32(beams.max_range_m)
@@ -213,7 +269,26 @@ LASER_MODELS = ('likelihood_field', 'likelihood_field_prob', 'beam')
 def make_laser_model(
     name: str, grid: OccupancyMap, noise: LaserNoise, skipping: BeamSkipping | None = None
 ) -> LaserModel:
-    """Return the laser model of a name in `LASER_MODELS`; only one of them skips beams."""
+    """
+    Make the laser model of a name.
+
+    Parameters
+    ----------
+    name
+        One of `LASER_MODELS`; others make a likelihood field.
+    grid
+        The map.
+    noise
+        Which errors of readings to expect.
+    skipping
+        When likelihood_field_prob leaves out beams, never if None; the other models ignore it.
+
+    Raises
+    ------
+    ValueError
+        The standard deviation of a hit is not finite.
+
+    """
     if not math.isfinite(noise.sigma_hit_m):
         raise ValueError('sigma_hit has to be finite')
     if name == 'beam':

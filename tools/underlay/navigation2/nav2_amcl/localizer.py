@@ -72,13 +72,29 @@ class Localizer:
         return self._started or self._goes_anywhere
 
     def use(self, settings: LocalizerSettings) -> None:
-        """Go on with other settings."""
+        """
+        Replace the settings; the particles stay.
+
+        Parameters
+        ----------
+        settings
+            They hold from the next scan on.
+
+        """
         if settings != self._settings:
             self._settings, self.filter.options = settings, settings.filter_options
             self._model = None
 
     def set_map(self, grid: OccupancyMap) -> None:
-        """Use a map, in place of the last one; the particles stay where they are."""
+        """
+        Replace the map; the particles stay where they are, and the next scan updates them.
+
+        Parameters
+        ----------
+        grid
+            The map in which the robot is localised.
+
+        """
         self.grid, self._model = grid, None
         self._is_forced = True
 

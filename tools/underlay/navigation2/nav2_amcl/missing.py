@@ -23,7 +23,20 @@ class Inputs:
 
 
 def describe_missing(inputs: Inputs) -> list[str]:
-    """Return a sentence or two for each input that is missing."""
+    """
+    Describe each input that is missing, and how to mend it.
+
+    Parameters
+    ----------
+    inputs
+        What has come so far.
+
+    Returns
+    -------
+    list of str
+        Sentences, one text for each missing input; empty if nothing is missing.
+
+    """
     found = []
     if not inputs.has_map:
         found.append(
@@ -51,7 +64,15 @@ def describe_missing(inputs: Inputs) -> list[str]:
 
 
 class Reminder:
-    """Says what is missing once at the second look, and again after a time."""
+    """
+    Says what is missing once at the second look, and again after a time.
+
+    Parameters
+    ----------
+    again_after_s
+        How long it takes in s before the same warning is repeated.
+
+    """
 
     def __init__(self, again_after_s: float = 30.0) -> None:
         self._again_after_s = again_after_s

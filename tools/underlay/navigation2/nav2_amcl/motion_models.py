@@ -74,7 +74,15 @@ class MotionModel(Protocol):
 
 
 def wrapped(angle_rad: AngleT) -> AngleT:
-    """Return the same angle, or an array of them, from -pi, exclusive, to pi."""
+    """
+    Wrap angles to the range from -pi, exclusive, to pi.
+
+    Parameters
+    ----------
+    angle_rad
+        An angle, or an array of them.
+
+    """
     return math.pi - (math.pi - angle_rad) % (2.0 * math.pi)
 
 
@@ -94,7 +102,20 @@ class DifferentialMotionModel:
         noise: MotionNoise,
         random: np.random.Generator,
     ) -> FloatArray:
-        """Return the particles after a motion; see `MotionModel`."""
+        """
+        Sample where the particles are after a motion.
+
+        Parameters
+        ----------
+        particles, before, after, noise, random
+            As for `MotionModel.move`.
+
+        Returns
+        -------
+        numpy.ndarray
+            New particles (N, 3); their yaw is not wrapped.
+
+        """
         dx, dy = after[0] - before[0], after[1] - before[1]
         length = math.hypot(dx, dy)
         first = 0.0 if length < _NO_HEADING_M else wrapped(math.atan2(dy, dx) - before[2])
@@ -135,7 +156,20 @@ class OmniMotionModel:
         noise: MotionNoise,
         random: np.random.Generator,
     ) -> FloatArray:
-        """Return the particles after a motion; see `MotionModel`."""
+        """
+        Sample where the particles are after a motion.
+
+        Parameters
+        ----------
+        particles, before, after, noise, random
+            As for `MotionModel.move`.
+
+        Returns
+        -------
+        numpy.ndarray
+            New particles (N, 3); their yaw is not wrapped.
+
+        """
         dx, dy = after[0] - before[0], after[1] - before[1]
         length, turn = math.hypot(dx, dy), wrapped(after[2] - before[2])
         bearing = math.atan2(dy, dx) - before[2]

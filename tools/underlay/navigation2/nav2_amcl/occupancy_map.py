@@ -72,7 +72,20 @@ class OccupancyMap:
         return grid
 
     def to_map(self, grid: FloatArray) -> FloatArray:
-        """Convert (..., 2) columns and rows with fractions to x and y in m; see `to_grid`."""
+        """
+        Convert columns and rows to points in the frame of the map, as the inverse of `to_grid`.
+
+        Parameters
+        ----------
+        grid
+            Columns and rows (..., 2), with fractions; the middle of cell [0, 0] is at 0.5, 0.5.
+
+        Returns
+        -------
+        numpy.ndarray
+            Points (..., 2): x and y in m.
+
+        """
         rotation = self.resolution * np.array([[self._cos, self._sin], [-self._sin, self._cos]])
         points: FloatArray = grid @ rotation + np.array(self.origin[:2])
         return points

@@ -85,17 +85,45 @@ class ParticleFilter:
 
         They are more than `max_particles` until the next `resample`, so that some are near
         enough to the robot for the first scan to tell.
+
+        Parameters
+        ----------
+        grid
+            The map.
+
         """
         count = self.options.max_particles * self.options.global_factor
         step = self.options.free_cell_step
         self._replace(grid.sample_free_poses(count, self._random, step))
 
     def move(self, model: MotionModel, before: Pose, after: Pose, noise: MotionNoise) -> None:
-        """Let the particles follow a motion in the frame of odometry."""
+        """
+        Move the particles by a motion that odometry has measured.
+
+        Parameters
+        ----------
+        model
+            It samples the motion of each particle.
+        before, after
+            The base in the frame of odometry: x, y (m) and yaw (rad).
+        noise
+            How uncertain odometry is.
+
+        """
         self.particles = model.move(self.particles, before, after, noise, self._random)
 
     def weigh(self, model: LaserModel, beams: Beams) -> None:
-        """Weigh the particles by how likely a scan is; one that says nothing changes nothing."""
+        """
+        Weigh the particles by how likely a scan is; one that says nothing changes nothing.
+
+        Parameters
+        ----------
+        model
+            It compares the scan with the map.
+        beams
+            The scan, as seen from the base.
+
+        """
         logs = model.log_likelihoods(self.particles, beams)
         if not logs.any():
             return
@@ -106,7 +134,15 @@ class ParticleFilter:
         self.weights = _weighed(self.weights, logs - highest)
 
     def resample(self, grid: OccupancyMap) -> None:
-        """Draw the particles anew by their weights, as many as their spread needs."""
+        """
+        Draw the particles anew by their weights, as many as their spread needs.
+
+        Parameters
+        ----------
+        grid
+            The map; the share `recovery_share` of the particles is drawn from its free space.
+
+        """
         options, random = self.options, self._random
         limits = options.min_particles, options.max_particles
         count = needed_size(

@@ -42,7 +42,20 @@ def bins_of(particles: FloatArray) -> npt.NDArray[np.int64]:
 
 
 def bin_keys(bins: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
-    """Return (N,) numbers that are equal for equal bins (N, 3)."""
+    """
+    Compute a key for each bin of a histogram.
+
+    Parameters
+    ----------
+    bins
+        Bins (N, 3), as of `bins_of`; N is at least 1.
+
+    Returns
+    -------
+    numpy.ndarray
+        Keys (N,), equal where the bins are equal.
+
+    """
     first = bins - bins.min(axis=0)
     sizes = first.max(axis=0) + 1
     keys: npt.NDArray[np.int64] = (first[:, 0] * sizes[1] + first[:, 1]) * sizes[2] + first[:, 2]

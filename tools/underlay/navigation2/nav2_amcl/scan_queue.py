@@ -69,7 +69,15 @@ class ScanQueue:
         return self._problem if time.monotonic() - self._moved_on_s > _PATIENCE_S else ''
 
     def add(self, message: Any) -> None:
-        """Take a scan."""
+        """
+        Add a scan to the queue, and hand on those whose transforms are there.
+
+        Parameters
+        ----------
+        message
+            A `sensor_msgs/LaserScan`; the oldest one is dropped if ten wait already.
+
+        """
         if len(self._waiting) == _LONGEST:
             self._give_up()
         self._waiting.append(message)

@@ -28,7 +28,15 @@ _LOOK_AGAIN_S, _ASK_AGAIN_S = 1.0, 5.0
 
 
 def count_recovery(node: TreeNode) -> None:
-    """Count that the robot helps itself once more, for the feedback of the navigator."""
+    """
+    Count one more recovery, for the feedback of the navigator.
+
+    Parameters
+    ----------
+    node
+        A node of the tree; the count is `number_recoveries` on the blackboard of its main tree.
+
+    """
     count = node.blackboard.get('@number_recoveries', 0)
     node.blackboard.set('@number_recoveries', count + 1)
 
@@ -80,6 +88,12 @@ class ActionNode(TreeNode):
     Sends a goal, and ends as the action does; halting cancels it.
 
     Subclasses give `action`, `server`, and `make_goal`.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`; its context has a `RosInterface`.
+
     """
 
     action: ClassVar[Any]
@@ -111,7 +125,20 @@ class ActionNode(TreeNode):
         return None
 
     def on_success(self, result: Any) -> NodeStatus:
-        """Write what the action has given."""
+        """
+        Write the result of the action to the output ports.
+
+        Parameters
+        ----------
+        result
+            The result message of the action, which has succeeded.
+
+        Returns
+        -------
+        NodeStatus
+            How the node ends.
+
+        """
         return SUCCESS
 
     def on_failure(self) -> None:
@@ -222,6 +249,12 @@ class ServiceNode(TreeNode):
     Sends a request, and ends when the answer is there.
 
     Subclasses give `service`, `make_request`, and `on_answer` if they want to know the answer.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`; its context has a `RosInterface`.
+
     """
 
     service: ClassVar[Any]
@@ -244,7 +277,20 @@ class ServiceNode(TreeNode):
         return self.service.Request()
 
     def on_answer(self, response: Any) -> NodeStatus:
-        """Return how the node ends."""
+        """
+        Evaluate the response of the service.
+
+        Parameters
+        ----------
+        response
+            The response message.
+
+        Returns
+        -------
+        NodeStatus
+            How the node ends; RUNNING to send `_request`, which may have changed, once more.
+
+        """
         return SUCCESS
 
     def on_tick(self) -> NodeStatus:

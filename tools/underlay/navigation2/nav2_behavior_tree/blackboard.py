@@ -37,28 +37,74 @@ class Blackboard:
         self._places: dict[str, tuple[Blackboard, str]] = {}
 
     def get(self, key: str, default: Any = None) -> Any:
-        """Return a value, or the default if nobody has set it."""
+        """
+        Return a value.
+
+        Parameters
+        ----------
+        key
+            Its name here; with `@` in front, its name on the blackboard of the main tree.
+        default
+            What is returned if nobody has set it.
+
+        """
         board, name = self._places.get(key) or self._place(key)
         return board._values.get(name, default)
 
     def set(self, key: str, value: Any) -> None:  # noqa: A003, RUF100
-        """Set a value for all who share it."""
+        """
+        Set a value for all who share it.
+
+        Parameters
+        ----------
+        key
+            Its name here; with `@` in front, its name on the blackboard of the main tree.
+        value
+            The value, which is not copied.
+
+        """
         board, name = self._places.get(key) or self._place(key)
         board._values[name] = value
         board._versions[name] = board._versions.get(name, 0) + 1
 
     def keep(self, key: str, value: Any) -> None:
-        """Set a value that is not shared with the tree around this one."""
+        """
+        Set a value that is not shared with the tree around this one.
+
+        Parameters
+        ----------
+        key
+            Its name here, whatever it was remapped to before.
+        value
+            The value, which is not copied.
+
+        """
         self._places[key] = (self, key)
         self.set(key, value)
 
     def unset(self, key: str) -> None:
-        """Forget a value."""
+        """
+        Remove a value for all who share it.
+
+        Parameters
+        ----------
+        key
+            Its name here; nothing happens if it is not set.
+
+        """
         board, name = self._place(key)
         board._values.pop(name, None)
 
     def version(self, key: str) -> int:
-        """Return how often a value was set."""
+        """
+        Return the number of times that a value was set.
+
+        Parameters
+        ----------
+        key
+            Its name here.
+
+        """
         board, name = self._place(key)
         return board._versions.get(name, 0)
 

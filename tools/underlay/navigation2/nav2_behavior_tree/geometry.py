@@ -13,7 +13,20 @@ FloatArray = npt.NDArray[np.float64]
 
 
 def distances_along_m(poses: FloatArray) -> FloatArray:
-    """Return (N,) how far along the path each pose is, in m."""
+    """
+    Compute the cumulative length of a path at each pose.
+
+    Parameters
+    ----------
+    poses
+        Poses (N, 3): x, y (m) and yaw (rad); may be empty.
+
+    Returns
+    -------
+    numpy.ndarray
+        Lengths (N,) in m from the first pose on.
+
+    """
     if not len(poses):
         return np.zeros(0)
     steps = np.hypot(*np.diff(poses[:, :2], axis=0).T)
@@ -21,7 +34,20 @@ def distances_along_m(poses: FloatArray) -> FloatArray:
 
 
 def path_length_m(poses: FloatArray) -> float:
-    """Return the length of a path in m."""
+    """
+    Compute the length of a path.
+
+    Parameters
+    ----------
+    poses
+        Poses (N, 3): x, y (m) and yaw (rad); may be empty.
+
+    Returns
+    -------
+    float
+        The length in m; 0 for an empty path.
+
+    """
     return float(distances_along_m(poses)[-1]) if len(poses) else 0.0
 
 
@@ -52,7 +78,22 @@ def nearest_index(
 
 
 def remaining_m(poses: FloatArray, robot: Pose2D) -> float:
-    """Return the length of a path in m from the pose that is nearest to the robot."""
+    """
+    Compute the length of a path from the pose that is nearest to the robot.
+
+    Parameters
+    ----------
+    poses
+        Poses (N, 3): x, y (m) and yaw (rad); may be empty.
+    robot
+        The pose of the robot in the frame of the path.
+
+    Returns
+    -------
+    float
+        The length in m; 0 for an empty path.
+
+    """
     if not len(poses):
         return 0.0
     along = distances_along_m(poses)

@@ -137,7 +137,15 @@ class TreeNode(Behaviour):
         self._run_after('_onHalted')
 
     def set_state(self, state: NodeStatus) -> None:
-        """Keep a state, and note that it has changed."""
+        """
+        Set the state, and record a change of it.
+
+        Parameters
+        ----------
+        state
+            The new state.
+
+        """
         if state is not self.state:
             context, config = self.context, self.config
             context.changes.append(
@@ -147,13 +155,30 @@ class TreeNode(Behaviour):
             self.status = PY_TREES_STATUS[state]
 
     def fail(self, message: str, code: int = 0) -> None:
-        """Note why the node fails, for whoever tells it a person."""
+        """
+        Record why the node fails, as the reason that the tree gives if it fails.
+
+        It sets no state; `on_tick` has to return FAILURE.
+
+        Parameters
+        ----------
+        message
+            The reason, as a sentence.
+        code
+            The error code of the action; 0 if there is none.
+
+        """
         self.feedback_message = message
         self.context.failure = Failure(self.name, code, message)
 
     def input(self, name: str) -> Any:  # noqa: A003, RUF100
         """
         Return the value of a port; None if it is neither set nor has a default.
+
+        Parameters
+        ----------
+        name
+            The name of the port.
 
         Raises
         ------
@@ -178,6 +203,11 @@ class TreeNode(Behaviour):
         """
         Return the value of a port that the node cannot do without.
 
+        Parameters
+        ----------
+        name
+            The name of the port.
+
         Raises
         ------
         NavigationError
@@ -193,13 +223,31 @@ class TreeNode(Behaviour):
         return value
 
     def output(self, name: str, value: Any) -> None:
-        """Write the value of a port, if it is bound to a key."""
+        """
+        Write the value of a port, if it is bound to a key.
+
+        Parameters
+        ----------
+        name
+            The name of the port.
+        value
+            What is set on the blackboard.
+
+        """
         key = self.config.bindings[name].key
         if key is not None:
             self.blackboard.set(key, value)
 
     def error(self, message: str) -> TreeError:
-        """Return an error at the place of this node in its file."""
+        """
+        Make an error that names the place of this node in its file.
+
+        Parameters
+        ----------
+        message
+            What is wrong, as a sentence.
+
+        """
         return TreeError(message, self.config.file, self.config.line)
 
     def _default(self, name: str) -> Any:
@@ -238,7 +286,15 @@ class TreeNode(Behaviour):
         yield self
 
     def stop(self, new_status: Status) -> None:
-        """Halt as py_trees does."""
+        """
+        Halt as py_trees does.
+
+        Parameters
+        ----------
+        new_status
+            The status that py_trees gives; it does not count, for the node is IDLE afterwards.
+
+        """
         if self.state is RUNNING:
             self.halt_node()
         self.set_state(IDLE)
@@ -261,7 +317,15 @@ class Control(TreeNode):
     children: list[TreeNode]
 
     def halt_child(self, child: TreeNode) -> None:
-        """Stop a child if it runs, and make it idle."""
+        """
+        Halt a child if it runs, and make it idle.
+
+        Parameters
+        ----------
+        child
+            One of the children.
+
+        """
         if child.state is RUNNING:
             child.halt_node()
         child.set_state(IDLE)
@@ -276,7 +340,15 @@ class Control(TreeNode):
         self.halt_children()
 
     def finish(self, status: NodeStatus) -> NodeStatus:
-        """Make all children idle, and return a state."""
+        """
+        Halt all children, make them idle, and return a state.
+
+        Parameters
+        ----------
+        status
+            How the node ends, which is returned as it is.
+
+        """
         self.halt_children()
         return status
 

@@ -10,12 +10,12 @@ __all__ = ['OdometrySmoother']
 
 class OdometrySmoother:
     """
-    Averages velocities over the last part of a second.
+    Averages the velocities of the last `duration_s`.
 
     Parameters
     ----------
     duration_s
-        Over how long.
+        The length of the window in s.
 
     """
 
@@ -24,7 +24,19 @@ class OdometrySmoother:
         self._samples: deque[tuple[float, float, float]] = deque()
 
     def add(self, time_s: float, x_m_s: float, yaw_rad_s: float) -> None:
-        """Add a sample: its time (s), forward velocity and rate of turning."""
+        """
+        Add a sample; samples older than the duration are dropped, and all if time goes back.
+
+        Parameters
+        ----------
+        time_s
+            When it was measured, in s.
+        x_m_s
+            The forward velocity in m/s.
+        yaw_rad_s
+            The yaw rate in rad/s.
+
+        """
         if self._samples and time_s < self._samples[-1][0]:
             self._samples.clear()
         self._samples.append((time_s, x_m_s, yaw_rad_s))

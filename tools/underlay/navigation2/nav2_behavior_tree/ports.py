@@ -51,12 +51,28 @@ class Port:
 
 
 def in_port(kind: str, default: Any, description: str) -> Port:
-    """Return a port that the node reads."""
+    """
+    Make a port that the node reads.
+
+    Parameters
+    ----------
+    kind, default, description
+        As for `Port`.
+
+    """
     return Port(kind, default, description)
 
 
 def out_port(kind: str, description: str, default: Any = None) -> Port:
-    """Return a port that the node writes."""
+    """
+    Make a port that the node writes.
+
+    Parameters
+    ----------
+    kind, description, default
+        As for `Port`.
+
+    """
     return Port(kind, default, description, is_output=True)
 
 
@@ -70,7 +86,22 @@ class Binding(NamedTuple):
 
 def bind(name: str, port: Port, text: str | None) -> Binding:
     """
-    Return what a text, or the default where there is none, stands for.
+    Parse the text of a port, or its default if there is none.
+
+    Parameters
+    ----------
+    name
+        The name of the port, which is the key that `{=}` stands for.
+    port
+        The port.
+    text
+        The attribute in the XML file; None if it is missing.
+
+    Returns
+    -------
+    Binding
+        A key of the blackboard for `{key}`, else the converted value; neither for an output that
+        is not bound.
 
     Raises
     ------
@@ -97,12 +128,19 @@ def bind(name: str, port: Port, text: str | None) -> Binding:
 
 def convert(text: str, kind: str) -> Any:
     """
-    Return the value of a kind that a text stands for.
+    Convert a text to the value of a port.
+
+    Parameters
+    ----------
+    text
+        As it stands in an XML file or on the blackboard.
+    kind
+        The type of the value, one of those in `CONVERTERS`.
 
     Raises
     ------
     ValueError
-        It stands for none.
+        It stands for none; the text is the rest of a sentence about it.
 
     """
     try:

@@ -42,7 +42,15 @@ _MISSING = {
 
 
 def register(*names: str) -> Callable[[type[TreeNode]], type[TreeNode]]:
-    """Return a decorator that makes a class known under names of an XML file."""
+    """
+    Return a decorator that makes a class known under names of an XML file.
+
+    Parameters
+    ----------
+    *names
+        The names; that of the class if there are none.
+
+    """
 
     def keep(kind: type[TreeNode]) -> type[TreeNode]:
         for name in names or (kind.__name__,):
@@ -60,12 +68,40 @@ def registered_types() -> dict[str, type[TreeNode]]:
 
 
 def node_type(name: str) -> type[TreeNode] | None:
-    """Return the class of a type of nodes, if there is one."""
+    """
+    Look up the class of a type of nodes.
+
+    Parameters
+    ----------
+    name
+        Its name in XML files.
+
+    Returns
+    -------
+    type of TreeNode or None
+        None if there is no such type.
+
+    """
     return registered_types().get(name)
 
 
 def unknown_type(name: str, further: list[str]) -> str:
-    """Return the sentence that there is no such type, and what was probably meant."""
+    """
+    Explain that there is no such type of nodes, and what was probably meant.
+
+    Parameters
+    ----------
+    name
+        The name in the XML file.
+    further
+        Names that could also be meant, such as those of trees.
+
+    Returns
+    -------
+    str
+        One or two sentences.
+
+    """
     if name in _RENAMED:
         return f"BehaviorTree.CPP v4 has no '{name}'; it is '{_RENAMED[name]}' there."
     if name in _MISSING:

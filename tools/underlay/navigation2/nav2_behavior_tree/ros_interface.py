@@ -83,21 +83,59 @@ class RosInterface:
         return self.node.get_clock().now().to_msg()
 
     def action_client(self, kind: Any, name: str) -> ActionClient:
-        """Return the client of an action."""
+        """
+        Return the client of an action, made once for each.
+
+        Parameters
+        ----------
+        kind
+            The type of the action.
+        name
+            Its name, which the node resolves and remaps.
+
+        """
         key = kind, self.node.resolve_service_name(name)
         if key not in self._actions:
             self._actions[key] = ActionClient(self.node, kind, name)
         return self._actions[key]
 
     def service_client(self, kind: Any, name: str) -> Any:
-        """Return the client of a service."""
+        """
+        Return the client of a service, made once for each.
+
+        Parameters
+        ----------
+        kind
+            The type of the service.
+        name
+            Its name, which the node resolves and remaps.
+
+        """
         key = kind, self.node.resolve_service_name(name)
         if key not in self._services:
             self._services[key] = self.node.create_client(kind, name)
         return self._services[key]
 
     def latest(self, kind: Any, topic: str, qos: QoSProfile = SYSTEM_DEFAULT) -> Latest:
-        """Subscribe to a topic, and return where its newest message is kept."""
+        """
+        Subscribe to a topic, once for each.
+
+        Parameters
+        ----------
+        kind
+            The type of the messages.
+        topic
+            Its name, which the node resolves and remaps.
+        qos
+            The quality of service of the subscription; if there is one already, that of the first
+            call.
+
+        Returns
+        -------
+        Latest
+            Where the newest message is kept; the same object for all who ask for the topic.
+
+        """
         key = kind, self.node.resolve_topic_name(topic)
         if key not in self._topics:
             latest = Latest()
@@ -114,6 +152,13 @@ class RosInterface:
         """
         Return the newest pose of the robot.
 
+        Parameters
+        ----------
+        in_frame
+            The frame of the pose; `global_frame` if empty.
+        base_frame
+            The frame of the robot; `robot_base_frame` if empty.
+
         Raises
         ------
         TransformError
@@ -126,18 +171,33 @@ class RosInterface:
 
     def pose_in(self, pose: Any, in_frame: str = '') -> Pose2D:
         """
-        Return a `PoseStamped` in a frame.
+        Transform a pose to another frame.
+
+        Parameters
+        ----------
+        pose
+            A `PoseStamped`.
+        in_frame
+            The other frame; `global_frame` if empty.
 
         Raises
         ------
         TransformError
-            The transform is not known.
+            The frame of the pose is empty, or the transform is not known.
 
         """
         return self.node.transforms.pose_in(pose, in_frame or self.global_frame)
 
     def can_transform(self, parent: str, child: str) -> bool:
-        """Whether the newest transform between two frames is known."""
+        """
+        Whether the newest transform between two frames is known.
+
+        Parameters
+        ----------
+        parent, child
+            The names of the frames.
+
+        """
         return bool(self.node.transforms.buffer.can_transform(child, parent, Time()))
 
     def speed_m_s(self) -> float:
@@ -149,7 +209,19 @@ class RosInterface:
         return self._odometry.acceleration_m_s2
 
     def parameter(self, name: str, default: Any, description: str) -> Any:
-        """Return a parameter of the navigator that is only there if a tree needs it."""
+        """
+        Return a parameter of the navigator that is only declared if a tree needs it.
+
+        Parameters
+        ----------
+        name
+            Its full name.
+        default
+            Its value if nobody sets it, which is also its type.
+        description
+            What it does, with the unit.
+
+        """
         return self.node.parameters.declare_value(name, default, description)
 
     def close(self) -> None:

@@ -52,12 +52,42 @@ class BehaviorTree:
 
     @classmethod
     def from_file(cls, path: str, now_s: Callable[[], float], ros: Any = None) -> BehaviorTree:
-        """Return the tree of a file."""
+        """
+        Make the tree of an XML file.
+
+        Parameters
+        ----------
+        path
+            The file.
+        now_s, ros
+            As for the class.
+
+        Raises
+        ------
+        TreeError
+            The file cannot be read, or does not make a tree.
+
+        """
         return cls(read_tree_file(path), now_s, ros)
 
     @classmethod
     def from_text(cls, text: str, now_s: Callable[[], float], ros: Any = None) -> BehaviorTree:
-        """Return the tree of a text."""
+        """
+        Make the tree of an XML text.
+
+        Parameters
+        ----------
+        text
+            What would stand in a file.
+        now_s, ros
+            As for the class.
+
+        Raises
+        ------
+        TreeError
+            The text does not make a tree.
+
+        """
         return cls(read_tree_text(text), now_s, ros)
 
     @property

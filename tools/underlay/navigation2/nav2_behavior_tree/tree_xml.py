@@ -25,7 +25,15 @@ class Element:
     children: list[Element] = field(default_factory=list)
 
     def error(self, message: str) -> TreeError:
-        """Return an error at this element."""
+        """
+        Make an error that names the place of this element in its file.
+
+        Parameters
+        ----------
+        message
+            What is wrong, as a sentence.
+
+        """
         return TreeError(message, self.file, self.line)
 
 
@@ -41,7 +49,12 @@ class Document:
 
 def read_tree_file(path: str) -> Document:
     """
-    Read a file of trees.
+    Read a file of trees, and those that it includes.
+
+    Parameters
+    ----------
+    path
+        The XML file.
 
     Raises
     ------
@@ -54,7 +67,14 @@ def read_tree_file(path: str) -> Document:
 
 def read_tree_text(text: str, file: str = 'behavior tree') -> Document:
     """
-    Read trees from a text.
+    Read trees from an XML text, and from the files that it includes.
+
+    Parameters
+    ----------
+    text
+        What would stand in a file.
+    file
+        Its name in errors; includes without `ros_pkg` are relative to the folder of it.
 
     Raises
     ------

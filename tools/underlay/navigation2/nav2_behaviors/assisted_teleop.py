@@ -47,12 +47,43 @@ class AssistedTeleop(TimedBehavior):
         node.create_subscription(Empty, 'preempt_teleop', self._on_end, 10)
 
     def begin(self, goal: Any) -> None:
-        """Forget the velocity before."""
+        """
+        Forget the last velocity, and check that the robot's pose is known.
+
+        Parameters
+        ----------
+        goal
+            The goal of the action, which needs no check.
+
+        Raises
+        ------
+        ActionAborted
+            The robot's pose is not known.
+
+        """
         self._command, self._is_over = Velocity(), False
         self.pose()
 
     def step(self, elapsed_s: float) -> bool:
-        """Pass the velocity on as far as that is safe."""
+        """
+        Publish the person's velocity, slowed down as far as a collision demands.
+
+        Parameters
+        ----------
+        elapsed_s
+            How long the goal has run, in s of the node's clock.
+
+        Returns
+        -------
+        bool
+            Whether a message on `preempt_teleop` has ended it.
+
+        Raises
+        ------
+        ActionAborted
+            The robot's pose is not known.
+
+        """
         self.server.publish_feedback(
             AssistedTeleopAction.Feedback(current_teleop_duration=duration_message(elapsed_s))
         )

@@ -43,7 +43,20 @@ class DriveOnHeading(TimedBehavior):
         self._limits = self.node.parameters.declare(DriveParameters, prefix=self.name)
 
     def begin(self, goal: Any) -> None:
-        """Check the target and take note of where the way begins."""
+        """
+        Check the target, and note where the drive starts.
+
+        Parameters
+        ----------
+        goal
+            The goal of the action: a target along x in m, and the speed in m/s.
+
+        Raises
+        ------
+        ActionAborted
+            The target or the speed makes no sense, or the robot's pose is not known.
+
+        """
         target, speed = goal.target, goal.speed
         if not all(map(math.isfinite, (target.x, target.y, target.z, speed))):
             raise self.abort('INVALID_INPUT', 'The target and the speed have to be finite.')
@@ -58,7 +71,25 @@ class DriveOnHeading(TimedBehavior):
         self._start = self.pose()
 
     def step(self, elapsed_s: float) -> bool:
-        """Drive on, slower at the start and near the end."""
+        """
+        Publish the next velocity, lower at the start and near the end.
+
+        Parameters
+        ----------
+        elapsed_s
+            How long the goal has run, in s of the node's clock.
+
+        Returns
+        -------
+        bool
+            Whether the distance is driven.
+
+        Raises
+        ------
+        ActionAborted
+            A collision is ahead, or the robot's pose is not known.
+
+        """
         limits = self._limits.current
         driven_m = self._start.distance_to(self.pose())
         self.server.publish_feedback(self.action.Feedback(distance_traveled=driven_m))

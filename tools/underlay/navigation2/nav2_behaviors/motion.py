@@ -34,7 +34,15 @@ class Turn:
         self.turned_rad = 0.0
 
     def update(self, yaw_rad: float) -> None:
-        """Take note of the yaw of now, less than half a turn after the one before."""
+        """
+        Add the turn since the last update.
+
+        Parameters
+        ----------
+        yaw_rad
+            The yaw of now, less than half a turn from the one before.
+
+        """
         self.turned_rad += angle_between(self._yaw_rad, yaw_rad)
         self._yaw_rad = yaw_rad
 

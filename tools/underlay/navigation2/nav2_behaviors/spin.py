@@ -36,13 +36,44 @@ class Spin(TimedBehavior):
         self._limits = self.node.parameters.declare(SpinParameters)
 
     def begin(self, goal: Any) -> None:
-        """Take note of where the turn begins."""
+        """
+        Check the angle, and note where the turn starts.
+
+        Parameters
+        ----------
+        goal
+            The goal of the action: an angle in rad, positive to the left.
+
+        Raises
+        ------
+        ActionAborted
+            The angle is not finite, or the robot's pose is not known.
+
+        """
         if not math.isfinite(goal.target_yaw):
             raise self.abort('UNKNOWN', f"'{self.name}' cannot turn by {goal.target_yaw} rad.")
         self._turn = Turn(goal.target_yaw, self.pose().yaw)
 
     def step(self, elapsed_s: float) -> bool:
-        """Turn on, slower near the end."""
+        """
+        Publish the next angular velocity, lower near the end.
+
+        Parameters
+        ----------
+        elapsed_s
+            How long the goal has run, in s of the node's clock.
+
+        Returns
+        -------
+        bool
+            Whether the angle is reached.
+
+        Raises
+        ------
+        ActionAborted
+            A collision is ahead, or the robot's pose is not known.
+
+        """
         turn, limits = self._turn, self._limits.current
         turn.update(self.pose().yaw)
         self.server.publish_feedback(

@@ -62,18 +62,68 @@ class TimedBehavior(ABC):
 
     @abstractmethod
     def begin(self, goal: Any) -> None:
-        """Check a goal, and prepare for it."""
+        """
+        Check a goal, and prepare for it.
+
+        Parameters
+        ----------
+        goal
+            The goal message of the action.
+
+        Raises
+        ------
+        ActionAborted
+            The goal cannot be reached.
+
+        """
 
     @abstractmethod
     def step(self, elapsed_s: float) -> bool:
-        """Go on; return whether the goal is reached."""
+        """
+        Work on the goal for one cycle; called `cycle_frequency` times a second.
+
+        Parameters
+        ----------
+        elapsed_s
+            How long the goal has run, in s of the node's clock.
+
+        Returns
+        -------
+        bool
+            Whether the goal is reached.
+
+        Raises
+        ------
+        ActionAborted
+            The goal cannot be reached any more.
+
+        """
 
     def time_allowance_s(self, goal: Any) -> float:
-        """Return how long the behaviour may take in s; 0 for any time."""
+        """
+        Return the time limit of a goal in s; 0 for no limit.
+
+        Parameters
+        ----------
+        goal
+            The goal message of the action.
+
+        """
         return seconds(goal.time_allowance)
 
     def abort(self, code: str, message: str) -> ActionAborted:
-        """Return the error with a code by its name in the action's result."""
+        """
+        Make the error that aborts the goal.
+
+        Parameters
+        ----------
+        code
+            The name of an error code in the action's result, such as `TIMEOUT`; a name that the
+            result does not have stands for 1.
+        message
+            Why, as a sentence.
+
+        """
         return ActionAborted(int(getattr(self.action.Result, code, 1)), message)
 
     def pose(self) -> Pose2D:
@@ -89,7 +139,21 @@ class TimedBehavior(ABC):
             raise self.abort('TF_ERROR', str(error)) from error
 
     def check_ahead(self, poses: npt.NDArray[np.float64]) -> None:
-        """Abort if the robot hits something on its way over (K, 3) poses in its base frame."""
+        """
+        Check that the robot can pass poses without a collision.
+
+        Parameters
+        ----------
+        poses
+            Poses (K, 3): x, y (m) and yaw (rad) in the base frame of now, in their order.
+
+        Raises
+        ------
+        ActionAborted
+            The footprint would be on an obstacle or off the local costmap, or that cannot be
+            checked.
+
+        """
         try:
             hit = self.node.local_checker.first_collision(poses)
         except CannotCheck as error:
@@ -106,7 +170,15 @@ class TimedBehavior(ABC):
             )
 
     def drive(self, velocity: Velocity) -> None:
-        """Publish a velocity."""
+        """
+        Publish a velocity command.
+
+        Parameters
+        ----------
+        velocity
+            The velocity in the base frame.
+
+        """
         self.node.velocities.publish(velocity)
 
     async def _work(self, goal: Any) -> None:
@@ -145,11 +217,27 @@ class TimedBehavior(ABC):
 
 
 def seconds(duration: Duration) -> float:
-    """Return a duration in s."""
+    """
+    Convert a duration message to seconds.
+
+    Parameters
+    ----------
+    duration
+        The message; may be negative.
+
+    """
     return float(duration.sec) + float(duration.nanosec) * 1e-9
 
 
 def duration_message(duration_s: float) -> Duration:
-    """Return the message of a duration in s."""
+    """
+    Convert seconds to a duration message.
+
+    Parameters
+    ----------
+    duration_s
+        The duration in s; may be negative.
+
+    """
     whole = math.floor(duration_s)
     return Duration(sec=int(whole), nanosec=int((duration_s - whole) * 1e9))

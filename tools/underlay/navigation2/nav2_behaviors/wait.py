@@ -17,15 +17,44 @@ class Wait(TimedBehavior):
     action = WaitAction
 
     def time_allowance_s(self, goal: Any) -> float:
-        """Return that there is no limit."""
+        """
+        Return 0: the time to wait is the only limit.
+
+        Parameters
+        ----------
+        goal
+            The goal message of the action.
+
+        """
         return 0.0
 
     def begin(self, goal: Any) -> None:
-        """Take note of how long to wait."""
+        """
+        Note how long to wait.
+
+        Parameters
+        ----------
+        goal
+            The goal of the action, with its duration.
+
+        """
         self._duration_s = seconds(goal.time)
 
     def step(self, elapsed_s: float) -> bool:
-        """Tell how long it will still take."""
+        """
+        Publish how long the robot will still wait.
+
+        Parameters
+        ----------
+        elapsed_s
+            How long the goal has run, in s of the node's clock.
+
+        Returns
+        -------
+        bool
+            Whether the time is over.
+
+        """
         left_s = max(self._duration_s - elapsed_s, 0.0)
         self.server.publish_feedback(WaitAction.Feedback(time_left=duration_message(left_s)))
         return left_s == 0.0

@@ -54,7 +54,22 @@ class Server(NamedTuple):
 
 
 def declared(*names: str, **defaults: Any) -> list[LaunchDescriptionEntity]:
-    """Return the declarations of arguments, some with another default than usual."""
+    """
+    Declare arguments of a launch file.
+
+    Parameters
+    ----------
+    *names
+        The arguments, by their names in `DESCRIPTIONS`.
+    **defaults
+        Default values in place of those in `DESCRIPTIONS`.
+
+    Returns
+    -------
+    list of LaunchDescriptionEntity
+        One declaration for each, after an action that lets processes buffer their output.
+
+    """
     actions: list[LaunchDescriptionEntity] = [
         SetEnvironmentVariable('RCUTILS_LOGGING_BUFFERED_STREAM', '1')
     ]
@@ -69,7 +84,20 @@ def declared(*names: str, **defaults: Any) -> list[LaunchDescriptionEntity]:
 
 
 def configured_parameters(**rewrites: Any) -> ParameterFile:
-    """Return the parameter file, below the namespace, with other values for some names."""
+    """
+    Rewrite the parameter file that the launch argument `params_file` names.
+
+    Parameters
+    ----------
+    **rewrites
+        New values by the names or whole paths of parameters, as `RewrittenYaml` takes them.
+
+    Returns
+    -------
+    ParameterFile
+        A copy of the file below the launch argument `namespace`, with its substitutions performed.
+
+    """
     values: dict[Any, Any] = rewrites
     return ParameterFile(
         RewrittenYaml(

@@ -21,14 +21,38 @@ class NavigateThroughPosesNavigator(Navigator):
     first_code = 9100
 
     def goals_of(self, goal: Any) -> list[PoseStamped]:
-        """Return the poses."""
+        """
+        Return the poses of a goal.
+
+        Parameters
+        ----------
+        goal
+            A goal of `nav2_msgs/NavigateThroughPoses`.
+
+        """
         return list(goal.poses)
 
     def write_goal(self, blackboard: Any, poses: list[PoseStamped]) -> None:
-        """Write the poses."""
+        """
+        Write the poses to the entry `goals_blackboard_id`.
+
+        Parameters
+        ----------
+        blackboard, poses
+            As for `Navigator.write_goal`.
+
+        """
         blackboard.set(self.node.settings.current.goals_blackboard_id, poses)
 
     def fill_feedback(self, feedback: Any, blackboard: Any) -> None:
-        """Write how many poses are left."""
+        """
+        Write how many poses are left.
+
+        Parameters
+        ----------
+        feedback, blackboard
+            As for `Navigator.fill_feedback`.
+
+        """
         goals = blackboard.get(self.node.settings.current.goals_blackboard_id, [])
         feedback.number_of_poses_remaining = len(goals)

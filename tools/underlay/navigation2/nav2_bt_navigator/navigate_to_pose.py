@@ -18,7 +18,20 @@ __all__ = ['NavigateToPoseNavigator']
 
 
 class NavigateToPoseNavigator(Navigator):
-    """Offers `navigate_to_pose`, and starts it for each pose on `goal_pose`."""
+    """
+    Offers `navigate_to_pose`, and starts it for each pose on `goal_pose`.
+
+    Parameters
+    ----------
+    node, name
+        As for `Navigator`.
+
+    Raises
+    ------
+    ConfigurationError
+        The default behavior tree is not right.
+
+    """
 
     action = NavigateToPose
     default_file = 'navigate_to_pose_w_replanning_and_recovery.xml'
@@ -39,9 +52,25 @@ class NavigateToPoseNavigator(Navigator):
         self._client.destroy()
 
     def goals_of(self, goal: Any) -> list[PoseStamped]:
-        """Return the pose."""
+        """
+        Return the pose of a goal, as the only one.
+
+        Parameters
+        ----------
+        goal
+            A goal of `nav2_msgs/NavigateToPose`.
+
+        """
         return [goal.pose]
 
     def write_goal(self, blackboard: Any, poses: list[PoseStamped]) -> None:
-        """Write the pose."""
+        """
+        Write the pose to the entry `goal_blackboard_id`.
+
+        Parameters
+        ----------
+        blackboard, poses
+            As for `Navigator.write_goal`; the first pose counts.
+
+        """
         blackboard.set(self.node.settings.current.goal_blackboard_id, poses[0])

@@ -74,15 +74,48 @@ class Navigator:
             self._run.tree.take_changes()
 
     def goals_of(self, goal: Any) -> list[PoseStamped]:
-        """Return the poses of a goal of the action."""
+        """
+        Return the poses of a goal of the action.
+
+        Parameters
+        ----------
+        goal
+            The goal message.
+
+        Returns
+        -------
+        list of PoseStamped
+            The poses in their order, in whatever frames; none if the goal has none.
+
+        """
         raise NotImplementedError
 
     def write_goal(self, blackboard: Any, poses: list[PoseStamped]) -> None:
-        """Write the poses where the tree looks for them."""
+        """
+        Write the poses to the entry of the blackboard where the tree looks for them.
+
+        Parameters
+        ----------
+        blackboard
+            The blackboard of the main tree.
+        poses
+            The poses in the global frame, at least one.
+
+        """
         raise NotImplementedError
 
     def fill_feedback(self, feedback: Any, blackboard: Any) -> None:
-        """Write what only this action tells."""
+        """
+        Write to the feedback what only this action reports.
+
+        Parameters
+        ----------
+        feedback
+            The feedback message, which is changed; what navigators have in common is in it.
+        blackboard
+            The blackboard of the main tree.
+
+        """
 
     def _default(self) -> str:
         given = getattr(self.node.settings.current, self.file_parameter)

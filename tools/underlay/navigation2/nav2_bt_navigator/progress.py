@@ -42,7 +42,22 @@ class PathProgress:
 
 
 def time_left_s(way_m: float, speed_m_s: float) -> float:
-    """Return how long a way takes at a speed, in s; 0 if the robot stands, or is nearly there."""
+    """
+    Estimate how long the rest of a path takes at a speed.
+
+    Parameters
+    ----------
+    way_m
+        The length of the rest in m.
+    speed_m_s
+        The speed in m/s; its sign does not matter.
+
+    Returns
+    -------
+    float
+        The time in s; 0 if the robot stands, or is nearly there.
+
+    """
     if abs(speed_m_s) < _LEAST_SPEED_M_S or way_m < _LEAST_WAY_M:
         return 0.0
     return way_m / abs(speed_m_s)

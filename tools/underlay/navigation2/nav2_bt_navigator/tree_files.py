@@ -49,7 +49,12 @@ class TreeFiles:
 
     def read(self, path: str) -> Document:
         """
-        Read a file, or return what was read of it before.
+        Read a file of trees, or return what was read of it before if it has not changed.
+
+        Parameters
+        ----------
+        path
+            The XML file; one that includes others is always read.
 
         Raises
         ------

@@ -27,7 +27,15 @@ class TreeLog:
         self._publisher = node.create_publisher(BehaviorTreeLog, 'behavior_tree_log', 10)
 
     def publish(self, changes: list[StatusChange]) -> None:
-        """Publish the changes of a tick."""
+        """
+        Publish the status changes of a tick.
+
+        Parameters
+        ----------
+        changes
+            The changes in their order; the last one counts as of now.
+
+        """
         if not changes or not self._publisher.get_subscription_count():
             return
         now = self._node.get_clock().now()

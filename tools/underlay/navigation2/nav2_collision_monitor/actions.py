@@ -82,14 +82,39 @@ def act_in_zone(zone: Zone, points: FloatArray, command: Velocity) -> Action:
 
 
 def is_occupied(zone: Zone, points: FloatArray) -> bool:
-    """Return whether enough of (N, 2) points are inside a zone."""
+    """
+    Whether enough points are inside a zone.
+
+    Parameters
+    ----------
+    zone
+        Its shape, and `min_points`.
+    points
+        Obstacles (N, 2) in m in the base frame.
+
+    """
     if len(points) < zone.min_points:
         return False
     return int(zone.shape.contains(points).sum()) >= zone.min_points
 
 
 def most_careful(actions: Sequence[Action], command: Velocity) -> Action:
-    """Return the action with the lowest speed; a stop goes before all others."""
+    """
+    Choose the action with the lowest speed; a stop goes before all others.
+
+    Parameters
+    ----------
+    actions
+        What the zones do with the command.
+    command
+        The commanded velocity, in the base frame.
+
+    Returns
+    -------
+    Action
+        The chosen one; if no zone does anything, the command as it is.
+
+    """
     chosen = Action(ActionType.DO_NOTHING, command)
     for each in actions:
         if each.kind is ActionType.STOP:

@@ -35,7 +35,15 @@ class PointMarkers:
         self._publisher = node.create_publisher(MarkerArray, '~/collision_points_marker', 1)
 
     def publish(self, points: Mapping[str, FloatArray]) -> None:
-        """Publish the (N, 2) points in m of each sensor; of many points, every few."""
+        """
+        Publish a marker for each sensor; of more than 5000 points, every few.
+
+        Parameters
+        ----------
+        points
+            Points (N, 2) in m, in the frame of the markers, by the names of the sensors.
+
+        """
         if not self._publisher.get_subscription_count():
             return
         message = MarkerArray()

@@ -89,7 +89,17 @@ def points_of_range(
 
 def points_of_cloud(cloud: Any) -> FloatArray:
     """
-    Return the (N, 3) finite points of a `sensor_msgs/PointCloud2` in m in its frame.
+    Extract the finite points of a point cloud.
+
+    Parameters
+    ----------
+    cloud
+        A `sensor_msgs/PointCloud2` in m.
+
+    Returns
+    -------
+    numpy.ndarray
+        Points (N, 3) in m, in the frame of the cloud.
 
     Raises
     ------
@@ -152,5 +162,20 @@ def points_of_polygon(corners: FloatArray, distance: float) -> FloatArray:
 
 
 def transformed(points: FloatArray, matrix: FloatArray) -> FloatArray:
-    """Return (N, 3) points in another frame, by a (3, 4) matrix of rotation and translation."""
+    """
+    Transform points to another frame.
+
+    Parameters
+    ----------
+    points
+        Points (N, 3) in m.
+    matrix
+        Rotation and translation (3, 4), from the frame of the points to the other one.
+
+    Returns
+    -------
+    numpy.ndarray
+        Points (N, 3) in m.
+
+    """
     return np.asarray(points @ matrix[:, :3].T + matrix[:, 3])

@@ -97,7 +97,20 @@ class MonitoredZone:
         return self.parameters.current.enabled
 
     def zone(self, command: Velocity) -> Zone | None:
-        """Return the zone as it is for a command; None while its shape is not known."""
+        """
+        Return the zone with the shape and the parameters that hold now.
+
+        Parameters
+        ----------
+        command
+            The commanded velocity in the base frame, which chooses among velocity polygons.
+
+        Returns
+        -------
+        Zone or None
+            None while its shape is not known.
+
+        """
         shape = self._shape_now(command)
         if shape is None:
             return None

@@ -36,7 +36,20 @@ class Circle:
         return self.radius_m * np.column_stack([np.cos(angles), np.sin(angles)])
 
     def contains(self, points: FloatArray) -> BoolArray:
-        """Return which of (..., 2) points in m are inside."""
+        """
+        Find the points inside.
+
+        Parameters
+        ----------
+        points
+            Points (..., 2) in m in the base frame.
+
+        Returns
+        -------
+        numpy.ndarray
+            Which are inside, or on the outline (...).
+
+        """
         inside = np.einsum('...i,...i', points, points) <= self.radius_m**2
         return np.asarray(inside, dtype=np.bool_)
 
@@ -59,10 +72,21 @@ class Polygon:
 
     def contains(self, points: FloatArray) -> BoolArray:
         """
-        Return which of (..., 2) points in m are inside.
+        Find the points inside.
 
         A point is inside if a ray from it along x crosses the outline an odd number of times
         (Shimrat, Algorithm 112, 1962); points that are beyond the corners are not looked at.
+
+        Parameters
+        ----------
+        points
+            Points (..., 2) in m in the base frame.
+
+        Returns
+        -------
+        numpy.ndarray
+            Which are inside (...).
+
         """
         flat = points.reshape(-1, 2)
         inside = np.zeros(len(flat), dtype=np.bool_)
@@ -111,7 +135,25 @@ def parse_points(text: str) -> FloatArray:
 
 
 def checked_corners(corners: FloatArray) -> FloatArray:
-    """Return (N, 2) corners; ValueError says why they are no polygon, after 'The points'."""
+    """
+    Check that corners make a polygon.
+
+    Parameters
+    ----------
+    corners
+        Corners (N, 2) in m.
+
+    Returns
+    -------
+    numpy.ndarray
+        The same array.
+
+    Raises
+    ------
+    ValueError
+        There are fewer than three, or some are not finite; the text goes on after 'The points'.
+
+    """
     if len(corners) < 3:
         raise ValueError(f'have to be at least 3, and are {len(corners)}')
     if not np.all(np.isfinite(corners)):

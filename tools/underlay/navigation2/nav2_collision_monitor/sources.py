@@ -209,7 +209,22 @@ class Source:
 
 
 class Sources:
-    """All sensors of a node."""
+    """
+    All sensors of a node.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes.
+    common
+        The node's parameters.
+
+    Raises
+    ------
+    ConfigurationError
+        `observation_sources` names no sensor, or a sensor is misconfigured.
+
+    """
 
     def __init__(self, node: LifecycleNode, common: CommonParameters) -> None:
         if not common.observation_sources:
@@ -245,7 +260,20 @@ class Sources:
 
 
 def matrix_of(transform: TransformStamped) -> FloatArray:
-    """Return the (3, 4) matrix of a transform."""
+    """
+    Convert a transform to a matrix.
+
+    Parameters
+    ----------
+    transform
+        As tf2 looks it up; its quaternion is taken for normalised.
+
+    Returns
+    -------
+    numpy.ndarray
+        Rotation and translation in m (3, 4), from the child frame to the parent frame.
+
+    """
     moved, turned = transform.transform.translation, transform.transform.rotation
     x, y, z, w = turned.x, turned.y, turned.z, turned.w
     return np.array(

@@ -32,7 +32,17 @@ class VelocityPolygon:
     direction_end_angle: float = math.pi
 
     def covers(self, velocity: Velocity, is_holonomic: bool) -> bool:
-        """Return whether this polygon is the one for a velocity."""
+        """
+        Whether a velocity is in the range of this polygon.
+
+        Parameters
+        ----------
+        velocity
+            The velocity in the base frame.
+        is_holonomic
+            Whether the robot moves sideways, so that speed and direction count, and not x.
+
+        """
         linear = velocity.linear if is_holonomic else velocity.x
         if not self.linear_min <= linear <= self.linear_max:
             return False
@@ -50,5 +60,20 @@ class VelocityPolygon:
 def choose(
     polygons: Sequence[VelocityPolygon], velocity: Velocity, is_holonomic: bool
 ) -> VelocityPolygon | None:
-    """Return the first polygon that covers a velocity, if there is one."""
+    """
+    Choose the first polygon that covers a velocity.
+
+    Parameters
+    ----------
+    polygons
+        The polygons of a zone, in their order.
+    velocity, is_holonomic
+        As for `VelocityPolygon.covers`.
+
+    Returns
+    -------
+    VelocityPolygon or None
+        None if no polygon covers it.
+
+    """
     return next((each for each in polygons if each.covers(velocity, is_holonomic)), None)

@@ -40,6 +40,12 @@ class ConstrainedSmoother(Smoother):
     Genuine Nav2 minimizes length, curvature and cost with the solver Ceres. Here the points are
     balanced between straightness and nearness to the path, which takes a millisecond; the weights
     of the optimizer have no effect.
+
+    Parameters
+    ----------
+    node, name
+        As for `Smoother`.
+
     """
 
     def __init__(self, node: LifecycleNode, name: str) -> None:
@@ -69,7 +75,20 @@ class ConstrainedSmoother(Smoother):
         )
 
     def smooth(self, poses: FloatArray, costmap: Costmap2D | None) -> FloatArray:
-        """Smooth a path; see `Smoother`."""
+        """
+        Smooth a path.
+
+        Parameters
+        ----------
+        poses, costmap
+            As for `Smoother.smooth`.
+
+        Returns
+        -------
+        numpy.ndarray
+            As many poses (N, 3): x, y (m) and yaw (rad) in the frame of the path.
+
+        """
         values = self._parameters.current
 
         def work(points: FloatArray) -> FloatArray:

@@ -92,7 +92,17 @@ class ProgressChecker:
         """Start anew, with a new goal."""
 
     def check(self, pose: Pose2D, now_s: float) -> bool:
-        """Whether the robot at a pose, at a time in s, still gets ahead."""
+        """
+        Whether the robot still makes progress.
+
+        Parameters
+        ----------
+        pose
+            The robot in the frame of the costmap.
+        now_s
+            The time of the node's clock in s; it may jump back.
+
+        """
         raise NotImplementedError
 
     def reason(self) -> str:
@@ -101,7 +111,15 @@ class ProgressChecker:
 
 
 class SimpleProgressChecker(ProgressChecker):
-    """Expects that the robot moves by a distance within a time."""
+    """
+    Expects that the robot moves by a distance within a time.
+
+    Parameters
+    ----------
+    context
+        The name of the plugin, which is the prefix of its parameters.
+
+    """
 
     kind = SimpleProgressParameters
 
@@ -114,7 +132,15 @@ class SimpleProgressChecker(ProgressChecker):
         self._start = None
 
     def check(self, pose: Pose2D, now_s: float) -> bool:
-        """Whether the robot still gets ahead."""
+        """
+        Whether the robot has moved far enough within the time, or still has time to.
+
+        Parameters
+        ----------
+        pose, now_s
+            As for `ProgressChecker.check`.
+
+        """
         if self._start is None or now_s < self._start[1] or self._has_moved(self._start[0], pose):
             self._start = pose, now_s
             return True
@@ -151,7 +177,17 @@ class GoalChecker:
         """Start anew, with a new goal."""
 
     def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
-        """Whether the goal is reached."""
+        """
+        Whether the goal is reached.
+
+        Parameters
+        ----------
+        pose, goal
+            The robot and the goal in the frame of the costmap.
+        velocity
+            The velocity of the robot in its base frame.
+
+        """
         raise NotImplementedError
 
     def tolerances(self) -> tuple[float, float]:
@@ -160,7 +196,15 @@ class GoalChecker:
 
 
 class PositionGoalChecker(GoalChecker):
-    """Expects that the robot is near the goal, whatever its orientation."""
+    """
+    Expects that the robot is near the goal, whatever its orientation.
+
+    Parameters
+    ----------
+    context
+        The name of the plugin, which is the prefix of its parameters.
+
+    """
 
     kind = PositionGoalParameters
 
@@ -174,7 +218,15 @@ class PositionGoalChecker(GoalChecker):
         self._is_there = False
 
     def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
-        """Whether the goal is reached."""
+        """
+        Whether the robot is near the goal, or was so before if the checker is stateful.
+
+        Parameters
+        ----------
+        pose, goal, velocity
+            As for `GoalChecker.is_reached`.
+
+        """
         current = self._parameters.current
         near = pose.distance_to(goal) <= current.xy_goal_tolerance
         self._is_there = near or (self._is_there and current.stateful)
@@ -191,7 +243,15 @@ class SimpleGoalChecker(PositionGoalChecker):
     kind = SimpleGoalParameters
 
     def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
-        """Whether the goal is reached."""
+        """
+        Whether the robot is near the goal, and has its orientation.
+
+        Parameters
+        ----------
+        pose, goal, velocity
+            As for `GoalChecker.is_reached`.
+
+        """
         turn = abs(angle_between(pose.yaw, goal.yaw))
         return super().is_reached(pose, goal, velocity) and turn <= self.tolerances()[1]
 
@@ -208,7 +268,15 @@ class StoppedGoalChecker(SimpleGoalChecker):
     kind = StoppedGoalParameters
 
     def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
-        """Whether the goal is reached."""
+        """
+        Whether the robot is near the goal, has its orientation, and has stopped.
+
+        Parameters
+        ----------
+        pose, goal, velocity
+            As for `GoalChecker.is_reached`.
+
+        """
         current = self._parameters.current
         assert isinstance(current, StoppedGoalParameters)
         return (

@@ -39,7 +39,20 @@ class SpeedLimit(NamedTuple):
     is_percentage: bool
 
     def ratio(self, configured_speed: float) -> float:
-        """Return the part, from 0 to 1, of a configured speed in m/s."""
+        """
+        Convert the limit to a part of a configured speed.
+
+        Parameters
+        ----------
+        configured_speed
+            The highest speed without the limit, in m/s.
+
+        Returns
+        -------
+        float
+            From 0 to 1.
+
+        """
         if self.is_percentage:
             return min(max(self.value / 100.0, 0.0), 1.0)
         return min(max(self.value / configured_speed, 0.0), 1.0) if configured_speed > 0.0 else 1.0
@@ -137,6 +150,11 @@ class Controller:
         """
         Compute the velocity for the next period.
 
+        Parameters
+        ----------
+        state
+            The robot, its path and its surroundings in this period.
+
         Raises
         ------
         NoValidControl
@@ -146,11 +164,32 @@ class Controller:
         raise NotImplementedError
 
     def cancel(self, state: ControlState) -> Command | None:
-        """Return how to slow down after the goal was canceled; None to stop at once."""
+        """
+        Slow down after the goal was canceled; called in each period until it returns None.
+
+        Parameters
+        ----------
+        state
+            The robot, its path and its surroundings in this period.
+
+        Returns
+        -------
+        Command or None
+            The velocity for the next period; None to stop at once.
+
+        """
         return None
 
     def limit_ratio(self, configured_speed: float) -> float:
-        """Return the part of a configured speed in m/s that is allowed now, from 0 to 1."""
+        """
+        Return the part of a configured speed that the speed limit allows now, from 0 to 1.
+
+        Parameters
+        ----------
+        configured_speed
+            The highest speed without a limit, in m/s.
+
+        """
         return 1.0 if self.speed_limit is None else self.speed_limit.ratio(configured_speed)
 
 

@@ -127,7 +127,15 @@ class ControllerServer(LifecycleNode):
         self.costmap.trigger_cleanup()
 
     def publish_velocity(self, velocity: Velocity) -> None:
-        """Publish a velocity command in the base frame."""
+        """
+        Publish a velocity command on `cmd_vel`; nothing while the node is unconfigured.
+
+        Parameters
+        ----------
+        velocity
+            The velocity in the base frame.
+
+        """
         if self._velocities is not None:
             self._velocities.publish(velocity)
 

@@ -51,11 +51,31 @@ class DisplayPublisher:
         self._frame, self._stamp = '', None
 
     def show_plan(self, path: Path) -> None:
-        """Publish a path as it came."""
+        """
+        Publish a path as it came, on `received_global_plan`.
+
+        Parameters
+        ----------
+        path
+            The path of a goal, in its own frame.
+
+        """
         self._publish('received_global_plan', path, lambda each: each)
 
     def show(self, state: ControlState, command: Command, frame: str) -> None:
-        """Publish what led to a command, in the frame of the costmap."""
+        """
+        Publish what led to a command, at most five times a second.
+
+        Parameters
+        ----------
+        state
+            What the controller was given.
+        command
+            What it returned, with its displays.
+        frame
+            The frame of the costmap, in which both are.
+
+        """
         if self._next_s - _PERIOD_S <= state.now_s < self._next_s:
             return
         self._next_s = state.now_s + _PERIOD_S

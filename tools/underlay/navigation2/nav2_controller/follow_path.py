@@ -69,7 +69,20 @@ class PathFollower:
         self._valid_s = self._feedback_s = self._current_s = 0.0
 
     async def work(self, goal: FollowPath.Goal) -> None:
-        """Follow a path, and each newer one, until the goal is reached."""
+        """
+        Follow a path, and each newer one, until the goal is reached.
+
+        Parameters
+        ----------
+        goal
+            The path, and the names of the controller and the checkers.
+
+        Raises
+        ------
+        ActionAborted
+            The goal is not valid, or the robot cannot reach it.
+
+        """
         node, server = self._node, self._node.server
         try:
             self._begin(goal)

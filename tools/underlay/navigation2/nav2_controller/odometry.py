@@ -39,7 +39,20 @@ class OdometryMonitor:
         subscribe_velocity(node, topic, self._receive)
 
     def velocity(self, thresholds: Velocity = Velocity()) -> Velocity:
-        """Return the mean velocity, components below a threshold as 0; 0 if none is known."""
+        """
+        Return the mean velocity over the duration; 0 if none is known.
+
+        Parameters
+        ----------
+        thresholds
+            Components of the mean with a smaller magnitude count as 0 (m/s, m/s, rad/s).
+
+        Returns
+        -------
+        Velocity
+            In the base frame.
+
+        """
         count = len(self._found)
         if not count:
             return Velocity()

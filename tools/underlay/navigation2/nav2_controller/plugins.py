@@ -48,13 +48,50 @@ class ParameterSource(Protocol):
     """Declares parameters; `nav2_util.parameters.ParameterServer` is one."""
 
     def declare(self, kind: type[KindT], prefix: str = '') -> ParameterSet[KindT]:
-        """Declare all parameters of a dataclass."""
+        """
+        Declare all parameters of a dataclass.
+
+        Parameters
+        ----------
+        kind
+            A frozen dataclass with fields made by `nav2_util.parameters.parameter`.
+        prefix
+            What stands before their names and a dot.
+
+        Returns
+        -------
+        ParameterSet
+            Their values, which follow later changes.
+
+        """
 
     def declare_value(self, name: str, default: Any, description: str) -> Any:
-        """Declare a single parameter; return its value."""
+        """
+        Declare a single parameter; return its value.
+
+        Parameters
+        ----------
+        name
+            Its full name.
+        default
+            Its value if nobody sets it, which is also its type.
+        description
+            What it does, with the unit.
+
+        """
 
     def declare_unsupported(self, names: Mapping[str, str], prefix: str = '') -> None:
-        """Name parameters that have no effect."""
+        """
+        Name parameters that have no effect, for a warning if they are set.
+
+        Parameters
+        ----------
+        names
+            Their names, and what happens instead, as the rest of a sentence.
+        prefix
+            What stands before their names and a dot.
+
+        """
 
 
 @dataclass(frozen=True)
@@ -70,15 +107,52 @@ class PluginContext:
     """Half of the larger side of the local costmap."""
 
     def declare(self, kind: type[KindT], below: str = '') -> ParameterSet[KindT]:
-        """Declare the parameters of a dataclass, below the name and perhaps a further one."""
+        """
+        Declare the parameters of a dataclass, below the name of the plugin.
+
+        Parameters
+        ----------
+        kind
+            A frozen dataclass with fields made by `nav2_util.parameters.parameter`.
+        below
+            A further prefix between the name of the plugin and those of the parameters.
+
+        Returns
+        -------
+        ParameterSet
+            Their values, which follow later changes.
+
+        """
         return self.source.declare(kind, self._prefix(below))
 
     def value(self, name: str, default: Any, description: str) -> Any:
-        """Declare a single parameter; return its value."""
+        """
+        Declare a single parameter below the name of the plugin; return its value.
+
+        Parameters
+        ----------
+        name
+            Its name below that of the plugin.
+        default
+            Its value if nobody sets it, which is also its type.
+        description
+            What it does, with the unit.
+
+        """
         return self.source.declare_value(f'{self.name}.{name}', default, description)
 
     def unsupported(self, names: Mapping[str, str], below: str = '') -> None:
-        """Name parameters that have no effect, and what happens instead."""
+        """
+        Name parameters of the plugin that have no effect, for a warning if they are set.
+
+        Parameters
+        ----------
+        names
+            Their names, and what happens instead, as the rest of a sentence.
+        below
+            A further prefix between the name of the plugin and those of the parameters.
+
+        """
         self.source.declare_unsupported(names, self._prefix(below))
 
     def search_distance(self) -> float:
@@ -93,7 +167,15 @@ class PluginContext:
         return math.inf if found < 0.0 else found
 
     def transform_tolerance(self, default_s: float = 0.1) -> float:
-        """Declare `transform_tolerance`; return it in s."""
+        """
+        Declare `transform_tolerance`; return it in s.
+
+        Parameters
+        ----------
+        default_s
+            Its value if nobody sets it.
+
+        """
         return float(
             self.value(
                 'transform_tolerance',
@@ -103,7 +185,15 @@ class PluginContext:
         )
 
     def named(self, name: str) -> PluginContext:
-        """Return the same for a plugin of another name."""
+        """
+        Return the same context for a plugin of another name.
+
+        Parameters
+        ----------
+        name
+            The prefix of its parameters.
+
+        """
         return replace(self, name=name)
 
     def _prefix(self, below: str) -> str:

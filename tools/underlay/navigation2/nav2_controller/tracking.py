@@ -18,7 +18,20 @@ _SPACING_M = 0.05
 
 
 def path_lengths(poses: FloatArray) -> FloatArray:
-    """Return the (N,) lengths in m from the first of (N, 3) poses to each."""
+    """
+    Compute the cumulative length of a path at each pose.
+
+    Parameters
+    ----------
+    poses
+        Poses (N, 2 or more), x and y first, in m.
+
+    Returns
+    -------
+    numpy.ndarray
+        Lengths (N,) in m from the first pose on.
+
+    """
     lengths = np.zeros(len(poses))
     if len(poses) > 1:
         np.cumsum(np.hypot(np.diff(poses[:, 0]), np.diff(poses[:, 1])), out=lengths[1:])
@@ -54,7 +67,22 @@ def densified(poses: FloatArray, spacing_m: float = _SPACING_M) -> FloatArray:
 
 
 def transform_poses(poses: FloatArray, frame: Pose2D) -> FloatArray:
-    """Return (N, 3) poses that are given in a frame in the one in which that frame is given."""
+    """
+    Transform poses to the parent of their frame.
+
+    Parameters
+    ----------
+    poses
+        Poses (N, 3): x, y (m) and yaw (rad), in a frame.
+    frame
+        The pose of that frame in its parent.
+
+    Returns
+    -------
+    numpy.ndarray
+        New poses (N, 3) in the parent; their yaw is not wrapped.
+
+    """
     cos, sin = math.cos(frame.yaw), math.sin(frame.yaw)
     moved = np.empty_like(poses)
     moved[:, 0] = frame.x + cos * poses[:, 0] - sin * poses[:, 1]

@@ -194,7 +194,20 @@ class CostmapFilter(Layer):
 
 
 class KeepoutFilter(CostmapFilter):
-    """Makes areas obstacles, or more or less expensive."""
+    """
+    Makes areas obstacles, or more or less expensive.
+
+    Parameters
+    ----------
+    node, name
+        As for `CostmapFilter`.
+
+    Raises
+    ------
+    ConfigurationError
+        `filter_info_topic` is not set.
+
+    """
 
     parameters_kind = KeepoutParameters
     types = (_KEEPOUT,)
@@ -210,7 +223,20 @@ class KeepoutFilter(CostmapFilter):
         self._robot: Pose2D | None = None
 
     def update(self, grid: Costmap2D, robot: Pose2D | None) -> Region | None:
-        """Return everything if the mask has moved, or what the robot may do has changed."""
+        """
+        Find out whether the mask has moved, or what the robot may do in it has changed.
+
+        Parameters
+        ----------
+        grid, robot
+            As for `Layer.update`.
+
+        Returns
+        -------
+        Region or None
+            All cells if so; None otherwise.
+
+        """
         if self._mask is None:
             return None
         before, self._pose = (self._pose, self._robot is None), self._pose_in_mask()
@@ -219,7 +245,15 @@ class KeepoutFilter(CostmapFilter):
         return Region.whole(grid) if after != before else None
 
     def apply(self, grid: Costmap2D, region: Region) -> None:
-        """Raise the costs to those of the mask."""
+        """
+        Raise the costs to those of the mask, in place.
+
+        Parameters
+        ----------
+        grid, region
+            As for `Layer.apply`.
+
+        """
         if self._mask is None or self._pose is None:
             return
         columns, rows = np.meshgrid(
@@ -244,7 +278,20 @@ class KeepoutFilter(CostmapFilter):
 
 
 class SpeedFilter(CostmapFilter):
-    """Publishes how fast the robot may be where it is."""
+    """
+    Publishes how fast the robot may be where it is.
+
+    Parameters
+    ----------
+    node, name
+        As for `CostmapFilter`.
+
+    Raises
+    ------
+    ConfigurationError
+        `filter_info_topic` is not set.
+
+    """
 
     parameters_kind = SpeedParameters
     types = (_SPEED_PERCENTAGE, _SPEED_ABSOLUTE)
@@ -256,7 +303,20 @@ class SpeedFilter(CostmapFilter):
         self._limit = 0.0
 
     def update(self, grid: Costmap2D, robot: Pose2D | None) -> Region | None:
-        """Publish the limit when it changes."""
+        """
+        Publish the speed limit at the robot when it changes.
+
+        Parameters
+        ----------
+        grid, robot
+            As for `Layer.update`.
+
+        Returns
+        -------
+        Region or None
+            Always None: no costs change.
+
+        """
         value = self._mask_at(robot)
         if value is None or self._info is None:
             return None
@@ -280,7 +340,20 @@ class SpeedFilter(CostmapFilter):
 
 
 class BinaryFilter(CostmapFilter):
-    """Publishes whether the robot is in an area."""
+    """
+    Publishes whether the robot is in an area.
+
+    Parameters
+    ----------
+    node, name
+        As for `CostmapFilter`.
+
+    Raises
+    ------
+    ConfigurationError
+        `filter_info_topic` is not set.
+
+    """
 
     parameters_kind = BinaryParameters
     types = (_BINARY,)
@@ -292,7 +365,20 @@ class BinaryFilter(CostmapFilter):
         self._state: bool | None = None
 
     def update(self, grid: Costmap2D, robot: Pose2D | None) -> Region | None:
-        """Publish the state when it changes."""
+        """
+        Publish the state at the robot when it changes.
+
+        Parameters
+        ----------
+        grid, robot
+            As for `Layer.update`.
+
+        Returns
+        -------
+        Region or None
+            Always None: no costs change.
+
+        """
         values: BinaryParameters = self._settings.current
         value = self._mask_at(robot)
         if value is None or self._info is None:

@@ -27,7 +27,19 @@ __all__ = [
 
 
 def make_grid(grid: Costmap2D, frame: str, stamp: Time, height_m: float = 0.0) -> OccupancyGrid:
-    """Return a costmap with costs from 0 to 100, and -1, to be shown at a height."""
+    """
+    Convert a costmap to an `OccupancyGrid`, with values from 0 to 100, and -1 for unknown.
+
+    Parameters
+    ----------
+    grid
+        The costmap.
+    frame, stamp
+        The header; the stamp is also the time of the map.
+    height_m
+        The z of its origin, so that displays show it above other things.
+
+    """
     message = OccupancyGrid()
     message.header.frame_id, message.header.stamp = frame, stamp
     info = message.info
@@ -42,7 +54,19 @@ def make_grid(grid: Costmap2D, frame: str, stamp: Time, height_m: float = 0.0) -
 def make_grid_update(
     grid: Costmap2D, region: Region, frame: str, stamp: Time
 ) -> OccupancyGridUpdate:
-    """Return a region of a costmap with costs from 0 to 100, and -1."""
+    """
+    Convert a region of a costmap to an update of its `OccupancyGrid`.
+
+    Parameters
+    ----------
+    grid
+        The whole costmap.
+    region
+        The cells to send, all of them in the grid.
+    frame, stamp
+        The header.
+
+    """
     message = OccupancyGridUpdate(
         x=region.x, y=region.y, width=region.x_end - region.x, height=region.y_end - region.y
     )
@@ -54,7 +78,19 @@ def make_grid_update(
 def make_costmap_message(
     grid: Costmap2D, frame: str, stamp: Time, layer: str = 'master'
 ) -> Costmap:
-    """Return a costmap, or a layer of one, with its costs."""
+    """
+    Convert a costmap, or a layer of one, to a message with its costs as they are.
+
+    Parameters
+    ----------
+    grid
+        The costmap.
+    frame, stamp
+        The header; the stamp is also the time of the map.
+    layer
+        The name of the layer; `master` for all of them.
+
+    """
     message = Costmap()
     message.header.frame_id, message.header.stamp = frame, stamp
     data = message.metadata
@@ -67,7 +103,19 @@ def make_costmap_message(
 
 
 def make_costmap_update(grid: Costmap2D, region: Region, frame: str, stamp: Time) -> CostmapUpdate:
-    """Return a region of a costmap with its costs."""
+    """
+    Convert a region of a costmap to an update with its costs as they are.
+
+    Parameters
+    ----------
+    grid
+        The whole costmap.
+    region
+        The cells to send, all of them in the grid.
+    frame, stamp
+        The header.
+
+    """
     message = CostmapUpdate(
         x=region.x, y=region.y, size_x=region.x_end - region.x, size_y=region.y_end - region.y
     )
@@ -78,7 +126,12 @@ def make_costmap_update(grid: Costmap2D, region: Region, frame: str, stamp: Time
 
 def costmap_from(message: Costmap) -> Costmap2D:
     """
-    Return the grid in a message of `costmap_raw`.
+    Convert a message of `costmap_raw` to a grid.
+
+    Parameters
+    ----------
+    message
+        The whole costmap, and not an update.
 
     Raises
     ------
@@ -105,10 +158,31 @@ def costmap_from(message: Costmap) -> Costmap2D:
 
 
 def make_polygon(points: FloatArray) -> Polygon:
-    """Return the polygon with (N, 2) corners in m."""
+    """
+    Convert corners to a polygon message.
+
+    Parameters
+    ----------
+    points
+        Corners (N, 2) in m.
+
+    """
     return Polygon(points=[Point32(x=float(x), y=float(y)) for x, y in points])
 
 
 def corners_of(polygon: Polygon) -> FloatArray:
-    """Return the (N, 2) corners in m of a polygon."""
+    """
+    Convert a polygon message to its corners.
+
+    Parameters
+    ----------
+    polygon
+        The message; z does not count.
+
+    Returns
+    -------
+    numpy.ndarray
+        Corners (N, 2) in m.
+
+    """
     return np.array([(point.x, point.y) for point in polygon.points], float).reshape(-1, 2)

@@ -131,7 +131,15 @@ class Costmap2DROS(LifecycleNode):
         return FootprintCollisionChecker(self.grid)
 
     def resolve_beside(self, topic: str) -> str:
-        """Return the full name of a topic; a relative one is beside the costmap's namespace."""
+        """
+        Resolve the name of a topic in the parent of the costmap's namespace.
+
+        Parameters
+        ----------
+        topic
+            Its name; one that begins with `/` or `~` stays as it is.
+
+        """
         if topic.startswith(('/', '~')):
             return topic
         return f'{self.get_namespace().rpartition("/")[0]}/{topic}'
@@ -170,7 +178,17 @@ class Costmap2DROS(LifecycleNode):
         self.update()
 
     def take_map_size(self, layer: Layer, grid: Costmap2D) -> None:
-        """Make the costmap as large as a map, unless it follows the robot or another map."""
+        """
+        Resize the costmap to a map, unless it follows the robot or another map.
+
+        Parameters
+        ----------
+        layer
+            The layer that has received the map; the first one to call it keeps the right to.
+        grid
+            The map, whose size, resolution and origin the costmap gets.
+
+        """
         if self.settings.rolling_window or self._sized_by not in (None, layer):
             return
         self._sized_by = layer

@@ -86,6 +86,11 @@ def footprint_of(values: CostmapParameters) -> Footprint:
     """
     Return the shape of the robot that parameters describe.
 
+    Parameters
+    ----------
+    values
+        The parameters; the radius counts if there are no corners.
+
     Raises
     ------
     ConfigurationError
@@ -102,7 +107,17 @@ def footprint_of(values: CostmapParameters) -> Footprint:
 
 
 def grid_of(values: CostmapParameters, default_cost: int) -> Costmap2D:
-    """Return the grid that parameters describe."""
+    """
+    Make the grid that parameters describe.
+
+    Parameters
+    ----------
+    values
+        The parameters: size, resolution and origin.
+    default_cost
+        What all cells cost.
+
+    """
     return Costmap2D(
         round(values.width / values.resolution),
         round(values.height / values.resolution),

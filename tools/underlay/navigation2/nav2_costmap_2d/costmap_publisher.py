@@ -122,11 +122,27 @@ class CostmapPublisher:
         ]
 
     def add(self, region: Region | None) -> None:
-        """Take note of what has changed."""
+        """
+        Add a region to what the next publication contains.
+
+        Parameters
+        ----------
+        region
+            The cells that have changed; None if none has.
+
+        """
         self._region = self._region if region is None else region.union(self._region)
 
     def publish(self, grid: Costmap2D) -> None:
-        """Publish what has changed since the last time."""
+        """
+        Publish what has changed since the last publication.
+
+        Parameters
+        ----------
+        grid
+            The newest costmap; the whole is sent if it has another size or place.
+
+        """
         place = (grid.cells.shape, grid.resolution, grid.origin_x, grid.origin_y)
         is_whole = place != self._place or self._node.settings.always_send_full_costmap
         if place != self._place:
@@ -140,7 +156,15 @@ class CostmapPublisher:
         self._region = None
 
     def publish_footprint(self, robot: Pose2D) -> None:
-        """Publish the outline of the robot in the frame of the costmap."""
+        """
+        Publish the footprint of the robot in the frame of the costmap.
+
+        Parameters
+        ----------
+        robot
+            The pose of the robot in that frame.
+
+        """
         if not self._footprint.get_subscription_count():
             return
         message = PolygonStamped(polygon=make_polygon(transformed(self._node.footprint, *robot)))

@@ -29,7 +29,24 @@ _OUTSIDE = -1.0
 
 
 def square_around(grid: Costmap2D, pose: Pose2D, side_m: float) -> Region:
-    """Return the cells of a square with its middle at a pose."""
+    """
+    Return the cells of a square around a pose.
+
+    Parameters
+    ----------
+    grid
+        The costmap.
+    pose
+        The middle of the square; its sides are parallel to the axes whatever the yaw.
+    side_m
+        The length of a side in m.
+
+    Returns
+    -------
+    Region
+        The cells that the square touches, also beyond the grid.
+
+    """
     half = 0.5 * side_m
     corners = [(pose.x - half, pose.y - half), (pose.x + half, pose.y + half)]
     (x, y), (x_end, y_end) = grid.world_to_map_array(corners).tolist()

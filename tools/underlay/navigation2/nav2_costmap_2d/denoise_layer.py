@@ -80,11 +80,27 @@ class DenoiseLayer(Layer):
         return self._settings.current.enabled
 
     def affected(self, region: Region) -> Region:
-        """Return everything: a change may make a group large that reaches far."""
+        """
+        Extend a changed region to all cells: a change may enlarge a group that reaches far.
+
+        Parameters
+        ----------
+        region
+            Which cells the layers below have changed.
+
+        """
         return Region.whole(self._node.grid)
 
     def apply(self, grid: Costmap2D, region: Region) -> None:
-        """Remove the groups."""
+        """
+        Remove small groups of obstacles, in place.
+
+        Parameters
+        ----------
+        grid, region
+            As for `Layer.apply`.
+
+        """
         values = self._settings.current
         if values.minimal_group_size > 1:
             remove_small_groups(

@@ -43,13 +43,33 @@ class Footprint(NamedTuple):
 
     @classmethod
     def of_points(cls, points: npt.ArrayLike, padding_m: float = 0.0) -> Footprint:
-        """Return the footprint with these (N, 2) corners in m."""
+        """
+        Make the footprint of a polygon.
+
+        Parameters
+        ----------
+        points
+            Corners (N, 2) in m in the base frame, without padding.
+        padding_m
+            How far each corner is moved away from the axes, in m.
+
+        """
         padded = pad(np.asarray(points, float), padding_m)
         return cls(padded, *radii_of(padded), is_circular=False)
 
     @classmethod
     def of_radius(cls, radius_m: float, padding_m: float = 0.0) -> Footprint:
-        """Return the footprint of a circular robot."""
+        """
+        Make the footprint of a circular robot, as a polygon of 16 corners.
+
+        Parameters
+        ----------
+        radius_m
+            The radius in m, without padding.
+        padding_m
+            How far each corner is moved away from the axes, in m.
+
+        """
         padded = pad(make_circle(radius_m), padding_m)
         return cls(padded, *radii_of(padded), is_circular=True)
 
@@ -94,22 +114,61 @@ def parse_footprint(text: str) -> FloatArray:
 
 
 def make_circle(radius_m: float) -> FloatArray:
-    """Return the (16, 2) corners in m of the polygon that stands for a circle."""
+    """
+    Make the polygon that stands for a circle around the origin.
+
+    Parameters
+    ----------
+    radius_m
+        The distance of its corners from the origin, in m.
+
+    Returns
+    -------
+    numpy.ndarray
+        Corners (16, 2) in m, counter-clockwise.
+
+    """
     angles = np.arange(_CIRCLE_POINTS) * (2.0 * math.pi / _CIRCLE_POINTS)
     return radius_m * np.column_stack([np.cos(angles), np.sin(angles)])
 
 
 def pad(points: FloatArray, padding_m: float) -> FloatArray:
-    """Return (N, 2) corners in m, each moved away from the axes of the base frame."""
+    """
+    Move the corners of a footprint away from both axes of the base frame.
+
+    Parameters
+    ----------
+    points
+        Corners (N, 2) in m.
+    padding_m
+        How far along each axis, in m; coordinates that are 0 stay so.
+
+    Returns
+    -------
+    numpy.ndarray
+        New corners (N, 2) in m.
+
+    """
     return points + padding_m * np.sign(np.where(np.abs(points) < 1e-9, 0.0, points))
 
 
 def radii_of(points: FloatArray) -> tuple[float, float]:
     """
-    Return the inscribed and the circumscribed radius in m of (N, 2) corners.
+    Compute the inscribed and the circumscribed radius of a footprint.
 
     The inscribed one is the distance from the base frame's origin to the nearest side; it is the
     distance of every obstacle that the robot hits whatever its heading.
+
+    Parameters
+    ----------
+    points
+        Corners (N, 2) in m in the base frame.
+
+    Returns
+    -------
+    tuple of float
+        Both radii in m; 0 if there are fewer than three corners.
+
     """
     if len(points) < 3:
         return 0.0, 0.0
@@ -121,14 +180,44 @@ def radii_of(points: FloatArray) -> tuple[float, float]:
 
 
 def transformed(points: FloatArray, x: float, y: float, yaw: float) -> FloatArray:
-    """Return (N, 2) points of the base frame in the frame in which its pose is given (m, rad)."""
+    """
+    Transform points of the base frame to the frame in which its pose is given.
+
+    Parameters
+    ----------
+    points
+        Points (..., 2) in m in the base frame.
+    x, y, yaw
+        The pose of the base frame, in m and rad.
+
+    Returns
+    -------
+    numpy.ndarray
+        New points (..., 2) in m.
+
+    """
     cos, sin = math.cos(yaw), math.sin(yaw)
     moved: FloatArray = points @ np.array([[cos, sin], [-sin, cos]]) + (x, y)
     return moved
 
 
 def fill_polygon(grid: Costmap2D, points: FloatArray) -> npt.NDArray[np.bool_]:
-    """Return which cells of a grid, of its shape, are in a polygon of (N, 2) corners in m."""
+    """
+    Find the cells inside a polygon and under its outline.
+
+    Parameters
+    ----------
+    grid
+        Its size and place.
+    points
+        Corners (N, 2) in m in the frame of the grid.
+
+    Returns
+    -------
+    numpy.ndarray
+        Which cells of the grid are covered (rows, columns).
+
+    """
     mask = np.zeros(grid.cells.shape, np.uint8)
     corners = np.clip(grid.world_to_map_array(points), -(1 << 14), 1 << 14)
     cv2.fillPoly(mask, [corners.astype(np.int32)], 1)

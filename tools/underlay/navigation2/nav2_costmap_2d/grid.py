@@ -105,20 +105,54 @@ class Costmap2D:
         return self.with_cells(self.cells.copy())
 
     def with_cells(self, cells: CellArray) -> Costmap2D:
-        """Return a grid at the same place with other costs, which are not copied."""
+        """
+        Return a grid at the same place with other costs.
+
+        Parameters
+        ----------
+        cells
+            The costs (size_y, size_x), which are not copied.
+
+        """
         return Costmap2D(
             self.size_x, self.size_y, self.resolution, self.origin_x, self.origin_y, cells=cells
         )
 
     def world_to_map(self, x: float, y: float) -> tuple[int, int] | None:
-        """Return the column and row of the cell at a point in m; None if that is outside."""
+        """
+        Convert a point to the cell that contains it.
+
+        Parameters
+        ----------
+        x, y
+            The point in m.
+
+        Returns
+        -------
+        tuple of int or None
+            Column and row; None outside of the grid.
+
+        """
         u, v = (x - self.origin_x) / self.resolution, (y - self.origin_y) / self.resolution
         if 0.0 <= u < self.size_x and 0.0 <= v < self.size_y:
             return int(u), int(v)
         return None
 
     def map_to_world(self, mx: int, my: int) -> tuple[float, float]:
-        """Return the centre of a cell in m, given its column and row."""
+        """
+        Convert a cell to its centre.
+
+        Parameters
+        ----------
+        mx, my
+            Column and row, also beyond the grid.
+
+        Returns
+        -------
+        tuple of float
+            x and y in m.
+
+        """
         return (
             self.origin_x + (mx + 0.5) * self.resolution,
             self.origin_y + (my + 0.5) * self.resolution,
@@ -142,12 +176,33 @@ class Costmap2D:
         return np.floor((np.asarray(xy, float) - origin) / self.resolution).astype(np.int64)
 
     def map_to_world_array(self, cells: npt.ArrayLike) -> FloatArray:
-        """Return the (..., 2) centres in m of cells, given as (..., 2) columns and rows."""
+        """
+        Convert cells to their centres.
+
+        Parameters
+        ----------
+        cells
+            Columns and rows (..., 2), also beyond the grid.
+
+        Returns
+        -------
+        numpy.ndarray
+            Points (..., 2): x and y in m.
+
+        """
         origin = (self.origin_x, self.origin_y)
         return (np.asarray(cells, float) + 0.5) * self.resolution + origin
 
     def cost_at(self, x: float, y: float) -> int:
-        """Return the cost at a point in m: LETHAL_OBSTACLE outside."""
+        """
+        Return the cost at a point: LETHAL_OBSTACLE outside.
+
+        Parameters
+        ----------
+        x, y
+            The point in m.
+
+        """
         cell = self.world_to_map(x, y)
         return LETHAL_OBSTACLE if cell is None else int(self.cells[cell[1], cell[0]])
 
@@ -178,7 +233,20 @@ class Costmap2D:
         return found if is_all else np.where(inside, found, np.uint8(outside))
 
     def snapped(self, x: float, y: float) -> tuple[int, int]:
-        """Return how many whole cells, along x and y, the origin is to move towards a point."""
+        """
+        Compute by how many whole cells the origin is to move towards a point.
+
+        Parameters
+        ----------
+        x, y
+            Where the origin should be, in m.
+
+        Returns
+        -------
+        tuple of int
+            Cells along x and y, rounded down.
+
+        """
         return (
             math.floor((x - self.origin_x) / self.resolution),
             math.floor((y - self.origin_y) / self.resolution),

@@ -71,7 +71,15 @@ class Inflation:
     """Whether unknown cells count as obstacles."""
 
     def reach(self, resolution: float) -> int:
-        """Return how many cells around an obstacle are inflated."""
+        """
+        Convert the inflation radius to cells, rounded up.
+
+        Parameters
+        ----------
+        resolution
+            The side of a cell in m.
+
+        """
         return math.ceil(self.inflation_radius_m / resolution - 1e-9)
 
     def apply(self, grid: Costmap2D, region: Region) -> None:

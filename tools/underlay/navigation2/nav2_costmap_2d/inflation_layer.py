@@ -71,15 +71,44 @@ class InflationLayer(Layer):
         return self._settings.current.inflation_radius
 
     def set_footprint(self, footprint: Footprint) -> None:
-        """Take the distance at which the robot collides."""
+        """
+        Take the inscribed radius, up to which the robot collides.
+
+        Parameters
+        ----------
+        footprint
+            The new shape of the robot.
+
+        """
         self._inscribed_radius_m = footprint.inscribed_radius_m
 
     def affected(self, region: Region) -> Region:
-        """Return the cells that may be inflated because of others."""
+        """
+        Extend a changed region by the inflation radius.
+
+        Parameters
+        ----------
+        region
+            Which cells the layers below have changed.
+
+        Returns
+        -------
+        Region
+            The cells whose inflation depends on the region, perhaps beyond the grid.
+
+        """
         return region.grown(self._inflation().reach(self._node.grid.resolution))
 
     def apply(self, grid: Costmap2D, region: Region) -> None:
-        """Raise the costs."""
+        """
+        Raise the costs around obstacles, in place.
+
+        Parameters
+        ----------
+        grid, region
+            As for `Layer.apply`.
+
+        """
         self._inflation().apply(grid, region)
 
     def _inflation(self) -> Inflation:

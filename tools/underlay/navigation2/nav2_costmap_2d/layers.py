@@ -31,12 +31,33 @@ class Region(NamedTuple):
 
     @classmethod
     def whole(cls, grid: Costmap2D) -> Region:
-        """Return all cells of a grid."""
+        """
+        Return the region of all cells of a grid.
+
+        Parameters
+        ----------
+        grid
+            Only its size counts.
+
+        """
         return cls(0, 0, grid.size_x, grid.size_y)
 
     @classmethod
     def of_mask(cls, mask: npt.NDArray[np.bool_]) -> Region | None:
-        """Return the smallest region with all cells that are set; None without one."""
+        """
+        Return the smallest region with all cells that are set.
+
+        Parameters
+        ----------
+        mask
+            Which cells are set (rows, columns).
+
+        Returns
+        -------
+        Region or None
+            None if no cell is set.
+
+        """
         rows = mask.any(axis=1).nonzero()[0]
         if not len(rows):
             return None
@@ -49,7 +70,15 @@ class Region(NamedTuple):
         return slice(self.y, self.y_end), slice(self.x, self.x_end)
 
     def union(self, other: Region | None) -> Region:
-        """Return the smallest region with both."""
+        """
+        Return the smallest region that contains both.
+
+        Parameters
+        ----------
+        other
+            The other one; None for nothing.
+
+        """
         if other is None:
             return self
         return Region(
@@ -60,11 +89,32 @@ class Region(NamedTuple):
         )
 
     def grown(self, cells: int) -> Region:
-        """Return a region that is wider by so many cells on each side."""
+        """
+        Return the region with a margin, perhaps beyond the grid.
+
+        Parameters
+        ----------
+        cells
+            The width of the margin on each side.
+
+        """
         return Region(self.x - cells, self.y - cells, self.x_end + cells, self.y_end + cells)
 
     def clipped(self, grid: Costmap2D) -> Region | None:
-        """Return what of the region is in a grid; None if nothing is."""
+        """
+        Return the part of the region that is in a grid.
+
+        Parameters
+        ----------
+        grid
+            Only its size counts.
+
+        Returns
+        -------
+        Region or None
+            None if nothing is in it.
+
+        """
         found = Region(
             max(self.x, 0),
             max(self.y, 0),
@@ -94,12 +144,32 @@ def write_maximum(cells: CellArray, added: CellArray, *, keep_unknown: bool = Fa
 
 
 def write_over(cells: CellArray, added: CellArray) -> None:
-    """Replace costs, in place, where the others are not NO_INFORMATION."""
+    """
+    Replace costs by others that are known, in place.
+
+    Parameters
+    ----------
+    cells, added
+        Costs of the same shape; where `added` is NO_INFORMATION nothing changes.
+
+    """
     np.copyto(cells, added, where=added != NO_INFORMATION)
 
 
 def forget_cells(grid: Costmap2D, region: Region, is_inverted: bool) -> None:
-    """Set the costs in a region, or in all but that, to NO_INFORMATION, in place."""
+    """
+    Set costs to NO_INFORMATION, in place.
+
+    Parameters
+    ----------
+    grid
+        The grid that is changed.
+    region
+        The cells to forget, perhaps beyond the grid.
+    is_inverted
+        Whether all but the region is forgotten.
+
+    """
     inside = region.clipped(grid)
     if inside is None:
         if is_inverted:
@@ -141,10 +211,26 @@ class Layer:
         return True
 
     def match(self, grid: Costmap2D) -> None:
-        """Take the size and the place of the costmap, which have changed."""
+        """
+        Take another size or place of the costmap.
+
+        Parameters
+        ----------
+        grid
+            The new costmap; its costs do not count.
+
+        """
 
     def set_footprint(self, footprint: Footprint) -> None:
-        """Take the shape of the robot, which has changed."""
+        """
+        Take another shape of the robot.
+
+        Parameters
+        ----------
+        footprint
+            The new shape, with padding.
+
+        """
 
     def update(self, grid: Costmap2D, robot: Pose2D | None) -> Region | None:
         """
@@ -165,18 +251,64 @@ class Layer:
         return None
 
     def affected(self, region: Region) -> Region:
-        """Return which cells depend on those that layers below have changed."""
+        """
+        Extend a changed region to all cells that depend on it.
+
+        Parameters
+        ----------
+        region
+            The cells that layers below have changed.
+
+        Returns
+        -------
+        Region
+            The cells that have to be made anew, perhaps beyond the grid.
+
+        """
         return region
 
     def apply(self, grid: Costmap2D, region: Region) -> None:
-        """Write the layer into a region of the costmap, which has the layers below."""
+        """
+        Write the layer into a region of the costmap, in place.
+
+        Parameters
+        ----------
+        grid
+            The costmap, to which the layers below have been applied.
+        region
+            The cells to write.
+
+        """
 
     def costs(self, grid: Costmap2D) -> Costmap2D | None:
-        """Return what the layer itself says, of the size of the costmap; None if it has no say."""
+        """
+        Return the costs of the layer itself.
+
+        Parameters
+        ----------
+        grid
+            The costmap, for its size and place.
+
+        Returns
+        -------
+        Costmap2D or None
+            A grid of that size; None for a layer without costs of its own.
+
+        """
         return None
 
     def clear(self, region: Region | None, *, is_inverted: bool = False) -> None:
-        """Forget a region, or all but that; without a region everything."""
+        """
+        Forget what sensors have seen.
+
+        Parameters
+        ----------
+        region
+            The cells to forget; None for everything.
+        is_inverted
+            Whether all but the region is forgotten.
+
+        """
 
 
 class LayeredCostmap:
@@ -211,7 +343,15 @@ class LayeredCostmap:
         return [*self.layers, *self.filters]
 
     def resize(self, grid: Costmap2D) -> None:
-        """Take another size or place; the costs come with the next update."""
+        """
+        Take another size or place; the costs come with the next update.
+
+        Parameters
+        ----------
+        grid
+            The new costmap, which stands until then.
+
+        """
         self.grid = self._below_filters = grid
         for layer in self.everything:
             layer.match(grid)
@@ -222,7 +362,17 @@ class LayeredCostmap:
         self._is_stale = True
 
     def clear(self, region_of: Callable[[Costmap2D], Region] | None, is_inverted: bool) -> None:
-        """Forget what sensors have seen, in a region of the costmap, or in all but that."""
+        """
+        Forget what sensors have seen, in all layers that are clearable.
+
+        Parameters
+        ----------
+        region_of
+            Returns the region of a costmap; None for everything.
+        is_inverted
+            Whether all but the region is forgotten.
+
+        """
         region = None if region_of is None else region_of(self.grid)
         for layer in self.layers:
             if layer.is_clearable:

@@ -100,7 +100,15 @@ class ObstacleLayer(Layer):
         return all(source.is_current for source in self._sources)
 
     def match(self, grid: Costmap2D) -> None:
-        """Take another size, or move along with the costmap."""
+        """
+        Move what was seen along with the costmap; a costmap of another size starts empty.
+
+        Parameters
+        ----------
+        grid
+            As for `Layer.match`.
+
+        """
         old = self._grid
         if old.cells.shape == grid.cells.shape and old.resolution == grid.resolution:
             dx = round((grid.origin_x - old.origin_x) / grid.resolution)
@@ -113,7 +121,15 @@ class ObstacleLayer(Layer):
         self._is_stale = True
 
     def clear(self, region: Region | None, *, is_inverted: bool = False) -> None:
-        """Forget what was seen; what the newest messages say comes back with the next update."""
+        """
+        Forget what was seen; what the newest messages say comes back with the next update.
+
+        Parameters
+        ----------
+        region, is_inverted
+            As for `Layer.clear`.
+
+        """
         if region is None:
             self._grid.cells[...] = self._default
         else:
@@ -121,7 +137,20 @@ class ObstacleLayer(Layer):
         self._is_stale = True
 
     def update(self, grid: Costmap2D, robot: Pose2D | None) -> Region | None:
-        """Take the newest messages, and free the cells below the robot."""
+        """
+        Take the newest messages, and free the cells below the robot.
+
+        Parameters
+        ----------
+        grid, robot
+            As for `Layer.update`.
+
+        Returns
+        -------
+        Region or None
+            The cells that have changed; None if there are none.
+
+        """
         refreshed = [source.refresh() for source in self._sources]
         is_new = any(refreshed) or self._is_stale
         if not is_new and (robot is None or robot == self._robot):
@@ -136,7 +165,15 @@ class ObstacleLayer(Layer):
         return Region.of_mask(before != self._grid.cells)
 
     def apply(self, grid: Costmap2D, region: Region) -> None:
-        """Join what was seen and the layers below."""
+        """
+        Combine what was seen with the layers below by `combination_method`, in place.
+
+        Parameters
+        ----------
+        grid, region
+            As for `Layer.apply`.
+
+        """
         cells: CellArray = grid.cells[region.slices]
         seen = self._grid.cells[region.slices]
         method = self._settings.current.combination_method
@@ -146,7 +183,15 @@ class ObstacleLayer(Layer):
             write_maximum(cells, seen, keep_unknown=method == _MAXIMUM_OF_KNOWN)
 
     def costs(self, grid: Costmap2D) -> Costmap2D:
-        """Return what was seen."""
+        """
+        Return the costs of what was seen; later updates change the same grid.
+
+        Parameters
+        ----------
+        grid
+            Not used: the layer keeps a grid of the same size.
+
+        """
         return self._grid
 
     def _observe(self) -> None:
@@ -181,6 +226,12 @@ class VoxelLayer(ObstacleLayer):
 
     The voxels themselves are not kept: rays clear whole columns, and `mark_threshold` counts the
     points of a message in a column.
+
+    Parameters
+    ----------
+    node, name
+        As for `ObstacleLayer`.
+
     """
 
     parameters_kind = VoxelParameters

@@ -144,7 +144,15 @@ class RangeSensorLayer(Layer):
         return limit_s <= 0.0 or now_s(self._node) - self._last_s <= limit_s
 
     def match(self, grid: Costmap2D) -> None:
-        """Take another size, or move along with the costmap."""
+        """
+        Move the probabilities along with the costmap; a costmap of another size starts anew.
+
+        Parameters
+        ----------
+        grid
+            As for `Layer.match`.
+
+        """
         old, self._grid = self._grid, grid.with_cells(np.zeros_like(grid.cells))
         odds = np.zeros(grid.cells.shape)
         if old.cells.shape == grid.cells.shape and old.resolution == grid.resolution:
@@ -154,7 +162,15 @@ class RangeSensorLayer(Layer):
         self._odds = odds
 
     def clear(self, region: Region | None, *, is_inverted: bool = False) -> None:
-        """Forget what was seen."""
+        """
+        Reset probabilities to undecided.
+
+        Parameters
+        ----------
+        region, is_inverted
+            As for `Layer.clear`.
+
+        """
         kept = Region.whole(self._grid) if region is None else region.clipped(self._grid)
         left = None if kept is None else self._odds[kept.slices].copy()
         if is_inverted:
@@ -163,7 +179,20 @@ class RangeSensorLayer(Layer):
             self._odds[kept.slices] = left if is_inverted else 0.0
 
     def update(self, grid: Costmap2D, robot: Pose2D | None) -> Region | None:
-        """Take the newest messages."""
+        """
+        Update the probabilities with the newest messages.
+
+        Parameters
+        ----------
+        grid, robot
+            As for `Layer.update`; neither is used.
+
+        Returns
+        -------
+        Region or None
+            The cells whose probability has changed; None if there are none.
+
+        """
         region: Region | None = None
         waiting, self._waiting = self._waiting, []
         for message in waiting:
@@ -172,7 +201,15 @@ class RangeSensorLayer(Layer):
         return region
 
     def apply(self, grid: Costmap2D, region: Region) -> None:
-        """Write what is probable enough."""
+        """
+        Raise the costs where cells are probably free or occupied, in place.
+
+        Parameters
+        ----------
+        grid, region
+            As for `Layer.apply`.
+
+        """
         values = self._settings.current
         probabilities = 1.0 / (1.0 + np.exp(-self._odds[region.slices]))
         costs: CellArray = np.full(probabilities.shape, NO_INFORMATION, np.uint8)
@@ -181,7 +218,15 @@ class RangeSensorLayer(Layer):
         write_maximum(grid.cells[region.slices], costs)
 
     def costs(self, grid: Costmap2D) -> Costmap2D:
-        """Return what is probable enough."""
+        """
+        Return the costs where probabilities are decided; the rest is NO_INFORMATION.
+
+        Parameters
+        ----------
+        grid
+            As for `Layer.costs`.
+
+        """
         found = grid.with_cells(np.full_like(grid.cells, NO_INFORMATION))
         self.apply(found, Region.whole(found))
         return found

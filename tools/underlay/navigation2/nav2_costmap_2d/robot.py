@@ -52,7 +52,15 @@ class Robot:
             self._node.create_subscription(Polygon, 'footprint', self._take, 10)
 
     def set_shape(self, shape: Footprint) -> None:
-        """Take another shape."""
+        """
+        Take another shape; `on_change` is called if it differs.
+
+        Parameters
+        ----------
+        shape
+            The footprint with padding, in the base frame.
+
+        """
         old, self.shape = self.shape, shape
         is_same = (
             shape.is_circular == old.is_circular

@@ -65,7 +65,17 @@ def scan_points(
 
 def cloud_points(cloud: PointCloud2) -> FloatArray:
     """
-    Return the (N, 3) finite points of a cloud in m, in the frame of the sensor.
+    Extract the finite points of a cloud.
+
+    Parameters
+    ----------
+    cloud
+        A cloud in m, with fields x, y and z of any numeric type.
+
+    Returns
+    -------
+    numpy.ndarray
+        Points (N, 3) in m, in the frame of the sensor.
 
     Raises
     ------
@@ -100,7 +110,20 @@ def cloud_points(cloud: PointCloud2) -> FloatArray:
 
 
 def rotation_of(transform: Transform) -> FloatArray:
-    """Return the (3, 3) rotation of a transform."""
+    """
+    Convert the rotation of a transform to a matrix.
+
+    Parameters
+    ----------
+    transform
+        The transform; its quaternion need not be normalised.
+
+    Returns
+    -------
+    numpy.ndarray
+        Rotation (3, 3), from the child frame to the parent frame.
+
+    """
     q = transform.rotation
     x, y, z, w = q.x, q.y, q.z, q.w
     scale = 2.0 / max(x * x + y * y + z * z + w * w, 1e-12)

@@ -108,7 +108,20 @@ class StaticLayer(Layer):
         return self._map is not None
 
     def update(self, grid: Costmap2D, robot: Pose2D | None) -> Region | None:
-        """Return where the map is new, or the robot stands on it."""
+        """
+        Find where the map is new, or where cells below the robot are to be freed.
+
+        Parameters
+        ----------
+        grid, robot
+            As for `Layer.update`.
+
+        Returns
+        -------
+        Region or None
+            The cells to be made anew, perhaps beyond the grid; None if nothing has changed.
+
+        """
         if self._map is None:
             return None
         region, self._changed = self._changed, None
@@ -124,7 +137,15 @@ class StaticLayer(Layer):
         return region
 
     def apply(self, grid: Costmap2D, region: Region) -> None:
-        """Write the map into the costmap."""
+        """
+        Write the map into the costmap, in place.
+
+        Parameters
+        ----------
+        grid, region
+            As for `Layer.apply`.
+
+        """
         if self._map is None:
             return
         cells = grid.cells[region.slices]
@@ -147,7 +168,15 @@ class StaticLayer(Layer):
             self._clear_footprint(grid, region)
 
     def costs(self, grid: Costmap2D) -> Costmap2D:
-        """Return the map in the place of the costmap."""
+        """
+        Return the map in the place of the costmap; NO_INFORMATION where there is none.
+
+        Parameters
+        ----------
+        grid
+            As for `Layer.costs`.
+
+        """
         found = grid.with_cells(np.full_like(grid.cells, NO_INFORMATION))
         self.apply(found, Region.whole(found))
         return found

@@ -35,6 +35,17 @@ class GracefulController(Controller):
 
     Source: J. J. Park, B. Kuipers, A Smooth Control Law for Graceful Motion of Differential
     Wheeled Mobile Robots in 2D Environment, ICRA 2011.
+
+    Parameters
+    ----------
+    context
+        The name of the plugin, such as FollowPath, and where its parameters are declared.
+
+    Raises
+    ------
+    ConfigurationError
+        `initial_rotation` and `allow_backward` are both true.
+
     """
 
     def __init__(self, context: PluginContext) -> None:
@@ -52,12 +63,40 @@ class GracefulController(Controller):
             )
 
     def new_plan(self, *, is_new_goal: bool) -> None:
-        """Follow another path from now on."""
+        """
+        Follow another path from now on.
+
+        Parameters
+        ----------
+        is_new_goal
+            Whether the path leads to another goal, to which the robot may first turn in place;
+            otherwise it is a new path to the same goal.
+
+        """
         if is_new_goal:
             self._has_set_off = self._is_at_goal = False
 
     def compute(self, state: ControlState) -> Command:
-        """Compute the velocity for the next period."""
+        """
+        Compute the velocity command along a smooth arc to a pose of the path.
+
+        Parameters
+        ----------
+        state
+            The robot, its path and the costmap in this control period.
+
+        Returns
+        -------
+        Command
+            The velocity in the base frame (m/s, rad/s), and what to display.
+
+        Raises
+        ------
+        NoValidControl
+            The robot would hit an obstacle on all arcs to poses within the lookahead distance, or
+            when it turns in place.
+
+        """
         p = self._parameters.current
         ratio = self.limit_ratio(p.v_linear_max)
         self._is_at_goal |= state.goal_distance_m <= state.xy_tolerance_m and (

@@ -63,7 +63,25 @@ class ManagedNode:
         return bool(self._get.service_is_ready() and self._change.service_is_ready())
 
     async def state(self, timeout_s: float | None = None) -> int:
-        """Return its state, a constant of `lifecycle_msgs/State`; ServiceError without answer."""
+        """
+        Query the lifecycle state of the node, repeating a request that gets lost.
+
+        Parameters
+        ----------
+        timeout_s
+            How long the answer may take, in s; by default as long as the class says.
+
+        Returns
+        -------
+        int
+            A constant of `lifecycle_msgs/msg/State`, such as `PRIMARY_STATE_ACTIVE`.
+
+        Raises
+        ------
+        ServiceError
+            There was no answer in time.
+
+        """
         all_s = left_s = timeout_s or self._timeout_s
         while left_s > 0.0:
             try:
@@ -76,7 +94,15 @@ class ManagedNode:
         raise ServiceError(f"'{self.name}' has not told its state within {all_s:g} s.")
 
     async def answers(self, timeout_s: float) -> bool:
-        """Return whether it tells its state within a time in s, and takes requests to change."""
+        """
+        Whether the node tells its state in time, and accepts requests for transitions.
+
+        Parameters
+        ----------
+        timeout_s
+            How long it may take to tell its state, in s.
+
+        """
         try:
             await self.state(timeout_s)
         except ServiceError:
@@ -85,7 +111,12 @@ class ManagedNode:
 
     async def change(self, transition: int) -> None:
         """
-        Let it go through a transition.
+        Trigger a lifecycle transition, and wait until the node has gone through it.
+
+        Parameters
+        ----------
+        transition
+            A constant of `lifecycle_msgs/msg/Transition`, one of those in `WORDS`.
 
         Raises
         ------

@@ -47,16 +47,43 @@ class LoopbackRobot:
         return None if self.map_to_odom is None else self.map_to_odom @ self.odom
 
     def place(self, pose: Pose2D) -> None:
-        """Put the robot at a pose in the map; odometry goes on, as if it were carried."""
+        """
+        Place the robot at a pose in the map.
+
+        Only the transform from map to odom changes: odometry goes on, as if the robot were
+        carried.
+
+        Parameters
+        ----------
+        pose
+            The base in the map frame (m, rad).
+
+        """
         self.map_to_odom = pose @ self.odom.inverse()
 
     def command(self, velocity: Velocity) -> None:
-        """Move with a velocity from now on; ignored until the robot was placed."""
+        """
+        Set the velocity command; it is ignored until the robot was placed.
+
+        Parameters
+        ----------
+        velocity
+            The velocity in the base frame (m/s, rad/s), which holds for `timeout_s` of the class.
+
+        """
         if self.map_to_odom is not None:
             self._command, self._left_s = velocity, self._timeout_s
 
     def step(self, duration_s: float) -> None:
-        """Move on for some time."""
+        """
+        Advance the robot by a time step, along the arc of its velocity.
+
+        Parameters
+        ----------
+        duration_s
+            The time step in s, also counted against the timeout of the command.
+
+        """
         velocity = self.velocity
         self._left_s = max(self._left_s - duration_s, 0.0)
         if not velocity.is_zero:

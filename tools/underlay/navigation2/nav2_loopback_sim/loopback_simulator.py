@@ -45,6 +45,14 @@ class LoopbackSimulator(Node):
 
     It takes `cmd_vel` and `initialpose`, and publishes `odom`, `scan`, `/clock` and transforms.
     It stands still until the first initial pose. The map comes from `map_server/map`.
+
+    Parameters
+    ----------
+    node_name
+        Its name, unless it is remapped.
+    **options
+        The further keyword arguments of `rclpy.node.Node`.
+
     """
 
     def __init__(self, node_name: str = 'loopback_simulator', **options: Any) -> None:

@@ -56,7 +56,15 @@ class SimulatedLaser:
         return self._caster is not None
 
     def set_map(self, grid: OccupancyMap) -> None:
-        """See a map."""
+        """
+        Set the map whose occupied cells the beams hit.
+
+        Parameters
+        ----------
+        grid
+            The map; its frame is that of the poses given to `scan`.
+
+        """
         self._caster = RayCaster(grid)
 
     def scan(self, pose: Pose2D | None) -> FloatArray:

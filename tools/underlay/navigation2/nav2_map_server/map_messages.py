@@ -16,7 +16,17 @@ __all__ = ['make_grid', 'map_from', 'path_of']
 
 
 def make_grid(found: OccupancyMap, frame: str, stamp: Time) -> OccupancyGrid:
-    """Return the message of a map in a frame."""
+    """
+    Convert a map to an `OccupancyGrid` message.
+
+    Parameters
+    ----------
+    found
+        The map.
+    frame, stamp
+        The header of the message; the stamp is its `map_load_time`, too.
+
+    """
     message = OccupancyGrid()
     message.header.frame_id, message.header.stamp = frame, stamp
     info = message.info
@@ -29,7 +39,12 @@ def make_grid(found: OccupancyMap, frame: str, stamp: Time) -> OccupancyGrid:
 
 def map_from(message: OccupancyGrid) -> OccupancyMap:
     """
-    Return the map in a message.
+    Convert an `OccupancyGrid` message to a map.
+
+    Parameters
+    ----------
+    message
+        The map in cells of -1 and 0 to 100; of its origin, x, y and yaw count.
 
     Raises
     ------

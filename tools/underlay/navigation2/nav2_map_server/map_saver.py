@@ -72,7 +72,14 @@ class MapSaver(LifecycleNode):
 
     async def save(self, options: SaveOptions) -> None:
         """
-        Wait for a map, and write it.
+        Wait for a map on a topic, and write it to files.
+
+        The parameter `save_map_timeout` is how long to wait, in s.
+
+        Parameters
+        ----------
+        options
+            The topic, the path of the files, their format, and the thresholds.
 
         Raises
         ------

@@ -75,12 +75,39 @@ class MPPIController(Controller):
         self._last_s: float | None = None
 
     def new_plan(self, *, is_new_goal: bool) -> None:
-        """Follow another path from now on."""
+        """
+        Follow another path from now on.
+
+        Parameters
+        ----------
+        is_new_goal
+            Whether the path leads to another goal, so that the optimizer starts anew; otherwise it
+            is a new path to the same goal.
+
+        """
         if is_new_goal:
             self._optimizer.reset()
 
     def compute(self, state: ControlState) -> Command:
-        """Compute the velocity for the next period."""
+        """
+        Compute the velocity command by model predictive path integral (MPPI) control.
+
+        Parameters
+        ----------
+        state
+            The robot, its path and the costmap in this control period.
+
+        Returns
+        -------
+        Command
+            The velocity in the base frame (m/s, rad/s), and what to display.
+
+        Raises
+        ------
+        NoValidControl
+            All trajectories collide.
+
+        """
         p = self._parameters.current
         if self._last_s is not None and state.now_s - self._last_s > p.reset_period:
             self._optimizer.reset()

@@ -140,7 +140,24 @@ class DeadbandParameters(CriticParameters):
 
 
 def powered(cost: Floats, parameters: CriticParameters, weight: float | None = None) -> Floats:
-    """Return what a cost contributes, by the weight and the power of its critic."""
+    """
+    Weight the cost of a critic, and raise it to the critic's power.
+
+    Parameters
+    ----------
+    cost
+        (K,) cost of each trajectory, in the unit of the critic.
+    parameters : CriticParameters
+        The parameters of the critic.
+    weight
+        A weight in place of `cost_weight`.
+
+    Returns
+    -------
+    Floats
+        (K,) what each trajectory costs: (weight * cost) ** `cost_power`.
+
+    """
     weighted: Floats = cost * np.float32(parameters.cost_weight if weight is None else weight)
     if parameters.cost_power != 1:
         weighted = np.power(weighted, parameters.cost_power)
@@ -148,7 +165,18 @@ def powered(cost: Floats, parameters: CriticParameters, weight: float | None = N
 
 
 class Critic:
-    """The base of critics: what each trajectory costs."""
+    """
+    The base of critics: what each trajectory costs.
+
+    Subclasses override `_costs`, and set `kind` to the dataclass of their parameters.
+
+    Parameters
+    ----------
+    context
+        The name of the critic, such as FollowPath.GoalCritic, and where its parameters are
+        declared.
+
+    """
 
     kind: type[Any] = CriticParameters
 
@@ -156,7 +184,20 @@ class Critic:
         self._set = context.declare(self.kind)
 
     def costs(self, scene: Scene) -> Floats | None:
-        """Return (K,) costs; None if this critic has nothing to say now."""
+        """
+        Score the trajectories of one round of optimization.
+
+        Parameters
+        ----------
+        scene
+            The trajectories, the path and the costmap.
+
+        Returns
+        -------
+        Floats or None
+            (K,) costs; None if the critic is disabled, or does not apply now.
+
+        """
         current = self._set.current
         return self._costs(scene, current) if current.enabled else None
 

@@ -35,7 +35,7 @@ class Trajectories:
 
 class Noise:
     """
-    What is added to the controls: drawn once, and taken from other places each time.
+    What is added to the controls: drawn once; `regenerate_noises` takes other parts each time.
 
     Parameters
     ----------
@@ -50,7 +50,21 @@ class Noise:
         self._starts = [0, 0, 0]
 
     def sample(self, settings: MppiParameters) -> Floats:
-        """Return (3, K, T) noise; the same again unless each period has other noise."""
+        """
+        Sample Gaussian noise for the controls.
+
+        Parameters
+        ----------
+        settings
+            The batch size, the time steps, the standard deviations and `regenerate_noises`.
+
+        Returns
+        -------
+        Floats
+            (3, K, T) noise of vx, vy in m/s, wz in rad/s; vy is 0 unless the motion model is Omni.
+            It is the same each time unless `regenerate_noises` is true.
+
+        """
         p = settings
         stds = (p.vx_std, p.vy_std if p.motion_model == 'Omni' else 0.0, p.wz_std)
         count = p.batch_size * p.time_steps
@@ -178,7 +192,22 @@ def weighted_mean(
 
 
 def smoothed(best: Floats, history: Floats) -> Floats:
-    """Return (3, T) controls without jitter; (3, 4) controls were sent before."""
+    """
+    Smooth a sequence of controls by a Savitzky-Golay filter of order 2 over 9 points.
+
+    Parameters
+    ----------
+    best
+        (3, T) controls vx, vy in m/s, wz in rad/s; fewer than 9 stay as they are.
+    history
+        (3, 4) controls that were sent before, the oldest first.
+
+    Returns
+    -------
+    Floats
+        (3, T) controls.
+
+    """
     if best.shape[1] < 9:
         return best
     ends = np.repeat(best[:, -1:], 4, axis=1)

@@ -71,7 +71,15 @@ class ObstaclesParameters(CriticParameters):
 
 
 class CostCritic(Critic):
-    """Scores the costs of the costmap along trajectories."""
+    """
+    Scores the costs of the costmap along trajectories.
+
+    Parameters
+    ----------
+    context
+        As for `Critic`.
+
+    """
 
     kind = CostParameters
 
@@ -95,7 +103,15 @@ class CostCritic(Critic):
 
 
 class ObstaclesCritic(Critic):
-    """Scores the distance to obstacles along trajectories, as it follows from costs."""
+    """
+    Scores the distance to obstacles along trajectories, as it follows from costs.
+
+    Parameters
+    ----------
+    context
+        As for `Critic`.
+
+    """
 
     kind = ObstaclesParameters
 

@@ -73,13 +73,39 @@ class Scene:
         return blocked
 
     def first_free(self, index: int) -> int:
-        """Return the first pose of the path from one on that no obstacle covers."""
+        """
+        Find the first pose of the path, from an index on, that no obstacle covers.
+
+        Parameters
+        ----------
+        index
+            The pose to begin with; beyond the end of the path, it is the last one.
+
+        Returns
+        -------
+        int
+            The index in `path`; that of the last pose if obstacles cover all.
+
+        """
         index = min(index, len(self.path) - 1)
         free = np.flatnonzero(~self.path_blocked[index:])
         return index + int(free[0]) if len(free) else len(self.path) - 1
 
     def costs(self, step: int) -> npt.NDArray[np.uint8]:
-        """Return the (K, ceil(T / step)) costs at the trajectories; 255 off the costmap."""
+        """
+        Look up the costs of the costmap along the trajectories.
+
+        Parameters
+        ----------
+        step
+            One in how many points of a trajectory counts.
+
+        Returns
+        -------
+        numpy.ndarray
+            (K, ceil(T / step)) costs from 0 to 255; 255 off the costmap.
+
+        """
         grid = self.state.surroundings.grid
         scale = np.float32(1.0 / grid.resolution)
         u = (self.trajectories.x[:, ::step] - np.float32(grid.origin_x)) * scale

@@ -40,7 +40,15 @@ class NavfnParameters:
 
 
 class NavfnPlanner(GlobalPlanner):
-    """Plans the cheapest path through the costmap, with rounded corners."""
+    """
+    Plans the cheapest path through the costmap, with rounded corners.
+
+    Parameters
+    ----------
+    node, name, costmap
+        As for `GlobalPlanner`: the planner server, the planner's name and the global costmap.
+
+    """
 
     def __init__(self, node: LifecycleNode, name: str, costmap: Costmap2DROS) -> None:
         super().__init__(node, name, costmap)
@@ -50,7 +58,25 @@ class NavfnPlanner(GlobalPlanner):
     def create_plan(
         self, start: Pose2D, goal: Pose2D
     ) -> Generator[None, None, npt.NDArray[np.float64]]:
-        """Plan a path; see `GlobalPlanner`."""
+        """
+        Plan the cheapest path, in steps as `GlobalPlanner.create_plan` says.
+
+        Parameters
+        ----------
+        start, goal
+            Poses in the frame of the costmap.
+
+        Returns
+        -------
+        numpy.ndarray
+            (N, 3) poses: x and y in m, yaw in rad.
+
+        Raises
+        ------
+        PlanningError
+            There is no path.
+
+        """
         values = self._parameters.current
         table = weight_table(_TRAVERSAL, allow_unknown=values.allow_unknown)
         grid = self.costmap.grid

@@ -49,7 +49,21 @@ class BlockGraph:
     )
 
     def costs_from(self, cell: Cell) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
-        """Return the cost from a cell to each node, and the node before each on its way."""
+        """
+        Compute the costs of the cheapest ways from a cell to all nodes; the newest three are kept.
+
+        Parameters
+        ----------
+        cell
+            Row and column of a cell that has a node.
+
+        Returns
+        -------
+        tuple
+            (nodes,) cost to each node in cells times weights, infinite where no way leads there;
+            and (nodes,) the node before each on its way, negative at the node of the cell itself.
+
+        """
         node = int(self.nodes[cell])
         if node not in self._known:
             while len(self._known) > 2:

@@ -68,7 +68,20 @@ class CostToGo:
     successors: npt.NDArray[np.int32]
 
     def index_of(self, cell: Cell) -> int:
-        """Return the index of a cell, or -1 if it is not in the part that was searched."""
+        """
+        Look up the index of a cell.
+
+        Parameters
+        ----------
+        cell
+            Row and column in the grid.
+
+        Returns
+        -------
+        int
+            The index in `costs`; -1 if the cell is not in the part that was searched.
+
+        """
         row, column = cell[0] - self.origin[0], cell[1] - self.origin[1]
         rows, columns = self.ids.shape
         if not (0 <= row < rows and 0 <= column < columns):
@@ -76,12 +89,38 @@ class CostToGo:
         return int(self.ids[row, column])
 
     def cost_from(self, cell: Cell) -> float:
-        """Return the cost from a cell to the goal, infinite if no way is known."""
+        """
+        Look up the cost of the cheapest way from a cell to the goal.
+
+        Parameters
+        ----------
+        cell
+            Row and column in the grid.
+
+        Returns
+        -------
+        float
+            The cost in cells times weights; infinite if no way is known.
+
+        """
         index = self.index_of(cell)
         return math.inf if index < 0 else float(self.costs[index])
 
     def path_from(self, cell: Cell) -> npt.NDArray[np.int32]:
-        """Return the (M, 2) rows and columns of the way from a cell to the goal, inclusive."""
+        """
+        Follow the cheapest way from a cell to the goal.
+
+        Parameters
+        ----------
+        cell
+            Row and column in the grid, of finite cost; without one, the result has no way.
+
+        Returns
+        -------
+        numpy.ndarray
+            (M, 2) rows and columns from the cell to the goal, both inclusive.
+
+        """
         index, way = self.index_of(cell), []
         while index >= 0:
             way.append(index)
@@ -139,7 +178,23 @@ def cost_to_go(
 
 
 def way_cost(weights: FloatGrid, way: npt.NDArray[np.int32]) -> float:
-    """Return what `cost_to_go` says of a way, (N, 2) rows and columns, each beside the next."""
+    """
+    Compute the cost of a way from cell to cell, as `cost_to_go` counts it.
+
+    Parameters
+    ----------
+    weights
+        As for `cost_to_go`.
+    way
+        (N, 2) rows and columns, each a neighbour of the next.
+
+    Returns
+    -------
+    float
+        The cost in cells times weights; infinite if the way passes a cell of infinite weight, or
+        cuts its corner.
+
+    """
     begin, end = way[:-1], way[1:]
     passed = [
         weights[begin[:, 0], begin[:, 1]],

@@ -83,7 +83,20 @@ class SearchGrid:
         return self._blocks
 
     def region_of(self, cell: Cell) -> MaskGrid:
-        """Return the cells that can be reached from a free cell."""
+        """
+        Find the cells that are connected to a free cell.
+
+        Parameters
+        ----------
+        cell
+            Row and column of a free cell.
+
+        Returns
+        -------
+        MaskGrid
+            (rows, columns) mask, which is kept: do not change it.
+
+        """
         number = int(self.regions[cell])
         if number not in self._masks:
             self._masks[number] = self.regions == number
@@ -144,7 +157,20 @@ class GridSearch:
         self._kept: _Kept | None = None
 
     def grid_of(self, weights: FloatGrid) -> SearchGrid:
-        """Return a grid of weights, with what is known of it if it is the last one."""
+        """
+        Prepare a grid of weights for `way`.
+
+        Parameters
+        ----------
+        weights
+            (rows, columns) cost of a cell's length in a cell; infinite: no way.
+
+        Returns
+        -------
+        SearchGrid
+            The grid of the last call, with what was computed of it, if the weights are the same.
+
+        """
         if self._grid is None or not np.array_equal(self._grid.weights, weights):
             if self._grid is not None and self._grid.weights.shape != weights.shape:
                 self._kept = None

@@ -123,5 +123,18 @@ class Route:
     is_exact: bool
 
     def to_world(self, points: FloatArray) -> FloatArray:
-        """Return (N, 2) rows and columns as x and y in m."""
+        """
+        Convert rows and columns to positions in the frame of the costmap.
+
+        Parameters
+        ----------
+        points
+            (N, 2) rows and columns of the grid; the centres of cells are whole numbers.
+
+        Returns
+        -------
+        FloatArray
+            (N, 2) x and y in m.
+
+        """
         return np.array(self.origin) + (points[:, ::-1] + 0.5) * self.cell_m

@@ -12,7 +12,20 @@ ResultT = TypeVar('ResultT')
 
 
 def finish(work: Generator[None, None, ResultT]) -> ResultT:
-    """Do all steps at one go; return the result."""
+    """
+    Run a generator to its end at one go.
+
+    Parameters
+    ----------
+    work
+        Such as `GlobalPlanner.create_plan` makes.
+
+    Returns
+    -------
+    ResultT
+        What the generator returns.
+
+    """
     while True:
         try:
             next(work)

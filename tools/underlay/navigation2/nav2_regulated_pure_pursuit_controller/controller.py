@@ -37,6 +37,17 @@ class RegulatedPurePursuitController(Controller):
 
     Source: S. Macenski, S. Singh, F. Martin, J. Gines, Regulated Pure Pursuit for Robot Path
     Tracking, Autonomous Robots 47 (2023).
+
+    Parameters
+    ----------
+    context
+        The name of the plugin, such as FollowPath, and where its parameters are declared.
+
+    Raises
+    ------
+    ConfigurationError
+        `allow_reversing` and `use_rotate_to_heading` are both true.
+
     """
 
     def __init__(self, context: PluginContext) -> None:
@@ -55,13 +66,40 @@ class RegulatedPurePursuitController(Controller):
             )
 
     def new_plan(self, *, is_new_goal: bool) -> None:
-        """Follow another path from now on."""
+        """
+        Follow another path from now on.
+
+        Parameters
+        ----------
+        is_new_goal
+            Whether the path leads to another goal, which has yet to be reached; otherwise it is a
+            new path to the same goal.
+
+        """
         self._cancel_speed = None
         if is_new_goal:
             self._is_at_goal = False
 
     def compute(self, state: ControlState) -> Command:
-        """Compute the velocity for the next period."""
+        """
+        Compute the velocity command along an arc to the lookahead point, or for turning in place.
+
+        Parameters
+        ----------
+        state
+            The robot, its path and the costmap in this control period.
+
+        Returns
+        -------
+        Command
+            The velocity in the base frame (m/s, rad/s), and what to display.
+
+        Raises
+        ------
+        NoValidControl
+            The robot would hit an obstacle, or stands in one.
+
+        """
         parameters = self._parameters.current
         ratio = self.limit_ratio(parameters.desired_linear_vel)
         fastest = parameters.desired_linear_vel * ratio
@@ -99,7 +137,26 @@ class RegulatedPurePursuitController(Controller):
         return Command(velocity, _displays(state, plan, carrot, steered, arc, turn is not None))
 
     def cancel(self, state: ControlState) -> Command | None:
-        """Return how to slow down after the goal was canceled."""
+        """
+        Compute the velocity command for slowing down after the goal was canceled.
+
+        Parameters
+        ----------
+        state
+            As for `compute`.
+
+        Returns
+        -------
+        Command or None
+            The velocity along the path, decelerated by `cancel_deceleration`; None to stop at
+            once.
+
+        Raises
+        ------
+        NoValidControl
+            As for `compute`.
+
+        """
         parameters = self._parameters.current
         if not parameters.use_cancel_deceleration:
             return None

@@ -17,7 +17,24 @@ __all__ = ['approach_speed', 'cost_speed', 'curvature_speed', 'regulated_speed']
 
 
 def curvature_speed(speed: float, curvature: float, min_radius_m: float) -> float:
-    """Return the speed in m/s in a curve, given in 1/m: less in those narrower than a radius."""
+    """
+    Limit the speed in a curve.
+
+    Parameters
+    ----------
+    speed
+        The speed elsewhere in m/s.
+    curvature
+        That of the arc to drive in 1/m; its sign does not count.
+    min_radius_m
+        The radius in m below which the speed shrinks in proportion to the radius.
+
+    Returns
+    -------
+    float
+        The speed in m/s.
+
+    """
     radius = 1.0 / abs(curvature) if curvature else math.inf
     return speed * radius / min_radius_m if radius < min_radius_m else speed
 
@@ -52,7 +69,24 @@ def cost_speed(
 
 
 def approach_speed(speed: float, remaining_m: float, settings: RppParameters) -> float:
-    """Return the speed in m/s at a length of path in m before the goal."""
+    """
+    Limit the speed on the last stretch before the goal.
+
+    Parameters
+    ----------
+    speed
+        The speed elsewhere in m/s.
+    remaining_m
+        The length of path before the goal in m.
+    settings
+        Where the robot begins to slow down, and its lowest speed there.
+
+    Returns
+    -------
+    float
+        The speed in m/s: in proportion to what remains, but no lower than that.
+
+    """
     distance = settings.approach_velocity_scaling_dist
     if remaining_m >= distance:
         return speed

@@ -71,6 +71,18 @@ class RotationShimController(Controller):
     Turns the robot in place to a new path, and leaves the rest to its primary controller.
 
     The parameters of the primary controller stand beside those of the shim.
+
+    Parameters
+    ----------
+    context
+        The name of the plugin, such as FollowPath, and where its parameters and those of the
+        primary controller are declared.
+
+    Raises
+    ------
+    ConfigurationError
+        `primary_controller` is not the type of another controller.
+
     """
 
     def __init__(self, context: PluginContext) -> None:
@@ -94,10 +106,28 @@ class RotationShimController(Controller):
 
     @speed_limit.setter
     def speed_limit(self, limit: SpeedLimit | None) -> None:
+        """
+        Set the speed limit of the primary controller.
+
+        Parameters
+        ----------
+        limit
+            The limit that holds from now on; None: what is configured.
+
+        """
         self._primary.speed_limit = limit
 
     def new_plan(self, *, is_new_goal: bool) -> None:
-        """Follow another path from now on."""
+        """
+        Follow another path from now on; the robot may turn in place to it first.
+
+        Parameters
+        ----------
+        is_new_goal
+            Whether the path leads to another goal; a new path to the same goal is not turned to if
+            `rotate_to_heading_once` is true.
+
+        """
         if is_new_goal or not self._parameters.current.rotate_to_heading_once:
             self._is_new = True
         if is_new_goal:
@@ -105,13 +135,45 @@ class RotationShimController(Controller):
         self._primary.new_plan(is_new_goal=is_new_goal)
 
     def compute(self, state: ControlState) -> Command:
-        """Compute the velocity for the next period."""
+        """
+        Compute the velocity command for turning in place, or that of the primary controller.
+
+        Parameters
+        ----------
+        state
+            The robot, its path and the costmap in this control period.
+
+        Returns
+        -------
+        Command
+            The velocity in the base frame (m/s, rad/s), and what to display.
+
+        Raises
+        ------
+        NoValidControl
+            The robot would hit an obstacle when it turns in place, or the primary controller finds
+            no velocity.
+
+        """
         command = self._turn(state) or self._primary.compute(state)
         self._last = command.velocity
         return command
 
     def cancel(self, state: ControlState) -> Command | None:
-        """Return how to slow down after the goal was canceled."""
+        """
+        Compute the velocity command for slowing down after the goal was canceled.
+
+        Parameters
+        ----------
+        state
+            As for `compute`.
+
+        Returns
+        -------
+        Command or None
+            That of the primary controller; None to stop at once.
+
+        """
         return self._primary.cancel(state)
 
     def _turn(self, state: ControlState) -> Command | None:

@@ -39,10 +39,23 @@ class ActionWatch:
     The newest goal of an action: sends, follows and cancels it.
 
     `goal` is the one that is followed: the newest that is being worked on, else the last one.
+
+    Parameters
+    ----------
+    node
+        The node that subscribes to the action's topics.
+    calls
+        Calls the action's services.
+    kind
+        The type of the action, such as `nav2_msgs.action.NavigateToPose`.
+    action
+        The name of the action without a namespace, one of `progress.ACTIONS`.
+    name
+        The same name with the namespace of the robot.
+
     """
 
     def __init__(self, node: Node, calls: ServiceCalls, kind: Any, action: str, name: str) -> None:
-        """Follow the action of a type; `name` is the one with its namespace."""
         self.goal: Goal | None = None
         self.changed = 0
         """Counts beginnings of goals, so that the newest of several actions is known."""
@@ -63,7 +76,22 @@ class ActionWatch:
         return bool(self._node.count_services(service))
 
     def send(self, poses: int, /, **fields: Any) -> Goal:
-        """Send a goal with such fields; `poses` is how many it has."""
+        """
+        Send a goal, and follow it.
+
+        Parameters
+        ----------
+        poses
+            How many poses it has.
+        **fields
+            The values of the goal's fields, by their names.
+
+        Returns
+        -------
+        Goal
+            The goal, whose phase changes as its server answers.
+
+        """
         request = self._impl.SendGoalService.Request()
         identity = uuid.uuid4().bytes
         request.goal_id.uuid = list(identity)
@@ -90,7 +118,15 @@ class ActionWatch:
         return goal
 
     def cancel(self, on_problem: Callable[[str], None]) -> None:
-        """Cancel all goals of the action, whoever sent them."""
+        """
+        Cancel all goals of the action, whoever sent them.
+
+        Parameters
+        ----------
+        on_problem
+            Called with a sentence if they cannot be canceled, perhaps later.
+
+        """
         if self.goal is not None and self.goal.phase is Phase.SENDING:
             on_problem('The goal has not been accepted yet: try again in a moment.')
             return
@@ -106,7 +142,7 @@ class ActionWatch:
         self._calls.call(kind, service, kind.Request(), answer, TIMEOUT_S)
 
     def update(self) -> None:
-        """Take feedback, and see whether the server is still there."""
+        """Take the feedback on the goal that has come."""
         for message, _ in self._feedback.take():
             goal = self.goal
             if goal is not None and bytes(message.goal_id.uuid) == goal.goal_id:

@@ -18,7 +18,19 @@ __all__ = ['GoalTool']
 
 
 class GoalTool(Tool):
-    """Sends the robot to a pose, or adds the pose to the waypoints while these are collected."""
+    """
+    Sends the robot to a pose, or adds the pose to the waypoints while these are collected.
+
+    Parameters
+    ----------
+    context
+        The node, the frames and the scene.
+    root
+        The path of the scene below which the tool draws.
+    given
+        The properties that the file of the page gives, such as `Namespace`.
+
+    """
 
     CLASS = 'nav2_rviz_plugins/GoalTool'
     NAME = 'Nav2 Goal'
@@ -28,7 +40,6 @@ class GoalTool(Tool):
     def __init__(
         self, context: Context, root: str, given: Mapping[str, Any] | None = None
     ) -> None:
-        """Take the properties that a file gives."""
         super().__init__(context, root, given)
         self._arrow = PoseArrow(context, root)
 
@@ -37,11 +48,39 @@ class GoalTool(Tool):
         self._arrow.hide()
 
     def click(self, point: Point) -> bool:
-        """Take a pose that looks along x."""
+        """
+        Take a click as a goal pose that faces along x.
+
+        Parameters
+        ----------
+        point
+            The position (3,) in m, in the fixed frame.
+
+        Returns
+        -------
+        bool
+            Whether the tool is done: not while waypoints are collected.
+
+        """
         return self._give(point, 0.0)
 
     def drag(self, start: Point, end: Point, is_over: bool) -> bool:
-        """Show the pose, and take it in the end."""
+        """
+        Draw the goal pose while it is dragged, and take it at the end.
+
+        Parameters
+        ----------
+        start, end
+            The position (3,), and a point (3,) that it faces, in m, in the fixed frame.
+        is_over
+            Whether the pointer was released.
+
+        Returns
+        -------
+        bool
+            Whether the tool is done: after the end, unless waypoints are collected.
+
+        """
         yaw = heading(start, end)
         self._arrow.show(start, yaw)
         if not is_over:

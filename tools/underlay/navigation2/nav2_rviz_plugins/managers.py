@@ -25,10 +25,19 @@ ACTIVE, INACTIVE, UNKNOWN = 'active', 'inactive', 'unknown'
 
 
 class ManagerWatch:
-    """What a lifecycle manager says of itself; it is asked once a second."""
+    """
+    What a lifecycle manager says of itself; it is asked once a second.
+
+    Parameters
+    ----------
+    node
+        The node that asks.
+    name
+        The name of the manager, with its namespace.
+
+    """
 
     def __init__(self, node: Node, name: str) -> None:
-        """Take the name of the manager, with its namespace."""
         self.name = name
         self.state, self.note = UNKNOWN, ''
         self._node = node
@@ -42,7 +51,15 @@ class ManagerWatch:
         return bool(self._node.count_services(self._client.srv_name))
 
     def update(self, now_s: float) -> None:
-        """Take the answer, and ask again."""
+        """
+        Take the answer of the manager, or ask again once a second; call this often.
+
+        Parameters
+        ----------
+        now_s
+            The time of `time.monotonic` in s.
+
+        """
         if self._future is not None:
             self._take(now_s)
         elif now_s - self._asked_s >= ASK_S:

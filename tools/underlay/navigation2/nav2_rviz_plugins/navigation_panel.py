@@ -39,7 +39,15 @@ class NavigationPanel(LivePanel):
 
     @classmethod
     def is_wanted(cls, node: Node) -> bool:
-        """Whether there is a server that navigates."""
+        """
+        Whether there is a server that navigates, of the action `navigate_to_pose`.
+
+        Parameters
+        ----------
+        node
+            The node that looks for it, in whose namespace it is.
+
+        """
         name = node.resolve_service_name('navigate_to_pose/_action/send_goal')
         return bool(node.count_services(name))
 
@@ -73,7 +81,15 @@ class NavigationPanel(LivePanel):
         self._is_drawing = True
 
     def greet(self, viewer: Viewer) -> None:
-        """Tell somebody who comes how things are."""
+        """
+        Send the whole state to a viewer that has just connected.
+
+        Parameters
+        ----------
+        viewer
+            The viewer.
+
+        """
         viewer.tell(**self._state())
 
     def update(self) -> None:

@@ -53,23 +53,69 @@ class ParticleCloud(MessageDisplay):
             self.status.say('Topic', Level.ERROR, MISSING)
 
     def message_type(self, topic: str) -> type:
-        """Return the type of the messages of the topic."""
+        """
+        Return the type `nav2_msgs/msg/ParticleCloud`.
+
+        Parameters
+        ----------
+        topic
+            The topic of the display; the type is the same for all.
+
+        Raises
+        ------
+        ImportError
+            nav2_msgs is not built; the text is a sentence.
+
+        """
         kind: type = interface('msg', 'ParticleCloud')
         return kind
 
     def subscribe(self, kind: Any, topic: str, take: Any, *more: Any, **options: Any) -> bool:
-        """Have messages taken as the bytes that came."""
+        """
+        Subscribe to a topic for serialized messages, until the display stops.
+
+        Parameters
+        ----------
+        kind, topic
+            The type of the messages, and the name of the topic.
+        take
+            Called with the bytes of each message.
+        *more, **options
+            As for `TopicDisplay.subscribe`.
+
+        Returns
+        -------
+        bool
+            Whether the topic could be subscribed.
+
+        """
         return super().subscribe(kind, topic, take, *more, raw=True, **options)
 
     def take(self, message: Any) -> None:
-        """Read the newest message."""
+        """
+        Read a serialized message, and keep it for the next frame.
+
+        Parameters
+        ----------
+        message
+            The bytes of the message in CDR; those that cannot be read show up in the status.
+
+        """
         try:
             super().take(read_particles(message))
         except ValueError as error:
             self.say_left_out(error)
 
     def show(self, message: ParticleMessage) -> None:
-        """Draw all particles as one object."""
+        """
+        Draw all particles as one object.
+
+        Parameters
+        ----------
+        message
+            The particles, of which at most 20 000 are drawn.
+
+        """
         poses, weights = self._usable(message)
         with self._canvas.anew():
             if not len(poses):
@@ -140,10 +186,23 @@ class ParticleCloud(MessageDisplay):
 
 def lengths_of(weights: NDArray[Any], shortest_m: float, longest_m: float) -> NDArray[np.float32]:
     """
-    Return how long the arrows of particles are, in metres.
+    Compute the lengths of the arrows of particles.
 
     The length is proportional to the weight, as a part of the greatest one; particles of equal
     weight, as there are after they were drawn anew, have the longest arrow.
+
+    Parameters
+    ----------
+    weights
+        (N,) weights of the particles.
+    shortest_m, longest_m
+        The limits of the length in m; the greatest weight has the longest.
+
+    Returns
+    -------
+    numpy.ndarray
+        (N,) lengths in m.
+
     """
     greatest = float(weights.max(initial=0.0))
     parts = weights / greatest if greatest > 0.0 else np.ones_like(weights)

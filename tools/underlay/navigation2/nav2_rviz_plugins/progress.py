@@ -65,7 +65,15 @@ class Goal:
     is_own: bool = False
 
     def take_feedback(self, feedback: Any) -> None:
-        """Keep the numbers of a feedback of any of the actions."""
+        """
+        Keep the numbers of a feedback, in m, s or as counts.
+
+        Parameters
+        ----------
+        feedback
+            The feedback message of any of the `ACTIONS`.
+
+        """
         for name in ('navigation_time', 'estimated_time_remaining'):
             if hasattr(feedback, name):
                 duration = getattr(feedback, name)
@@ -80,7 +88,15 @@ class Goal:
                 self.numbers[name] = float(getattr(feedback, name))
 
     def take_result(self, result: Any) -> None:
-        """Keep how it ended."""
+        """
+        Keep how the goal ended; `phase` has to be set before.
+
+        Parameters
+        ----------
+        result
+            The result message of any of the `ACTIONS`.
+
+        """
         self.missed = [int(each.index) for each in getattr(result, 'missed_waypoints', ())]
         code, reason = int(result.error_code), getattr(result, 'error_msg', '')
         self.text = outcome(self.phase, code, reason, self.missed)

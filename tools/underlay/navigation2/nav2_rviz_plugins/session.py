@@ -38,10 +38,22 @@ class NavigationSession:
 
     It works in the thread of its node, and stays as long as that does, so that a goal is followed
     also while another file is loaded.
+
+    Parameters
+    ----------
+    node
+        The node that calls the actions and publishes the markers of waypoints.
+    namespace
+        The namespace of the robot; empty: that of the node.
+
+    Raises
+    ------
+    ImportError
+        nav2_msgs is not built; the text is a sentence.
+
     """
 
     def __init__(self, node: Node, namespace: str = '') -> None:
-        """Begin to follow the actions; raises ImportError if nav2_msgs is not built."""
         kinds = (
             interface('action', 'NavigateToPose'),
             interface('action', 'NavigateThroughPoses'),
@@ -80,7 +92,15 @@ class NavigationSession:
         return self._actions[self._newest].goal
 
     def take_pose(self, pose: PoseStamped) -> None:
-        """Drive to a pose, or collect it where waypoints are collected."""
+        """
+        Send the robot to a pose, or add the pose to the waypoints while these are collected.
+
+        Parameters
+        ----------
+        pose
+            The pose, in the frame of its header.
+
+        """
         if not self.collects:
             self._send(TO_POSE, [pose], pose=pose)
         elif len(self.waypoints) < MOST:
@@ -89,11 +109,27 @@ class NavigationSession:
             self.note = f'No more than {MOST} waypoints can be collected.'
 
     def collect(self, is_wanted: bool) -> None:
-        """Begin or cease to collect waypoints."""
+        """
+        Start or stop collecting waypoints.
+
+        Parameters
+        ----------
+        is_wanted
+            Whether poses become waypoints from now on, and not goals.
+
+        """
         self.collects = is_wanted
 
     def remove(self, index: int) -> None:
-        """Remove a waypoint."""
+        """
+        Remove a waypoint.
+
+        Parameters
+        ----------
+        index
+            Which one, from 0; one that does not exist is ignored.
+
+        """
         if 0 <= index < len(self.waypoints):
             del self.waypoints[index]
 
@@ -102,7 +138,15 @@ class NavigationSession:
         self.waypoints.clear()
 
     def follow(self, loops: int = 0) -> None:
-        """Have the robot drive to one waypoint after the other, and begin anew so many times."""
+        """
+        Send the robot to one waypoint after the other.
+
+        Parameters
+        ----------
+        loops
+            How often to repeat the round after the first time.
+
+        """
         poses = list(self.waypoints)
         self._send(WAYPOINTS, poses, poses=poses, number_of_loops=loops)
 
@@ -124,7 +168,15 @@ class NavigationSession:
             watch.cancel(self.say)
 
     def command(self, command: str) -> None:
-        """Give a command to the lifecycle managers that are there."""
+        """
+        Send a command to the lifecycle managers that are running, one after the other.
+
+        Parameters
+        ----------
+        command
+            A name in `managers.COMMANDS`, such as `startup`.
+
+        """
         managers = [each for each in self._managers if each.is_there]
         if not managers:
             names = ' and '.join(each.name for each in self._managers)
@@ -135,7 +187,15 @@ class NavigationSession:
         command_all(self._calls, self._manage, command, managers, self.say)
 
     def say(self, sentence: str) -> None:
-        """Have a sentence shown."""
+        """
+        Show a message on the page, in place of the last one.
+
+        Parameters
+        ----------
+        sentence
+            The message.
+
+        """
         self.note = sentence
 
     def update(self) -> None:
@@ -258,7 +318,15 @@ def session_of(node: Node, namespace: str | None = None) -> NavigationSession:
 
 
 def close_sessions(node: Node) -> None:
-    """End the sessions of a node before it is destroyed while its process goes on."""
+    """
+    End the sessions of a node before it is destroyed while its process goes on.
+
+    Parameters
+    ----------
+    node
+        The node that `session_of` was given.
+
+    """
     for session in _sessions.pop(node, {}).values():
         session.close()
 

@@ -98,7 +98,15 @@ class Base(Node):
         return True
 
     def getFeedback(self, task: Any = None) -> Any:
-        """Return the newest feedback of the task, None before the first."""
+        """
+        Return the newest feedback of the task, None before the first.
+
+        Parameters
+        ----------
+        task
+            No effect: there is but one task.
+
+        """
         return self.feedback
 
     def getResult(self) -> TaskResult:
@@ -110,7 +118,15 @@ class Base(Node):
         return self.last_action_error_code, self.last_action_error_msg
 
     def setTaskError(self, error_code: int, error_msg: str) -> None:
-        """Set what `getTaskError` returns."""
+        """
+        Set what `getTaskError` returns.
+
+        Parameters
+        ----------
+        error_code, error_msg
+            As in the result of the action; 0 and '' if there is no error.
+
+        """
         self.last_action_error_code, self.last_action_error_msg = error_code, error_msg
 
     def clearTaskError(self) -> None:
@@ -191,17 +207,49 @@ class Base(Node):
         self.feedback = msg.feedback
 
     def info(self, msg: str) -> None:
-        """Log information."""
+        """
+        Log a message at level INFO.
+
+        Parameters
+        ----------
+        msg
+            The text.
+
+        """
         self.get_logger().info(msg)
 
     def warn(self, msg: str) -> None:
-        """Log a warning."""
+        """
+        Log a message at level WARN.
+
+        Parameters
+        ----------
+        msg
+            The text.
+
+        """
         self.get_logger().warning(msg)
 
     def error(self, msg: str) -> None:
-        """Log an error."""
+        """
+        Log a message at level ERROR.
+
+        Parameters
+        ----------
+        msg
+            The text.
+
+        """
         self.get_logger().error(msg)
 
     def debug(self, msg: str) -> None:
-        """Log details."""
+        """
+        Log a message at level DEBUG.
+
+        Parameters
+        ----------
+        msg
+            The text.
+
+        """
         self.get_logger().debug(msg)

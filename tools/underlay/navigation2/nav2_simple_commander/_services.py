@@ -15,7 +15,17 @@ __all__ = ['Services']
 
 
 class Services(Tasks):
-    """Plans, smooths, looks at costmaps and clears them, changes the map."""
+    """
+    Plans, smooths, looks at costmaps and clears them, changes the map.
+
+    Parameters
+    ----------
+    node_name, namespace
+        The name of the node.
+    **options
+        The further keyword arguments of `rclpy.node.Node`.
+
+    """
 
     def __init__(self, node_name: str, namespace: str, **options: Any) -> None:
         super().__init__(node_name, namespace, **options)
@@ -90,7 +100,26 @@ class Services(Tasks):
         planner_id: str = '',
         use_start: bool = False,
     ) -> Any:
-        """Plan a path through poses; see `getPath`."""
+        """
+        Plan a path that passes through poses.
+
+        Parameters
+        ----------
+        start
+            Where it begins, if `use_start` is true; otherwise it begins where the robot is.
+        goals
+            The poses to pass, the last of which is the end of the path.
+        planner_id
+            The planner; empty where there is but one.
+        use_start
+            Whether the start counts.
+
+        Returns
+        -------
+        nav_msgs.msg.Path or None
+            The path; None if there is none: see `getTaskError`.
+
+        """
         found = self._getPathThroughPosesImpl(start, goals, planner_id, use_start)
         return None if found is None else found.path
 
@@ -116,7 +145,26 @@ class Services(Tasks):
         max_duration: float = 2.0,
         check_for_collision: bool = False,
     ) -> Any:
-        """Make a path smooth within so many s; None if that fails: see `getTaskError`."""
+        """
+        Smooth a path.
+
+        Parameters
+        ----------
+        path
+            The `nav_msgs/Path`.
+        smoother_id
+            The smoother; empty where there is but one.
+        max_duration
+            How long it may take, in s.
+        check_for_collision
+            Whether a smooth path that hits an obstacle is a failure.
+
+        Returns
+        -------
+        nav_msgs.msg.Path or None
+            The smooth path; None if that fails: see `getTaskError`.
+
+        """
         found = self._smoothPathImpl(path, smoother_id, max_duration, check_for_collision)
         return None if found is None else found.path
 
@@ -137,7 +185,20 @@ class Services(Tasks):
         return self._ask_action(self.smoother_client, 'SmoothPath', wanted)
 
     def changeMap(self, map_filepath: str) -> bool:
-        """Let the map server publish another map; return whether it could."""
+        """
+        Load another map into the map server.
+
+        Parameters
+        ----------
+        map_filepath
+            The YAML file of the map: a path, `file:///path` or `package://<package>/path`.
+
+        Returns
+        -------
+        bool
+            Whether the server could load it; if not, see `getTaskError`.
+
+        """
         request = srv.LoadMap.Request(map_url=map_filepath)
         result = self._ask_service(self.change_maps_srv, request).result
         if result == srv.LoadMap.Response.RESULT_SUCCESS:
@@ -167,12 +228,28 @@ class Services(Tasks):
         self._ask_service(self.clear_costmap_global_srv, srv.ClearEntireCostmap.Request())
 
     def clearCostmapExceptRegion(self, reset_distance: float) -> None:
-        """Forget the obstacles of the local costmap that are farther than so many m."""
+        """
+        Clear the local costmap outside of a square around the robot.
+
+        Parameters
+        ----------
+        reset_distance
+            The side of the square in m.
+
+        """
         request = srv.ClearCostmapExceptRegion.Request(reset_distance=float(reset_distance))
         self._ask_service(self.clear_costmap_except_region_srv, request)
 
     def clearCostmapAroundRobot(self, reset_distance: float) -> None:
-        """Forget the obstacles of the local costmap within so many m."""
+        """
+        Clear the local costmap inside a square around the robot.
+
+        Parameters
+        ----------
+        reset_distance
+            The side of the square in m.
+
+        """
         request = srv.ClearCostmapAroundRobot.Request(reset_distance=float(reset_distance))
         self._ask_service(self.clear_costmap_around_robot_srv, request)
 

@@ -15,7 +15,17 @@ __all__ = ['Tasks']
 
 
 class Tasks(Base):
-    """Goals, waypoints, paths, behaviors and docks; each task is started, and does not block."""
+    """
+    Goals, waypoints, paths, behaviors and docks; each task is started, and does not block.
+
+    Parameters
+    ----------
+    node_name, namespace
+        The name of the node.
+    **options
+        The further keyword arguments of `rclpy.node.Node`.
+
+    """
 
     def __init__(self, node_name: str, namespace: str, **options: Any) -> None:
         super().__init__(node_name, namespace, **options)
@@ -59,7 +69,22 @@ class Tasks(Base):
         )
 
     def goThroughPoses(self, poses: list[PoseStamped], behavior_tree: str = '') -> bool:
-        """Navigate through poses to the last one; see `goToPose`."""
+        """
+        Navigate through poses to the last one.
+
+        Parameters
+        ----------
+        poses
+            The poses to pass.
+        behavior_tree
+            The file of the behavior tree; empty: the navigator's own.
+
+        Returns
+        -------
+        bool
+            Whether the goal was accepted.
+
+        """
         goal = action.NavigateThroughPoses.Goal(poses=poses, behavior_tree=behavior_tree)
         return self._start(
             self.nav_through_poses_client,
@@ -69,7 +94,20 @@ class Tasks(Base):
         )
 
     def followWaypoints(self, poses: list[PoseStamped]) -> bool:
-        """Visit poses one after another, with a task at each; see `goToPose`."""
+        """
+        Visit waypoints one after another, with a task at each.
+
+        Parameters
+        ----------
+        poses
+            The waypoints.
+
+        Returns
+        -------
+        bool
+            Whether the goal was accepted.
+
+        """
         goal = action.FollowWaypoints.Goal(poses=poses)
         return self._start(
             self.follow_waypoints_client,
@@ -79,7 +117,20 @@ class Tasks(Base):
         )
 
     def followGpsWaypoints(self, gps_poses: list[Any]) -> bool:
-        """Visit places on the earth (`geographic_msgs/GeoPose`); see `goToPose`."""
+        """
+        Visit GPS waypoints one after another, with a task at each.
+
+        Parameters
+        ----------
+        gps_poses
+            The waypoints, each a `geographic_msgs/GeoPose`.
+
+        Returns
+        -------
+        bool
+            Whether the goal was accepted.
+
+        """
         goal = action.FollowGPSWaypoints.Goal(gps_poses=gps_poses)
         return self._start(
             self.follow_gps_waypoints_client,
@@ -95,7 +146,22 @@ class Tasks(Base):
         goal_checker_id: str = '',
         progress_checker_id: str = '',
     ) -> bool:
-        """Drive along a path with a controller; see `goToPose`."""
+        """
+        Drive along a path with a controller, without planning.
+
+        Parameters
+        ----------
+        path
+            The `nav_msgs/Path`.
+        controller_id, goal_checker_id, progress_checker_id
+            The plugins of the controller server; each is empty where there is but one.
+
+        Returns
+        -------
+        bool
+            Whether the goal was accepted.
+
+        """
         goal = action.FollowPath.Goal(
             path=path,
             controller_id=controller_id,
@@ -110,7 +176,24 @@ class Tasks(Base):
         time_allowance: float = 10,
         disable_collision_checks: bool = False,
     ) -> bool:
-        """Turn on the spot by rad, for at most so many s; see `goToPose`."""
+        """
+        Turn in place.
+
+        Parameters
+        ----------
+        spin_dist
+            By which angle in rad, positive to the left.
+        time_allowance
+            How long it may take, in s; 0 for any time.
+        disable_collision_checks
+            Whether to turn in spite of obstacles; no effect if the action has no such field.
+
+        Returns
+        -------
+        bool
+            Whether the goal was accepted.
+
+        """
         goal = action.Spin.Goal(
             target_yaw=float(spin_dist), time_allowance=_duration(time_allowance)
         )
@@ -124,7 +207,24 @@ class Tasks(Base):
         time_allowance: float = 10,
         disable_collision_checks: bool = False,
     ) -> bool:
-        """Drive straight back by m, at m/s, for at most so many s; see `goToPose`."""
+        """
+        Drive straight back.
+
+        Parameters
+        ----------
+        backup_dist, backup_speed
+            How far in m, and how fast in m/s; the signs do not matter.
+        time_allowance
+            How long it may take, in s; 0 for any time.
+        disable_collision_checks
+            Whether to drive in spite of obstacles; no effect if the action has no such field.
+
+        Returns
+        -------
+        bool
+            Whether the goal was accepted.
+
+        """
         goal = action.BackUp.Goal(
             target=Point(x=float(backup_dist)),
             speed=float(backup_speed),
@@ -141,7 +241,24 @@ class Tasks(Base):
         time_allowance: float = 10,
         disable_collision_checks: bool = False,
     ) -> bool:
-        """Drive straight ahead by m, at m/s, for at most so many s; see `goToPose`."""
+        """
+        Drive straight ahead.
+
+        Parameters
+        ----------
+        dist, speed
+            How far in m, and how fast in m/s; both negative: straight back.
+        time_allowance
+            How long it may take, in s; 0 for any time.
+        disable_collision_checks
+            Whether to drive in spite of obstacles; no effect if the action has no such field.
+
+        Returns
+        -------
+        bool
+            Whether the goal was accepted.
+
+        """
         goal = action.DriveOnHeading.Goal(
             target=Point(x=float(dist)),
             speed=float(speed),
@@ -152,7 +269,20 @@ class Tasks(Base):
         return self._start(self.drive_on_heading_client, 'DriveOnHeading', goal, what)
 
     def assistedTeleop(self, time_allowance: float = 30) -> bool:
-        """Let a person drive, protected from collisions, for so many s; see `goToPose`."""
+        """
+        Let a person drive, with the robot kept from collisions.
+
+        Parameters
+        ----------
+        time_allowance
+            After which time in s the task fails; 0 for never.
+
+        Returns
+        -------
+        bool
+            Whether the goal was accepted.
+
+        """
         goal = action.AssistedTeleop.Goal(time_allowance=_duration(time_allowance))
         return self._start(
             self.assisted_teleop_client, 'AssistedTeleop', goal, 'Running assisted teleop'
@@ -161,7 +291,22 @@ class Tasks(Base):
     def dockRobotByPose(
         self, dock_pose: PoseStamped, dock_type: str = '', nav_to_dock: bool = True
     ) -> bool:
-        """Dock at a pose, with a type of docks; see `goToPose`."""
+        """
+        Dock at a dock that is given by its pose.
+
+        Parameters
+        ----------
+        dock_pose, dock_type
+            Where the dock is, and the name of its type.
+        nav_to_dock
+            Whether to navigate to the staging pose first; otherwise docking begins at once.
+
+        Returns
+        -------
+        bool
+            Whether the goal was accepted.
+
+        """
         goal = action.DockRobot.Goal(
             use_dock_id=False,
             dock_pose=dock_pose,
@@ -171,14 +316,42 @@ class Tasks(Base):
         return self._start(self.docking_client, 'DockRobot', goal, 'Docking at pose')
 
     def dockRobotByID(self, dock_id: str, nav_to_dock: bool = True) -> bool:
-        """Dock at a dock that the server knows; see `goToPose`."""
+        """
+        Dock at a dock that the docking server knows.
+
+        Parameters
+        ----------
+        dock_id
+            The name of the dock.
+        nav_to_dock
+            Whether to navigate to the staging pose first; otherwise docking begins at once.
+
+        Returns
+        -------
+        bool
+            Whether the goal was accepted.
+
+        """
         goal = action.DockRobot.Goal(
             use_dock_id=True, dock_id=dock_id, navigate_to_staging_pose=nav_to_dock
         )
         return self._start(self.docking_client, 'DockRobot', goal, f'Docking at dock {dock_id}')
 
     def undockRobot(self, dock_type: str = '') -> bool:
-        """Leave the dock; see `goToPose`."""
+        """
+        Leave the dock.
+
+        Parameters
+        ----------
+        dock_type
+            The name of the dock's type; empty: that of the dock that the robot was brought to.
+
+        Returns
+        -------
+        bool
+            Whether the goal was accepted.
+
+        """
         goal = action.UndockRobot.Goal(dock_type=dock_type)
         return self._start(self.undocking_client, 'UndockRobot', goal, 'Undocking from dock')
 

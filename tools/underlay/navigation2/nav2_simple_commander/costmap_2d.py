@@ -47,11 +47,11 @@ class PyCostmap2D:
         return int(self.size_y)
 
     def getSizeInMetersX(self) -> float:
-        """Return how far it is from the centre of the first cell along x to that of the last."""
+        """Return the length along x in m, from the origin to the centre of the last cell."""
         return float((self.size_x - 1 + 0.5) * self.resolution)
 
     def getSizeInMetersY(self) -> float:
-        """Return how far it is from the centre of the first cell along y to that of the last."""
+        """Return the length along y in m, from the origin to the centre of the last cell."""
         return float((self.size_y - 1 + 0.5) * self.resolution)
 
     def getOriginX(self) -> float:
@@ -75,26 +75,89 @@ class PyCostmap2D:
         return self.costmap_timestamp
 
     def getCostXY(self, mx: int, my: int) -> Any:
-        """Return the cost of a cell by its column and row."""
+        """
+        Return the value of a cell by its column and row.
+
+        Parameters
+        ----------
+        mx, my
+            Column (along x) and row (along y).
+
+        Returns
+        -------
+        numpy.uint8
+            The cost from 0 to 255 of a `Costmap`, or the occupancy of an `OccupancyGrid`, where
+            255 is unknown.
+
+        """
         return np.uint8(self.costmap[self.getIndex(mx, my)])
 
     def getCostIdx(self, index: int) -> Any:
-        """Return the cost of a cell by its index."""
+        """
+        Return the value of a cell by its index.
+
+        Parameters
+        ----------
+        index
+            As of `getIndex`.
+
+        Returns
+        -------
+        numpy.uint8
+            As of `getCostXY`.
+
+        """
         return np.uint8(self.costmap[index])
 
     def setCost(self, mx: int, my: int, cost: int) -> None:
-        """Set the cost of a cell by its column and row."""
+        """
+        Set the value of a cell in this copy of the costmap.
+
+        Parameters
+        ----------
+        mx, my
+            Column (along x) and row (along y).
+        cost
+            From 0 to 255.
+
+        """
         self.costmap[self.getIndex(mx, my)] = np.uint8(cost)
 
     def mapToWorld(self, mx: int, my: int) -> tuple[float, float]:
-        """Return the centre of a cell in m."""
+        """
+        Convert a cell to the position of its centre.
+
+        Parameters
+        ----------
+        mx, my
+            Column (along x) and row (along y).
+
+        Returns
+        -------
+        tuple of float
+            x and y in m, in the frame of the costmap.
+
+        """
         return (
             self.origin_x + (mx + 0.5) * self.resolution,
             self.origin_y + (my + 0.5) * self.resolution,
         )
 
     def worldToMapValidated(self, wx: float, wy: float) -> tuple[int | None, int | None]:
-        """Return column and row of the cell at a point in m; (None, None) outside."""
+        """
+        Find the cell at a position.
+
+        Parameters
+        ----------
+        wx, wy
+            x and y in m, in the frame of the costmap.
+
+        Returns
+        -------
+        tuple
+            Column and row; (None, None) outside of the costmap.
+
+        """
         mx = math.floor((wx - self.origin_x) / self.resolution)
         my = math.floor((wy - self.origin_y) / self.resolution)
         if 0 <= mx < self.size_x and 0 <= my < self.size_y:
@@ -104,5 +167,13 @@ class PyCostmap2D:
     worldToMap = worldToMapValidated  # noqa: N815
 
     def getIndex(self, mx: int, my: int) -> int:
-        """Return the index of a cell by its column and row."""
+        """
+        Return the index of a cell in the data, which are row by row.
+
+        Parameters
+        ----------
+        mx, my
+            Column (along x) and row (along y).
+
+        """
         return int(my * self.size_x + mx)

@@ -34,7 +34,15 @@ class FootprintCollisionChecker:
         self.costmap_: PyCostmap2D | None = None
 
     def setCostmap(self, costmap: PyCostmap2D) -> None:
-        """Set the costmap to look into."""
+        """
+        Set the costmap in which costs are looked up.
+
+        Parameters
+        ----------
+        costmap
+            A costmap with costs from 0 to 255.
+
+        """
         self.costmap_ = costmap
 
     def footprintCostAtPose(self, x: float, y: float, theta: float, footprint: Polygon) -> Any:
@@ -60,7 +68,25 @@ class FootprintCollisionChecker:
         return self.footprintCost(moved)
 
     def footprintCost(self, footprint: Polygon) -> Any:
-        """Return the highest cost on an outline; LETHAL_OBSTACLE where a corner is outside."""
+        """
+        Find the highest cost on an outline.
+
+        Parameters
+        ----------
+        footprint
+            The corners of the outline in m, in the frame of the costmap.
+
+        Returns
+        -------
+        float
+            The cost; LETHAL_OBSTACLE where a corner is outside of the costmap.
+
+        Raises
+        ------
+        ValueError
+            No costmap was set.
+
+        """
         cells = [self.worldToMapValidated(corner.x, corner.y) for corner in footprint.points]
         if any(cell[0] is None for cell in cells):
             return float(LETHAL_OBSTACLE)
@@ -72,7 +98,29 @@ class FootprintCollisionChecker:
         return cost
 
     def lineCost(self, x0: Any, x1: Any, y0: Any, y1: Any, step_size: float = 0.5) -> Any:
-        """Return the highest cost on a line between two cells."""
+        """
+        Find the highest cost on a line between two cells.
+
+        It ends at the first cell of LETHAL_OBSTACLE, but NO_INFORMATION before it is higher.
+
+        Parameters
+        ----------
+        x0, x1, y0, y1
+            The columns of both cells, then their rows.
+        step_size
+            How far it is from one point of the line to the next, as for `LineIterator`.
+
+        Returns
+        -------
+        float
+            The cost.
+
+        Raises
+        ------
+        ValueError
+            No costmap was set.
+
+        """
         cost = 0.0
         line = LineIterator(x0, y0, x1, y1, step_size)
         while line.isValid():
@@ -83,11 +131,42 @@ class FootprintCollisionChecker:
         return cost
 
     def worldToMapValidated(self, wx: float, wy: float) -> tuple[int | None, int | None]:
-        """Return column and row of the cell at a point in m; (None, None) outside."""
+        """
+        Find the cell at a position.
+
+        Parameters
+        ----------
+        wx, wy
+            x and y in m, in the frame of the costmap.
+
+        Returns
+        -------
+        tuple
+            Column and row; (None, None) outside of the costmap.
+
+        Raises
+        ------
+        ValueError
+            No costmap was set.
+
+        """
         return self._costmap().worldToMapValidated(wx, wy)
 
     def pointCost(self, x: int, y: int) -> Any:
-        """Return the cost of a cell by its column and row."""
+        """
+        Return the cost of a cell by its column and row.
+
+        Parameters
+        ----------
+        x, y
+            Column and row.
+
+        Raises
+        ------
+        ValueError
+            No costmap was set.
+
+        """
         return self._costmap().getCostXY(x, y)
 
     def _costmap(self) -> PyCostmap2D:

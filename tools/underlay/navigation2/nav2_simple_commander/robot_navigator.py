@@ -59,7 +59,15 @@ class BasicNavigator(Services):
         self.initial_pose_pub = self.create_publisher(PoseWithCovarianceStamped, 'initialpose', 10)
 
     def setInitialPose(self, initial_pose: PoseStamped) -> None:
-        """Tell the localization where the robot is."""
+        """
+        Publish the initial pose of the robot, from which the localization starts.
+
+        Parameters
+        ----------
+        initial_pose
+            The robot, in the frame of the header, such as map.
+
+        """
         self.initial_pose_received = False
         self.initial_pose = initial_pose
         self._setInitialPose()

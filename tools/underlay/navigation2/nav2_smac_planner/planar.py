@@ -55,6 +55,12 @@ class PlanarPlanner(GlobalPlanner):
 
     The search knows no turning circle and no reversing: a robot that has to steer like a car
     cannot follow every such path.
+
+    Parameters
+    ----------
+    node, name, costmap
+        As for `GlobalPlanner`: the planner server, the planner's name and the global costmap.
+
     """
 
     official_name = ''
@@ -81,7 +87,26 @@ class PlanarPlanner(GlobalPlanner):
     def create_plan(
         self, start: Pose2D, goal: Pose2D
     ) -> Generator[None, None, npt.NDArray[np.float64]]:
-        """Plan a path; see `GlobalPlanner`."""
+        """
+        Plan a path in the plane, in steps as `GlobalPlanner.create_plan` says.
+
+        Parameters
+        ----------
+        start, goal
+            Poses in the frame of the costmap.
+
+        Returns
+        -------
+        numpy.ndarray
+            (N, 3) poses: x and y in m, yaw in rad, which turns from that of the start to the
+            direction of the path and to that of the goal.
+
+        Raises
+        ------
+        PlanningError
+            There is no path.
+
+        """
         values = self.settings
         grid = self.costmap.grid
         options = SearchOptions(

@@ -60,7 +60,15 @@ class Smac2DParameters:
 
 
 class SmacPlanner2D(GlobalPlanner):
-    """Plans a smooth path for a robot that goes in any direction."""
+    """
+    Plans a smooth path for a robot that goes in any direction.
+
+    Parameters
+    ----------
+    node, name, costmap
+        As for `GlobalPlanner`: the planner server, the planner's name and the global costmap.
+
+    """
 
     def __init__(self, node: LifecycleNode, name: str, costmap: Costmap2DROS) -> None:
         super().__init__(node, name, costmap)
@@ -72,7 +80,25 @@ class SmacPlanner2D(GlobalPlanner):
     def create_plan(
         self, start: Pose2D, goal: Pose2D
     ) -> Generator[None, None, npt.NDArray[np.float64]]:
-        """Plan a path; see `GlobalPlanner`."""
+        """
+        Plan a smooth path, in steps as `GlobalPlanner.create_plan` says.
+
+        Parameters
+        ----------
+        start, goal
+            Poses in the frame of the costmap.
+
+        Returns
+        -------
+        numpy.ndarray
+            (N, 3) poses: x and y in m, yaw in rad.
+
+        Raises
+        ------
+        PlanningError
+            There is no path.
+
+        """
         values = self._parameters.current
         grid = self.costmap.grid
         options = SearchOptions(

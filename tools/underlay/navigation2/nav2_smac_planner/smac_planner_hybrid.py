@@ -46,7 +46,15 @@ class HybridParameters:
 
 
 class SmacPlannerHybrid(PlanarPlanner):
-    """Plans a smooth path whose poses turn from the start's yaw to the path's and the goal's."""
+    """
+    Plans a smooth path whose poses turn from the start's yaw to the path's and the goal's.
+
+    Parameters
+    ----------
+    node, name, costmap
+        As for `GlobalPlanner`: the planner server, the planner's name and the global costmap.
+
+    """
 
     official_name = 'nav2_smac_planner::SmacPlannerHybrid'
     unsupported = dict.fromkeys(

@@ -38,7 +38,15 @@ class LatticeParameters:
 
 
 class SmacPlannerLattice(PlanarPlanner):
-    """Plans a smooth path whose poses turn from the start's yaw to the path's and the goal's."""
+    """
+    Plans a smooth path whose poses turn from the start's yaw to the path's and the goal's.
+
+    Parameters
+    ----------
+    node, name, costmap
+        As for `GlobalPlanner`: the planner server, the planner's name and the global costmap.
+
+    """
 
     official_name = 'nav2_smac_planner::SmacPlannerLattice'
     unsupported = dict.fromkeys(

@@ -60,14 +60,32 @@ class Smoothing:
 
 
 class UnsmoothedPlan:
-    """Publishes the path before it is smoothed, on `unsmoothed_plan`, if somebody listens."""
+    """
+    Publishes the path before it is smoothed, on `unsmoothed_plan`, if somebody listens.
+
+    Parameters
+    ----------
+    node
+        The planner server.
+
+    """
 
     def __init__(self, node: LifecycleNode) -> None:
         self._node = node
         self._publisher = node.create_lifecycle_publisher(Path, 'unsmoothed_plan', 1)
 
     def publish(self, route: Route, frame: str) -> None:
-        """Publish the corners of a path."""
+        """
+        Publish the corners of a path.
+
+        Parameters
+        ----------
+        route
+            The straight lines that were planned.
+        frame
+            The frame of the costmap.
+
+        """
         if not self._publisher.get_subscription_count():
             return
         places = route.to_world(route.corners)

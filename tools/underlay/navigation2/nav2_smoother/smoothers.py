@@ -79,14 +79,37 @@ class SimpleSmootherParameters:
 
 
 class SimpleSmoother(Smoother):
-    """Balances straightness against nearness to the path given."""
+    """
+    Balances straightness against nearness to the path given.
+
+    Parameters
+    ----------
+    node, name
+        As for `Smoother`: the smoother server, and the smoother's name.
+
+    """
 
     def __init__(self, node: LifecycleNode, name: str) -> None:
         super().__init__(node, name)
         self._parameters = node.parameters.declare(SimpleSmootherParameters, prefix=name)
 
     def smooth(self, poses: FloatArray, costmap: Costmap2D | None) -> FloatArray:
-        """Smooth a path; see `Smoother`."""
+        """
+        Smooth a path, as straight as the weights say.
+
+        Parameters
+        ----------
+        poses
+            (N, 3) x and y in m, yaw in rad.
+        costmap
+            Costs in the frame of the path; None if they are not known.
+
+        Returns
+        -------
+        FloatArray
+            (N, 3) poses, kept off obstacles as `smooth_path` says.
+
+        """
         values = self._parameters.current
 
         def work(points: FloatArray) -> FloatArray:
@@ -115,7 +138,20 @@ class SavitzkyGolayParameters:
 
 
 class SavitzkyGolaySmoother(Smoother):
-    """Fits polynomials to the points around each point."""
+    """
+    Fits polynomials to the points around each point.
+
+    Parameters
+    ----------
+    node, name
+        As for `Smoother`: the smoother server, and the smoother's name.
+
+    Raises
+    ------
+    ConfigurationError
+        `window_size` is even, or not more than `poly_order`.
+
+    """
 
     def __init__(self, node: LifecycleNode, name: str) -> None:
         super().__init__(node, name)
@@ -127,7 +163,22 @@ class SavitzkyGolaySmoother(Smoother):
             raise ConfigurationError(f"The smoother '{name}' cannot be used: {error}") from error
 
     def smooth(self, poses: FloatArray, costmap: Costmap2D | None) -> FloatArray:
-        """Smooth a path; see `Smoother`."""
+        """
+        Smooth a path by a Savitzky-Golay filter.
+
+        Parameters
+        ----------
+        poses
+            (N, 3) x and y in m, yaw in rad.
+        costmap
+            Costs in the frame of the path; None if they are not known.
+
+        Returns
+        -------
+        FloatArray
+            (N, 3) poses, kept off obstacles as `smooth_path` says.
+
+        """
         values = self._parameters.current
 
         def work(points: FloatArray) -> FloatArray:

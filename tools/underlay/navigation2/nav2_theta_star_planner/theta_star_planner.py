@@ -46,6 +46,11 @@ class ThetaStarPlanner(GlobalPlanner):
     """
     Plans a path of straight lines.
 
+    Parameters
+    ----------
+    node, name, costmap
+        As for `GlobalPlanner`: the planner server, the planner's name and the global costmap.
+
     Notes
     -----
     The lines come from a search on the grid that is pulled taut afterwards, where Theta* (Nash et
@@ -62,7 +67,25 @@ class ThetaStarPlanner(GlobalPlanner):
     def create_plan(
         self, start: Pose2D, goal: Pose2D
     ) -> Generator[None, None, npt.NDArray[np.float64]]:
-        """Plan a path; see `GlobalPlanner`."""
+        """
+        Plan a path of straight lines, in steps as `GlobalPlanner.create_plan` says.
+
+        Parameters
+        ----------
+        start, goal
+            Poses in the frame of the costmap.
+
+        Returns
+        -------
+        numpy.ndarray
+            (N, 3) poses: x and y in m, yaw in rad.
+
+        Raises
+        ------
+        PlanningError
+            There is no path.
+
+        """
         values = self._parameters.current
         table = weight_table(
             values.w_traversal_cost,

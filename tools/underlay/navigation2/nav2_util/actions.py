@@ -88,7 +88,15 @@ class ActionServer:
         takes_over: bool = False,
         check_goal: Callable[[Any], str | None] | None = None,
     ) -> None:
-        """Change what reaches goals, with the arguments of the class."""
+        """
+        Change what reaches goals, from the next goal on.
+
+        Parameters
+        ----------
+        work, takes_over, check_goal
+            As for the class.
+
+        """
         self._work, self._takes_over, self._check_goal = work, takes_over, check_goal
 
     def activate(self) -> None:
@@ -160,13 +168,29 @@ class ActionServer:
         return handle.request
 
     def reject_pending(self, code: int, message: str) -> None:
-        """End the newer goal that waits, because it cannot be reached; the old one goes on."""
+        """
+        Abort the newer goal that waits, because it cannot be reached; the old one goes on.
+
+        Parameters
+        ----------
+        code, message
+            The `error_code` and the `error_msg` of its result: why, as a sentence.
+
+        """
         handle, self._pending = self._pending, None
         if handle is not None:
             self._settle(handle, GoalStatus.STATUS_ABORTED, self._kind.Result(), code, message)
 
     def publish_feedback(self, feedback: Any) -> None:
-        """Tell the client of the goal that runs how far it is."""
+        """
+        Publish feedback on the goal that runs, if there is one.
+
+        Parameters
+        ----------
+        feedback
+            The feedback message of the action.
+
+        """
         if self._current is not None and self._current.is_active:
             self._current.publish_feedback(feedback)
 

@@ -53,45 +53,136 @@ class Pose2D(NamedTuple):
         )
 
     def distance_to(self, other: Pose2D) -> float:
-        """Return the distance of the two positions in m."""
+        """
+        Compute the distance between two positions.
+
+        Parameters
+        ----------
+        other
+            A pose in the same frame.
+
+        Returns
+        -------
+        float
+            The distance in m.
+
+        """
         return math.hypot(other.x - self.x, other.y - self.y)
 
 
 def wrap_angle(angle_rad: float) -> float:
-    """Return the same angle from -pi, exclusive, to pi."""
+    """
+    Wrap an angle to the range from -pi, exclusive, to pi.
+
+    Parameters
+    ----------
+    angle_rad
+        The angle in rad.
+
+    Returns
+    -------
+    float
+        The same direction in rad.
+
+    """
     return math.pi - (math.pi - angle_rad) % (2.0 * math.pi)
 
 
 def angle_between(start_rad: float, end_rad: float) -> float:
-    """Return the shortest turn from one angle to another, from -pi to pi rad."""
+    """
+    Compute the shortest turn from one angle to another.
+
+    Parameters
+    ----------
+    start_rad, end_rad
+        The angles in rad.
+
+    Returns
+    -------
+    float
+        The turn in rad, from -pi, exclusive, to pi; positive counter-clockwise.
+
+    """
     return wrap_angle(end_rad - start_rad)
 
 
 def yaw_of(quaternion: Quaternion) -> float:
-    """Return the yaw of an orientation in rad."""
+    """
+    Compute the yaw of an orientation.
+
+    Parameters
+    ----------
+    quaternion
+        The orientation, of length 1.
+
+    Returns
+    -------
+    float
+        The yaw in rad, from -pi to pi.
+
+    """
     x, y, z, w = quaternion.x, quaternion.y, quaternion.z, quaternion.w
     return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
 def make_quaternion(yaw_rad: float) -> Quaternion:
-    """Return the orientation of a yaw."""
+    """
+    Make the quaternion of a yaw.
+
+    Parameters
+    ----------
+    yaw_rad
+        The rotation about z in rad.
+
+    """
     return Quaternion(z=math.sin(0.5 * yaw_rad), w=math.cos(0.5 * yaw_rad))
 
 
 def planar_pose(pose: Pose) -> Pose2D:
-    """Return what a pose is in the plane."""
+    """
+    Project a pose onto the plane.
+
+    Parameters
+    ----------
+    pose
+        The pose, whose z, roll and pitch are dropped.
+
+    Returns
+    -------
+    Pose2D
+        x and y in m, yaw in rad, in the same frame.
+
+    """
     return Pose2D(pose.position.x, pose.position.y, yaw_of(pose.orientation))
 
 
 def make_pose(pose: Pose2D) -> Pose:
-    """Return the message of a pose on the ground."""
+    """
+    Make the message of a pose on the ground, where z is 0.
+
+    Parameters
+    ----------
+    pose
+        x and y in m, yaw in rad.
+
+    """
     message = Pose(orientation=make_quaternion(pose.yaw))
     message.position.x, message.position.y = float(pose.x), float(pose.y)
     return message
 
 
 def make_pose_stamped(pose: Pose2D, frame: str, stamp: object) -> PoseStamped:
-    """Return the stamped message of a pose; the stamp is a `builtin_interfaces/Time`."""
+    """
+    Make the stamped message of a pose on the ground.
+
+    Parameters
+    ----------
+    pose
+        x and y in m, yaw in rad.
+    frame, stamp
+        The header; the stamp is a `builtin_interfaces/Time`.
+
+    """
     message = PoseStamped(pose=make_pose(pose))
     message.header.frame_id, message.header.stamp = frame, stamp
     return message
@@ -139,7 +230,20 @@ def _stamped_in_plane(
 
 
 def path_poses(path: Path) -> FloatArray:
-    """Return the (N, 3) array of x, y (m) and yaw (rad) of a path."""
+    """
+    Convert the message of a path to an array.
+
+    Parameters
+    ----------
+    path
+        The path; the headers of its poses do not count.
+
+    Returns
+    -------
+    FloatArray
+        (N, 3) array of x, y (m) and yaw (rad).
+
+    """
     values = [
         (p.x, p.y, q.x, q.y, q.z, q.w)
         for p, q in ((each.pose.position, each.pose.orientation) for each in path.poses)

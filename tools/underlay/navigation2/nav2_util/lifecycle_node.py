@@ -100,7 +100,15 @@ class LifecycleNode(RclpyLifecycleNode):
         return self._transforms
 
     def add_companion(self, node: Node) -> None:
-        """Let a further node run with this one."""
+        """
+        Run a further node together with this one, which destroys it at its end.
+
+        Parameters
+        ----------
+        node
+            The node; it is added to the executor of this one, unless it has an executor.
+
+        """
         self.companions.append(node)
         if node.executor is None and self.share_clock is not None:
             self.share_clock(node)
@@ -117,6 +125,21 @@ class LifecycleNode(RclpyLifecycleNode):
 
         An action that was offered before the node was cleaned up goes on: rclpy's executor of
         events does not survive the end of an action server.
+
+        Parameters
+        ----------
+        kind, name
+            The type of the action and its name.
+        work
+            The coroutine function that reaches a goal.
+        **options
+            `takes_over` and `check_goal` of `ActionServer`.
+
+        Returns
+        -------
+        ActionServer
+            The server, the one of before if an action of this name was offered already.
+
         """
         for server in self.action_servers:
             if server.name == name:
@@ -134,7 +157,20 @@ class LifecycleNode(RclpyLifecycleNode):
         return server
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Configure the node; what was created is taken back if that fails."""
+        """
+        Configure the node; what was created is destroyed if that fails.
+
+        Parameters
+        ----------
+        state
+            The state before the transition.
+
+        Returns
+        -------
+        TransitionCallbackReturn
+            FAILURE after a NavigationError, ERROR after any other exception, else SUCCESS.
+
+        """
         self._kept = {kind: set(map(id, getattr(self, f'{kind}s'))) for kind in _KINDS}
         outcome = self._try('configured', self.configure)
         self.parameters.report()
@@ -143,7 +179,20 @@ class LifecycleNode(RclpyLifecycleNode):
         return outcome
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Activate publishers, actions and the node."""
+        """
+        Activate publishers, actions and the node.
+
+        Parameters
+        ----------
+        state
+            The state before the transition.
+
+        Returns
+        -------
+        TransitionCallbackReturn
+            As of `on_configure`.
+
+        """
         super().on_activate(state)
         outcome = self._try('activated', self.activate)
         if outcome is TransitionCallbackReturn.SUCCESS:
@@ -155,7 +204,20 @@ class LifecycleNode(RclpyLifecycleNode):
         return outcome
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Deactivate actions, the node and publishers."""
+        """
+        Deactivate actions, the node and publishers.
+
+        Parameters
+        ----------
+        state
+            The state before the transition.
+
+        Returns
+        -------
+        TransitionCallbackReturn
+            As of `on_configure`.
+
+        """
         self.is_active = False
         for server in self.action_servers:
             server.deactivate()
@@ -164,17 +226,56 @@ class LifecycleNode(RclpyLifecycleNode):
         return outcome
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Take back what was created."""
+        """
+        Destroy what `configure` and `activate` have created.
+
+        Parameters
+        ----------
+        state
+            The state before the transition.
+
+        Returns
+        -------
+        TransitionCallbackReturn
+            As of `on_configure`.
+
+        """
         return self._try('cleaned up', self._clean_up)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """End what runs, whatever the state was."""
+        """
+        Deactivate the node if it is active, and clean it up.
+
+        Parameters
+        ----------
+        state
+            The state before the transition.
+
+        Returns
+        -------
+        TransitionCallbackReturn
+            As of `on_configure`.
+
+        """
         if self.is_active:
             self.on_deactivate(state)
         return self._try('shut down', self._clean_up)
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Return to the state before it was configured."""
+        """
+        Clean up the node, which becomes unconfigured if that succeeds.
+
+        Parameters
+        ----------
+        state
+            The state before the transition.
+
+        Returns
+        -------
+        TransitionCallbackReturn
+            As of `on_configure`.
+
+        """
         return self._try('cleaned up', self._clean_up)
 
     async def wind_up(self) -> None:

@@ -45,10 +45,21 @@ def subscribe_velocity(
 
 def velocity_in(data: bytes) -> tuple[float, Velocity]:
     """
-    Return the time in s and the velocity in a serialized `nav_msgs/Odometry`.
+    Read the time and the velocity in a serialized `nav_msgs/Odometry`.
 
     In CDR a number stands at a multiple of its size, counted from the fifth byte: a stamp, two
     names with their lengths, the pose and the twist with a covariance each.
+
+    Parameters
+    ----------
+    data
+        The message in CDR, as a raw subscription gives it.
+
+    Returns
+    -------
+    tuple
+        The stamp of the header in s, and the velocity in the child frame (m/s, rad/s).
+
     """
     order = _ORDERS.get(bytes(data[:2]))
     if order is not None:

@@ -26,7 +26,17 @@ class Spec:
 
 
 def typed_parameter(name: str, value: Any, like: Any) -> Parameter:
-    """Return a parameter of the type that its default has, also for an empty list."""
+    """
+    Make a parameter of the type that its default has, also for an empty list.
+
+    Parameters
+    ----------
+    name, value
+        Those of the parameter.
+    like
+        The default; its first element has the type of the elements of an empty list.
+
+    """
     if isinstance(value, list) and not value:
         first = like[0] if like else ''
         kinds = {
@@ -39,7 +49,27 @@ def typed_parameter(name: str, value: Any, like: Any) -> Parameter:
 
 
 def coerced(value: Any, like: Any) -> Any:
-    """Return a value as the type of another one; ValueError says why that cannot be."""
+    """
+    Convert a value to the type of another one: integers to floats, and whole floats to integers.
+
+    Parameters
+    ----------
+    value
+        The value given.
+    like
+        A value of the type that is wanted, such as the default.
+
+    Returns
+    -------
+    Any
+        The value, in a list each element.
+
+    Raises
+    ------
+    ValueError
+        It has another type; the text is the rest of a sentence that begins with its name.
+
+    """
     if isinstance(like, list):
         if isinstance(value, (str, bytes)) or not hasattr(value, '__iter__'):
             raise ValueError(f'has to be a list, and is {value!r}')
@@ -64,7 +94,22 @@ def _kind(value: Any) -> str:
 
 
 def check_limits(value: Any, spec: Spec) -> None:
-    """Raise ValueError with the rest of a sentence if a value is not allowed."""
+    """
+    Check a value against the limits and the choices of its parameter.
+
+    Parameters
+    ----------
+    value
+        The value; of a list, each element counts.
+    spec
+        What is known of the parameter.
+
+    Raises
+    ------
+    ValueError
+        It is not allowed; the text is the rest of a sentence that begins with its name.
+
+    """
     for each in value if isinstance(value, list) else [value]:
         if isinstance(each, float) and math.isnan(each):
             raise ValueError('has to be a number, and is nan')

@@ -69,6 +69,12 @@ class ParameterSet(Generic[ParametersT]):
     The values of a dataclass of parameters in a node: `current`, a new one after each change.
 
     Objects keep the set and read `current` when they work, so that `ros2 param set` has effect.
+
+    Parameters
+    ----------
+    current
+        The values at first.
+
     """
 
     def __init__(self, current: ParametersT) -> None:
@@ -83,6 +89,12 @@ class ParameterServer:
 
     A value of another type, or beyond its limits, is a ConfigurationError with a sentence when the
     node is configured, and refused with it later.
+
+    Parameters
+    ----------
+    node
+        The node that has the parameters.
+
     """
 
     def __init__(self, node: Node) -> None:
@@ -130,7 +142,29 @@ class ParameterServer:
         return found
 
     def declare_value(self, name: str, default: Any, description: str) -> Any:
-        """Declare a single parameter whose name is only known now; return its value."""
+        """
+        Declare a single parameter whose name is only known now.
+
+        Parameters
+        ----------
+        name
+            The full name, with its prefix.
+        default
+            Its value when nobody sets it, of the type of the parameter.
+        description
+            What it does, with the unit.
+
+        Returns
+        -------
+        Any
+            Its value; also if it was declared before.
+
+        Raises
+        ------
+        ConfigurationError
+            The value that was given at the start has another type.
+
+        """
         if self._node.has_parameter(name):
             return self._node.get_parameter(name).value
         return self._declare_one(name, default, Spec(description, None, None, (), None, False))

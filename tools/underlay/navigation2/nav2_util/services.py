@@ -57,7 +57,24 @@ def create_async_service(
 
 
 async def wait_for(node: Node, future: Future[Any], timeout_s: float) -> bool:
-    """Return whether a future is done within a time in s of a clock that nobody sets."""
+    """
+    Wait until a future is done, or a timeout of a steady clock is over.
+
+    Parameters
+    ----------
+    node
+        The node whose executor goes on with the coroutine.
+    future
+        What to wait for.
+    timeout_s
+        How long at most, in s, also while simulated time stands.
+
+    Returns
+    -------
+    bool
+        Whether the future is done.
+
+    """
     if future.done():
         return True
     end: Future[None] = Future(executor=node.executor)

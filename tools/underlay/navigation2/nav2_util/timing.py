@@ -21,7 +21,15 @@ _of_coroutines: WeakSet[Any] = WeakSet()
 
 
 def is_of_coroutine(timer: Any) -> bool:
-    """Whether a coroutine waits for a timer, which it destroys itself."""
+    """
+    Whether a coroutine waits for a timer, which it destroys itself.
+
+    Parameters
+    ----------
+    timer
+        A timer of any node.
+
+    """
     return timer in _of_coroutines
 
 
@@ -36,19 +44,45 @@ def steady_clock() -> Clock:
 
 
 def clock_of(node: Node) -> Clock:
-    """Return, for a timer, the clock of a node if it is simulated, else a steady one."""
+    """
+    Return, for a timer, the clock of a node if it is simulated, else a steady one.
+
+    Parameters
+    ----------
+    node
+        The node.
+
+    """
     clock = node.get_clock()
     return clock if clock.ros_time_is_active else steady_clock()
 
 
 def now_s(node: Node) -> float:
-    """Return the time of a node's clock in s, for differences; it may jump back at a reset."""
+    """
+    Return the time of a node's clock in s, for differences; it may jump back at a reset.
+
+    Parameters
+    ----------
+    node
+        The node; without simulated time, a steady clock counts.
+
+    """
     clock = node.get_clock()
     return float((clock if clock.ros_time_is_active else STEADY).now().nanoseconds) * 1e-9
 
 
 async def sleep(node: Node, duration_s: float) -> None:
-    """Return after a duration in s of the node's clock; other callbacks run meanwhile."""
+    """
+    Sleep in a coroutine; other callbacks run meanwhile.
+
+    Parameters
+    ----------
+    node
+        The node whose clock counts, and whose executor goes on with the coroutine.
+    duration_s
+        How long, in s of that clock.
+
+    """
     done: Future[None] = Future(executor=node.executor)
     timer = node.create_timer(
         max(duration_s, 0.0), lambda: done.set_result(None), clock=clock_of(node)
@@ -61,7 +95,15 @@ async def sleep(node: Node, duration_s: float) -> None:
 
 
 async def give_way(node: Node) -> None:
-    """Return when other callbacks that were due have had their turn, whatever any clock says."""
+    """
+    Let other callbacks that are due have their turn, whatever any clock says.
+
+    Parameters
+    ----------
+    node
+        The node whose executor runs them.
+
+    """
     executor = node.executor
     if executor is not None:
         done: Future[None] = Future(executor=executor)

@@ -127,7 +127,19 @@ class Transforms:
 
     def pose_in(self, pose: Any, in_frame: str) -> Pose2D:
         """
-        Return a `PoseStamped` in another frame, at its time or, without one, at the newest.
+        Transform a `PoseStamped` to another frame by the newest transform, whatever its stamp.
+
+        Parameters
+        ----------
+        pose
+            The pose, in the frame of its header.
+        in_frame
+            The name of the other frame.
+
+        Returns
+        -------
+        Pose2D
+            x and y in m, yaw in rad, in the other frame.
 
         Raises
         ------

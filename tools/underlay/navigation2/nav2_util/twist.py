@@ -41,7 +41,15 @@ class Velocity(NamedTuple):
         return math.hypot(self.x, self.y)
 
     def scaled(self, factor: float) -> Velocity:
-        """Return the same motion at another speed."""
+        """
+        Scale the velocity: the same curve at another speed.
+
+        Parameters
+        ----------
+        factor
+            What x, y and yaw rate are multiplied by.
+
+        """
         return Velocity(self.x * factor, self.y * factor, self.yaw * factor)
 
     def poses_after(self, times_s: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
@@ -69,7 +77,15 @@ class Velocity(NamedTuple):
 
 
 def velocity_of(twist: Twist) -> Velocity:
-    """Return what a twist is in the plane."""
+    """
+    Project a twist onto the plane.
+
+    Parameters
+    ----------
+    twist
+        The message, of which x, y (m/s) and the yaw rate (rad/s) count.
+
+    """
     return Velocity(twist.linear.x, twist.linear.y, twist.angular.z)
 
 
@@ -95,7 +111,17 @@ class TwistPublisher:
         self._publisher = node.create_publisher(TwistStamped if is_stamped else Twist, topic, 1)
 
     def publish(self, velocity: Velocity, header: Header | None = None) -> None:
-        """Publish a velocity; the header's default is the robot's frame, now."""
+        """
+        Publish a velocity.
+
+        Parameters
+        ----------
+        velocity
+            The velocity in the base frame (m/s, rad/s).
+        header
+            The header of a `TwistStamped`; by default the frame of the class, now.
+
+        """
         twist = Twist()
         twist.linear.x, twist.linear.y = float(velocity.x), float(velocity.y)
         twist.angular.z = float(velocity.yaw)
@@ -114,9 +140,19 @@ def subscribe_twist(
     callback: Callable[[Velocity, Header | None], None],
 ) -> None:
     """
-    Call back with each velocity of a topic, and its header if it has one.
+    Subscribe to the velocities of a topic.
 
     Velocities that are infinite or not a number are ignored with an error, at most one a second.
+
+    Parameters
+    ----------
+    node, topic
+        The node that subscribes, and a topic such as `cmd_vel`.
+    is_stamped
+        Whether it is one of `TwistStamped` instead of `Twist`.
+    callback
+        Called with each velocity, and its header if it has one.
+
     """
 
     def receive(message: Any) -> None:

@@ -109,7 +109,22 @@ def smooth(
 
 
 def apply_deadband(velocity: FloatArray, limits: Limits) -> FloatArray:
-    """Return a velocity whose parts that are too small to move the robot are zero."""
+    """
+    Zero the axes of a velocity that are too slow to move the robot.
+
+    Parameters
+    ----------
+    velocity
+        (3,) x, y (m/s) and theta (rad/s).
+    limits
+        Those whose `deadband_velocity` counts.
+
+    Returns
+    -------
+    FloatArray
+        (3,) x, y (m/s) and theta (rad/s).
+
+    """
     return np.where(np.abs(velocity) < limits.deadband_velocity, 0.0, velocity)
 
 
@@ -129,14 +144,39 @@ class OdometryAverage:
         self._samples: deque[tuple[float, FloatArray]] = deque(maxlen=1000)
 
     def add(self, now_s: float, velocity: Sequence[float]) -> None:
-        """Take note of a velocity of x, y (m/s) and theta (rad/s)."""
+        """
+        Add a measured velocity; one that is not finite is ignored.
+
+        Parameters
+        ----------
+        now_s
+            The time in s; if it has jumped back, what was added before is forgotten.
+        velocity
+            (3,) x, y (m/s) and theta (rad/s).
+
+        """
         if np.all(np.isfinite(velocity)):
             if self._samples and self._samples[-1][0] > now_s:
                 self._samples.clear()
             self._samples.append((now_s, np.asarray(velocity, dtype=np.float64)))
 
     def velocity(self, now_s: float, not_older_s: float) -> FloatArray | None:
-        """Return the average over the duration, or the newest; None if that is too old."""
+        """
+        Compute the average velocity over the duration; the newest one counts in any case.
+
+        Parameters
+        ----------
+        now_s
+            The time in s.
+        not_older_s
+            How old the newest velocity may be, in s.
+
+        Returns
+        -------
+        FloatArray or None
+            (3,) x, y (m/s) and theta (rad/s); None if the newest is too old, or there is none.
+
+        """
         if not self._samples or now_s - self._samples[-1][0] > not_older_s:
             return None
         while len(self._samples) > 1 and self._samples[0][0] < now_s - self.duration_s:

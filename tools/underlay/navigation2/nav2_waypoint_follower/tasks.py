@@ -60,7 +60,17 @@ class WaitAtWaypoint:
         self._settings = node.parameters.declare(_WaitParameters, name)
 
     async def run(self, pose: Any, index: int, check: Callable[[], None]) -> None:
-        """Wait at a waypoint; `check` raises when that has to end."""
+        """
+        Wait at a waypoint, for as long as the parameter `waypoint_pause_duration` says.
+
+        Parameters
+        ----------
+        pose, index
+            The waypoint; both have no effect.
+        check
+            Called every 50 ms; raises when the task has to end.
+
+        """
         pause_s = 1e-3 * self._settings.current.waypoint_pause_duration
         if not self._settings.current.enabled or not pause_s:
             return
@@ -79,6 +89,11 @@ class PhotoAtWaypoint:
     ----------
     node, name
         The node whose parameters tell how, and what stands before their names.
+
+    Raises
+    ------
+    ConfigurationError
+        The folder for photos cannot be made.
 
     """
 
@@ -102,6 +117,15 @@ class PhotoAtWaypoint:
     async def run(self, pose: Any, index: int, check: Callable[[], None]) -> None:
         """
         Save the newest image as `<waypoint>_<time>.<format>`.
+
+        Parameters
+        ----------
+        pose
+            The pose of the waypoint; no effect.
+        index
+            The number of the waypoint, from 0.
+        check
+            As for `WaitAtWaypoint.run`; no effect.
 
         Raises
         ------
@@ -148,7 +172,12 @@ class InputAtWaypoint:
 
     async def run(self, pose: Any, index: int, check: Callable[[], None]) -> None:
         """
-        Wait.
+        Wait until a message comes on the topic of the parameter `input_topic`.
+
+        Parameters
+        ----------
+        pose, index, check
+            As for `WaitAtWaypoint.run`.
 
         Raises
         ------
@@ -180,7 +209,19 @@ TASKS: dict[str, Any] = {
 
 def make_task(node: LifecycleNode, name: str) -> Any:
     """
-    Return the task that the parameters of a node name.
+    Make the task whose type the parameters of a node say.
+
+    Parameters
+    ----------
+    node
+        The waypoint follower.
+    name
+        The name of the task; its type is the parameter `<name>.plugin`.
+
+    Returns
+    -------
+    Any
+        An object of a class of `TASKS`.
 
     Raises
     ------

@@ -247,7 +247,7 @@ def run_container(kind: str = '', arguments: Sequence[str] | None = None) -> int
     kind
         '' for one executor with one thread for all components, 'mt' for several threads, and
         'isolated' for an executor with a thread of its own for each component.
-    arguments
+    arguments : Sequence[str] | None
         The command line with the program's name; by default that of the process.
 
     """

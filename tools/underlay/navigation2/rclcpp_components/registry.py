@@ -28,7 +28,20 @@ class ComponentError(Exception):
 
 
 def registered_components(package: str) -> dict[str, str]:
-    """Return the places, as `module:class`, of the components of a package by their names."""
+    """
+    List the components that a package registers.
+
+    Parameters
+    ----------
+    package
+        The name of the package.
+
+    Returns
+    -------
+    dict
+        The places of classes as `module:class`, or of libraries of C++, by the components' names.
+
+    """
     found: dict[str, str] = {}
     for each in entry_points(group=GROUP):
         if each.name.startswith(f'{package}::'):

@@ -32,6 +32,11 @@ class SharedClock:
         """
         Let a node that uses simulated time share the clock.
 
+        Parameters
+        ----------
+        node
+            The node; one that does not use simulated time stays as it is.
+
         Returns
         -------
         Node or None
@@ -62,7 +67,15 @@ class SharedClock:
         return made
 
     def release(self, node: Node) -> None:
-        """Forget the clocks of a node that is about to be destroyed."""
+        """
+        Forget the clocks of a node that is destroyed.
+
+        Parameters
+        ----------
+        node
+            A node that `take` was given.
+
+        """
         if self._node is not None:
             shared: TimeSource = self._node._time_source
             ended = node._time_source._associated_clocks

@@ -10,7 +10,27 @@ __all__ = ['file_argument', 'parameters_from_file']
 
 
 def file_argument(program: str, words: list[str]) -> str | None:
-    """Return the file that the arguments name, or None if there are no arguments."""
+    """
+    Parse a command line that may name a URDF file.
+
+    Parameters
+    ----------
+    program
+        The name of the program, for the error message.
+    words
+        The arguments that are not for ROS.
+
+    Returns
+    -------
+    str or None
+        The file; None if there are no arguments.
+
+    Raises
+    ------
+    ValueError
+        There are several arguments, or options.
+
+    """
     if len(words) > 1 or any(word.startswith('-') for word in words):
         raise ValueError(
             f'{program} takes one URDF file at most and no options, but not {" ".join(words)}. '
@@ -20,7 +40,25 @@ def file_argument(program: str, words: list[str]) -> str | None:
 
 
 def parameters_from_file(file: str | None) -> list[Parameter]:
-    """Return the parameter that a file holds, or raise ValueError."""
+    """
+    Read a URDF file as the parameter robot_description.
+
+    Parameters
+    ----------
+    file
+        The path of the file; None for no parameter.
+
+    Returns
+    -------
+    list of Parameter
+        One parameter, or none without a file.
+
+    Raises
+    ------
+    UrdfError
+        The file cannot be read.
+
+    """
     if file is None:
         return []
     return [Parameter('robot_description', Parameter.Type.STRING, read_urdf_file(file))]

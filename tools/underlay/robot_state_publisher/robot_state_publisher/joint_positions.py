@@ -17,9 +17,27 @@ def usable_positions(
     names: Sequence[str], positions: Sequence[float]
 ) -> tuple[tuple[str, ...], Sequence[float]]:
     """
-    Return the names and positions without those that are no number.
+    Drop the positions of a joint state that are not finite, together with their names.
 
-    A source writes 'not a number' for what it does not know.
+    A source writes NaN for what it does not know.
+
+    Parameters
+    ----------
+    names
+        The joints of the message.
+    positions
+        Their positions, in rad or m.
+
+    Returns
+    -------
+    tuple
+        The remaining names and positions, in their order.
+
+    Raises
+    ------
+    UnusableStateError
+        There are not as many positions as names.
+
     """
     if len(positions) != len(names):
         raise UnusableStateError(_mismatch(names, positions))

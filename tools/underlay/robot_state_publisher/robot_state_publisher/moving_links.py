@@ -26,13 +26,26 @@ class _Drive:
 
 class MovingLinks:
     """
-    Poses of the links below those joints which some names give, in the order of the URDF.
+    Forward kinematics of each joint that a list of joint names drives.
 
-    A joint that mimics another follows it, through any number of joints, unless itself is named.
+    A joint that mimics another one follows it, through any number of joints, unless it is itself
+    in the list.
+
+    Parameters
+    ----------
+    model
+        The robot.
+    names
+        The joints whose positions will be given, in that order; unknown ones drive nothing.
+
+    Attributes
+    ----------
+    joints
+        The joints that they drive, in the order of the URDF.
+
     """
 
     def __init__(self, model: RobotModel, names: Sequence[str]) -> None:
-        """Find out once which positions move which joints."""
         index_of = {name: index for index, name in enumerate(names)}
         drives = list(_drives(model, index_of))
         self.joints = tuple(drive.joint for drive in drives)
@@ -40,7 +53,25 @@ class MovingLinks:
         self._rules = [(drive.index, drive.multiplier, drive.offset) for drive in drives]
 
     def poses(self, positions: Sequence[float]) -> list[Pose]:
-        """Return a pose for each of `joints`, or raise UnusableStateError."""
+        """
+        Compute the pose of the child link of each joint in its parent link.
+
+        Parameters
+        ----------
+        positions
+            The positions of the names, in their order, in rad or m.
+
+        Returns
+        -------
+        list of Pose
+            For each of `joints`: translation in m, quaternion x, y, z, w.
+
+        Raises
+        ------
+        UnusableStateError
+            A mimic joint would be at a position that is not finite.
+
+        """
         values = [
             multiplier * positions[index] + offset for index, multiplier, offset in self._rules
         ]

@@ -15,15 +15,33 @@ SLACK = 0.1
 
 
 class PublishTimes:
-    """Decides by the stamps of joint states which of them are due."""
+    """
+    Limits the rate at which joints are published, by the stamps of their states.
+
+    Parameters
+    ----------
+    frequency_hz
+        The highest rate for a joint, in Hz; an interval may be 10 % shorter, as sources are
+        uneven.
+
+    """
 
     def __init__(self, frequency_hz: float) -> None:
-        """Have published nothing yet."""
         self._interval_ns = round(S / frequency_hz * (1.0 - SLACK))
         self._last_ns: dict[str, int] = {}
 
     def went_back(self, names: Iterable[str], stamp_ns: int) -> bool:
-        """Tell if a stamp is far before what was published: time has begun anew."""
+        """
+        Check whether a stamp is more than 1 s before what was published: time has begun anew.
+
+        Parameters
+        ----------
+        names
+            The joints of the state; the one that was published longest ago counts.
+        stamp_ns
+            The stamp of the state, in ns.
+
+        """
         return stamp_ns < self._oldest(names) - JUMP_NS
 
     def forget(self) -> None:
@@ -31,11 +49,31 @@ class PublishTimes:
         self._last_ns.clear()
 
     def is_due(self, names: Iterable[str], stamp_ns: int) -> bool:
-        """Tell if one of the joints has waited long enough; one without a stamp never has."""
+        """
+        Check whether one of the joints has not been published for the shortest interval.
+
+        Parameters
+        ----------
+        names
+            The joints of the state.
+        stamp_ns
+            The stamp of the state, in ns; a state without a stamp (0) is never due.
+
+        """
         return stamp_ns - self._oldest(names) >= self._interval_ns
 
     def note(self, names: Iterable[str], stamp_ns: int) -> None:
-        """Note that these joints are published."""
+        """
+        Record that joints are published.
+
+        Parameters
+        ----------
+        names
+            The joints.
+        stamp_ns
+            The stamp of their state, in ns.
+
+        """
         self._last_ns.update(dict.fromkeys(names, stamp_ns))
 
     def _oldest(self, names: Iterable[str]) -> int:

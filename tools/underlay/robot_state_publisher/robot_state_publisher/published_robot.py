@@ -23,10 +23,26 @@ MAX_LISTS = 64
 
 
 class PublishedRobot:
-    """Turns joint states into transforms."""
+    """
+    Converts the joint states of one robot description to transforms.
+
+    Parameters
+    ----------
+    model
+        The robot.
+    settings
+        The parameters of the node, of which the rate, the use of stamps and the prefix count.
+
+    Attributes
+    ----------
+    times
+        The rate limit.
+    watch
+        What is missing or wrong in the joint states.
+
+    """
 
     def __init__(self, model: RobotModel, settings: Settings) -> None:
-        """Have published nothing yet."""
         self.model = model
         self.times = PublishTimes(settings.publish_frequency)
         self.watch = StateWatch(model)
@@ -34,7 +50,15 @@ class PublishedRobot:
         self._lists: dict[tuple[str, ...], tuple[MovingLinks, TransformMessages]] = {}
 
     def fixed_transforms(self, stamp: Time) -> TFMessage:
-        """Return the transforms that joint states do not change; not those of floating joints."""
+        """
+        Build the static transforms: of fixed joints, and of planar ones at position 0.
+
+        Parameters
+        ----------
+        stamp
+            The stamp of all of them.
+
+        """
         joints = [joint for joint in self.model.joints if joint.kind in ('fixed', 'planar')]
         messages = TransformMessages(joints, self._settings.frame_prefix)
         return messages.fill(stamp, [joint_motion(joint)(0.0) for joint in joints])
@@ -42,7 +66,30 @@ class PublishedRobot:
     def transforms(
         self, names: tuple[str, ...], positions: Sequence[float], stamp: Time
     ) -> TFMessage | None:
-        """Return the transforms of a joint state if they are due, and if there are any."""
+        """
+        Compute the transforms of a joint state, if they are due.
+
+        Parameters
+        ----------
+        names
+            The joints of the state.
+        positions
+            Their positions, in rad or m.
+        stamp
+            The stamp of the state, which becomes that of the transforms.
+
+        Returns
+        -------
+        TFMessage or None
+            None if it is too early for them, or the names drive no joint. The message is filled
+            anew by the next state with the same names.
+
+        Raises
+        ------
+        UnusableStateError
+            A mimic joint would be at a position that is not finite.
+
+        """
         stamp_ns = stamp.sec * S + stamp.nanosec
         if not self._settings.ignore_timestamp and not self.times.is_due(names, stamp_ns):
             return None
@@ -51,7 +98,20 @@ class PublishedRobot:
         return messages.fill(stamp, links.poses(positions)) if links.joints else None
 
     def require_stamp(self, stamp: Time) -> None:
-        """Raise UnusableStateError if a joint state has no stamp, but needs one."""
+        """
+        Reject a joint state without a stamp, unless stamps are ignored.
+
+        Parameters
+        ----------
+        stamp
+            The stamp of the state; 0 stands for none.
+
+        Raises
+        ------
+        UnusableStateError
+            The state has no stamp, but needs one.
+
+        """
         if not (self._settings.ignore_timestamp or stamp.sec or stamp.nanosec):
             raise UnusableStateError(
                 'A joint state without a stamp is left out. Stamp it, or set the parameter '
@@ -59,7 +119,22 @@ class PublishedRobot:
             )
 
     def notice_time(self, names: Sequence[str], stamp: Time) -> str | None:
-        """Begin anew if stamps have jumped back; return what the log should say of it."""
+        """
+        Reset the rate limit if the stamps of joint states have jumped back.
+
+        Parameters
+        ----------
+        names
+            The joints of the state.
+        stamp
+            The stamp of the state.
+
+        Returns
+        -------
+        str or None
+            The message for the log; None if there was no jump.
+
+        """
         if self._settings.ignore_timestamp:
             return None
         if not self.times.went_back(names, stamp.sec * S + stamp.nanosec):
@@ -68,7 +143,15 @@ class PublishedRobot:
         return 'The stamps of joint states have jumped back: all joints are published anew.'
 
     def knows(self, names: tuple[str, ...]) -> bool:
-        """Tell if a joint state with these very names has come before."""
+        """
+        Check whether a joint state with the same list of names was published before.
+
+        Parameters
+        ----------
+        names
+            The joints of the state, in the order of the message.
+
+        """
         return names in self._lists
 
     def _remember(self, names: tuple[str, ...]) -> tuple[MovingLinks, TransformMessages]:

@@ -36,10 +36,22 @@ TIME_JUMPED = (
 
 
 class RobotStatePublisher(Node):
-    """Publishes the robot description, its fixed transforms, and the others as joints move."""
+    """
+    Publishes the robot description, its fixed transforms, and the others as joints move.
+
+    Parameters
+    ----------
+    file
+        A file with the URDF; by default the parameter robot_description has the text.
+
+    Raises
+    ------
+    ValueError
+        There is no robot description, or a parameter is invalid.
+
+    """
 
     def __init__(self, file: str | None = None) -> None:
-        """Declare the parameters and publish the robot; its URDF may be in a file."""
         super().__init__('robot_state_publisher', parameter_overrides=parameters_from_file(file))
         self._settings = _declare(self)
         _warn_of_unknown(self)

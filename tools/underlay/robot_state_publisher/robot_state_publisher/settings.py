@@ -29,12 +29,33 @@ class Settings:
     frame_prefix: str = ''
 
     def changed(self, values: Mapping[str, Any]) -> Settings:
-        """Return the settings with other values; those of other parameters do not count."""
+        """
+        Return a copy with other values.
+
+        Parameters
+        ----------
+        values
+            Values of parameters by name; names of other parameters are ignored.
+
+        """
         known = {field.name for field in fields(self)}
         return replace(self, **{name: values[name] for name in known & values.keys()})
 
     def model(self, source: str = 'robot_description') -> RobotModel:
-        """Return the robot, or raise ValueError if any value is unusable."""
+        """
+        Validate the settings and parse the robot description.
+
+        Parameters
+        ----------
+        source
+            Where the description is from, for error messages: a file, or the name of a parameter.
+
+        Raises
+        ------
+        ValueError
+            The frequency or the description is invalid.
+
+        """
         frequency: Any = self.publish_frequency
         is_number = isinstance(frequency, (int, float)) and not isinstance(frequency, bool)
         if not is_number or not 0.0 < frequency <= 1000.0:

@@ -12,10 +12,17 @@ __all__ = ['StateWatch']
 
 
 class StateWatch:
-    """What the log says about the joints of joint states, each thing once."""
+    """
+    Finds joints without a state and misspelt joint names, each of which is reported once.
+
+    Parameters
+    ----------
+    model
+        The robot.
+
+    """
 
     def __init__(self, model: RobotModel) -> None:
-        """Have seen nothing yet."""
         mimics = model.mimics
         self._names = {joint.name for joint in model.moving_joints}
         self._needed = [joint.name for joint in model.moving_joints if joint.name not in mimics]
@@ -30,9 +37,21 @@ class StateWatch:
 
     def misspelt(self, names: Iterable[str]) -> Iterator[str]:
         """
-        Note names that came; return a sentence for each new one that is like a missing joint's.
+        Record the names of a joint state, and warn of those that resemble a joint without a state.
 
-        Other names belong to other robots, and joints that have a state are not meant.
+        Names that resemble no such joint belong to other robots. Names are recorded when the first
+        warning is asked for.
+
+        Parameters
+        ----------
+        names
+            The joints of the state.
+
+        Yields
+        ------
+        str
+            A warning for each misspelt name that has not come before.
+
         """
         new = [name for name in names if name not in self._seen]
         self._seen.update(new)
@@ -45,7 +64,21 @@ class StateWatch:
                 )
 
     def unknown(self, names: Iterable[str]) -> Iterator[str]:
-        """Return a sentence for each joint that came with a position which is no number."""
+        """
+        Warn of joints whose position is not finite, once for each joint.
+
+        Parameters
+        ----------
+        names
+            The joints without a finite position in a joint state; names of other robots are
+            ignored.
+
+        Yields
+        ------
+        str
+            The warnings, by name.
+
+        """
         new = self._names.intersection(names) - self._unknown
         self._unknown |= new
         for name in sorted(new):
@@ -55,7 +88,22 @@ class StateWatch:
             )
 
     def complaint(self, publishers: int, topic: str) -> str | None:
-        """Return a sentence that names the joints without a state, if there are any."""
+        """
+        Format the warning that names the joints without a state.
+
+        Parameters
+        ----------
+        publishers
+            How many publishers the topic has.
+        topic
+            The topic of the joint states.
+
+        Returns
+        -------
+        str or None
+            None if all joints have had a state.
+
+        """
         missing = self.missing
         if not missing:
             return None

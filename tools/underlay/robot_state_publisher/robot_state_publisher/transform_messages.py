@@ -15,10 +15,24 @@ __all__ = ['TransformMessages']
 
 
 class TransformMessages:
-    """One message with the transforms of some joints."""
+    """
+    A message with the transforms of some joints, which is built once and filled again and again.
+
+    Parameters
+    ----------
+    joints
+        The joints, in the order of the transforms.
+    frame_prefix
+        What precedes the names of all frames.
+
+    Attributes
+    ----------
+    message
+        The `tf2_msgs/TFMessage`.
+
+    """
 
     def __init__(self, joints: Sequence[Joint], frame_prefix: str) -> None:
-        """Make the message; what changes later is the stamp and the poses."""
         self._stamp = Time()
         self.message = TFMessage(
             transforms=[_transform(joint, frame_prefix, self._stamp) for joint in joints]
@@ -29,7 +43,22 @@ class TransformMessages:
         ]
 
     def fill(self, stamp: Time, poses: Iterable[Pose]) -> TFMessage:
-        """Return the message with this stamp and these poses."""
+        """
+        Set the stamp and the poses of the message.
+
+        Parameters
+        ----------
+        stamp
+            The stamp of all transforms.
+        poses
+            Pose of the child link of each joint in its parent link, in the order of the joints.
+
+        Returns
+        -------
+        TFMessage
+            The same message at each call.
+
+        """
         self._stamp.sec, self._stamp.nanosec = stamp.sec, stamp.nanosec
         for (at, turn), pose in zip(self._places, poses):
             at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w = pose

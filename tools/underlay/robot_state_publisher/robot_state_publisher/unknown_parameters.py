@@ -15,7 +15,19 @@ OF_ROS = ('use_sim_time', 'start_type_description_service', 'qos_overrides.')
 def unknown_parameters(
     given: Iterable[str], known: Collection[str], prefixes: tuple[str, ...] = ()
 ) -> list[str]:
-    """Return a sentence for each name that is not known, and has no known prefix."""
+    """
+    Format a warning for each parameter that the node does not know.
+
+    Parameters
+    ----------
+    given
+        The names of the parameters that were given to the node.
+    known
+        The names that it declares.
+    prefixes
+        Beginnings of names that are allowed, besides those of ROS.
+
+    """
     return [
         f"There is no parameter '{name}'.{did_you_mean(name, known)}"
         for name in given

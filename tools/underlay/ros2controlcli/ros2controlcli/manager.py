@@ -16,7 +16,15 @@ ANSWER_TIMEOUT_S = 10.0
 
 
 def add_manager_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the options that all verbs have."""
+    """
+    Add the options that all verbs of `ros2 control` have.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
     add_node_arguments(parser)
     parser.add_argument(
         '-c',
@@ -34,7 +42,7 @@ def ask(args: argparse.Namespace, name: str, kind: str, **request: Any) -> Any:
 
     Parameters
     ----------
-    args
+    args : argparse.Namespace
         The options of `add_manager_arguments`.
     name
         The service, without the name of the manager.

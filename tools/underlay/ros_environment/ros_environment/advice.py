@@ -21,12 +21,30 @@ def current_folder() -> Path:
 
 
 def source_command(workspace: Path) -> str:
-    """Return the command that makes a built workspace known to the shell."""
+    """
+    Format the shell command that sources a built workspace.
+
+    Parameters
+    ----------
+    workspace
+        The folder of the workspace; the path is relative if it is the current folder.
+
+    """
     return f'source {_reach(workspace, "install/setup.bash")}'
 
 
 def build_command(workspace: Path, package: str) -> str:
-    """Return the commands that build one package and make it known to the shell."""
+    """
+    Format the shell commands that build one package and source its workspace.
+
+    Parameters
+    ----------
+    workspace
+        The folder of the workspace.
+    package
+        The package that is built.
+
+    """
     build = f'colcon build --packages-select {package}'
     if current_folder() != workspace:
         build = f'cd {shlex.quote(str(workspace))} && {build}'
@@ -34,13 +52,36 @@ def build_command(workspace: Path, package: str) -> str:
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return a question that names the closest known name, or '' if none is close."""
+    """
+    Suggest the known name that is most similar to a misspelt one.
+
+    Parameters
+    ----------
+    name
+        What was written.
+    known
+        The names that exist.
+
+    Returns
+    -------
+    str
+        "Did you mean '...'?", or '' if no name is similar.
+
+    """
     matches = get_close_matches(name, sorted(known), n=1)
     return f"Did you mean '{matches[0]}'?" if matches else ''
 
 
 def listing(names: list[str]) -> str:
-    """Return names as one text, cut when there are many."""
+    """
+    Join names with commas; those after the twelfth are only counted.
+
+    Parameters
+    ----------
+    names
+        The names, in their order.
+
+    """
     more = len(names) - MAX_LISTED
     return ', '.join(names[:MAX_LISTED]) + (f' and {more} more' if more > 0 else '')
 

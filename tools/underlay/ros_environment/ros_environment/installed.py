@@ -11,7 +11,15 @@ LAUNCH_SUFFIXES = ('launch.py', 'launch.xml', 'launch.yaml', 'launch.yml', '.lau
 
 
 def prefixes(variable: str = 'AMENT_PREFIX_PATH') -> list[Path]:
-    """Return the existing folders that an environment variable lists."""
+    """
+    List the existing folders in an environment variable.
+
+    Parameters
+    ----------
+    variable
+        The name of the variable, such as AMENT_PREFIX_PATH or COLCON_PREFIX_PATH.
+
+    """
     folders = (Path(text) for text in os.environ.get(variable, '').split(os.pathsep) if text)
     return [folder for folder in folders if folder.is_dir()]
 
@@ -27,7 +35,20 @@ def known_packages() -> set[str]:
 
 
 def built_on_demand(package: str) -> str:
-    """Return the sentence on a package that the environment builds on demand, or ''."""
+    """
+    Find the notice on a package that is only built on demand.
+
+    Parameters
+    ----------
+    package
+        The name of the package.
+
+    Returns
+    -------
+    str
+        What an installed package says of it in the resource index `on_demand`; '' if nothing.
+
+    """
     for prefix in prefixes():
         index = prefix / 'share' / 'ament_index' / 'resource_index' / 'on_demand'
         for path in sorted(index.glob('*')):
@@ -38,24 +59,65 @@ def built_on_demand(package: str) -> str:
 
 
 def is_installed_in(install: Path, package: str) -> bool:
-    """Tell if a package was installed below a workspace's install folder, in either layout."""
+    """
+    Check whether a package is installed in a workspace, in a merged or an isolated layout.
+
+    Parameters
+    ----------
+    install
+        The install folder of the workspace.
+    package
+        The name of the package.
+
+    """
     marker = Path('share', 'ament_index', 'resource_index', 'packages', package)
     return (install / package / marker).exists() or (install / marker).exists()
 
 
 def executables(prefix: Path, package: str) -> list[str]:
-    """Return the names of a package's executables, sorted."""
+    """
+    List the names of a package's executables, sorted.
+
+    Parameters
+    ----------
+    prefix
+        The install prefix of the package.
+    package
+        The name of the package.
+
+    """
     folder = prefix / 'lib' / package
     return sorted(path.name for path in _files(folder) if os.access(path, os.X_OK))
 
 
 def launch_files(share: Path) -> list[str]:
-    """Return the names of the launch files in a package's share folder, sorted."""
+    """
+    List the names of the launch files of a package, sorted.
+
+    Parameters
+    ----------
+    share
+        The share folder of the package.
+
+    """
     return sorted(path.name for path in _files(share) if path.name.endswith(LAUNCH_SUFFIXES))
 
 
 def package_of_share_file(path: Path) -> str | None:
-    """Return the package in whose share folder a path lies, None if in none that is known."""
+    """
+    Find the package in whose share folder a path lies.
+
+    Parameters
+    ----------
+    path
+        The path, which need not exist.
+
+    Returns
+    -------
+    str or None
+        None if it lies in the share folder of no known prefix.
+
+    """
     for prefix in prefixes():
         share = prefix / 'share'
         if share in path.parents:

@@ -17,7 +17,15 @@ COMMANDS = {'develop', 'install'}
 
 
 def leave_out(distribution: Any) -> None:
-    """Take the files that do not exist out of a setuptools distribution's `data_files`."""
+    """
+    Remove the files that do not exist from the `data_files` of a distribution, and print them.
+
+    Parameters
+    ----------
+    distribution
+        The setuptools distribution; files are printed only while it is installed.
+
+    """
     kept, missing = split(distribution.data_files or [])
     if not missing:
         return
@@ -33,9 +41,18 @@ def leave_out(distribution: Any) -> None:
 
 def split(data_files: Iterable[Any]) -> tuple[list[Any], list[str]]:
     """
-    Return the data files without those that do not exist, and the names of these.
+    Separate data files that exist from those that do not.
 
-    An element is a file, or a pair of a folder to install to and a list of files.
+    Parameters
+    ----------
+    data_files
+        Files, or pairs of the folder to install to and a list of files.
+
+    Returns
+    -------
+    tuple
+        The elements with the files that exist, and the names of those that do not.
+
     """
     kept: list[Any] = []
     missing: list[str] = []

@@ -10,7 +10,24 @@ from ros_environment.source_tree import SourcePackage
 
 
 def explain_source_executable(source: SourcePackage, executable: str, rebuild: str) -> str:
-    """Compare an executable's name with a package's setup.py and modules."""
+    """
+    Explain from the source of a package why it has no such executable.
+
+    Parameters
+    ----------
+    source
+        The package in the source tree.
+    executable
+        The name that was asked for, with or without `.py`.
+    rebuild
+        The command that builds the package.
+
+    Returns
+    -------
+    str
+        The explanation; '' if neither setup.py nor a module has such a name.
+
+    """
     setup_py = source.folder / 'setup.py'
     script = read_setup_script(setup_py)
     if script is None:
@@ -27,7 +44,22 @@ def explain_source_executable(source: SourcePackage, executable: str, rebuild: s
 
 
 def misplaced_script(package: str, executable: str, prefix: Path) -> str:
-    """Explain an executable that was installed to `bin`, where `ros2` does not look."""
+    """
+    Explain an executable that was installed to `bin`, where `ros2 run` does not look.
+
+    Parameters
+    ----------
+    package, executable
+        The package, and the name that was asked for.
+    prefix
+        The install prefix of the package.
+
+    Returns
+    -------
+    str
+        The lines that setup.cfg lacks; '' if that is not the reason.
+
+    """
     if not (prefix / 'bin' / executable).is_file() or (prefix / 'lib' / package).is_dir():
         return ''
     return (

@@ -11,7 +11,25 @@ from ros_environment.source_tree import SourcePackage
 
 
 def explain_source_file(source: SourcePackage, file_name: str, rebuild: str) -> str:
-    """Compare a file's name with the files of a package and what its build installs."""
+    """
+    Explain from the source of a package why a file of it is not installed.
+
+    Parameters
+    ----------
+    source
+        The package in the source tree.
+    file_name
+        The name that was asked for, without folders.
+    rebuild
+        The command that builds the package.
+
+    Returns
+    -------
+    str
+        The explanation; '' if the package has no such file, or neither setup.py nor
+        CMakeLists.txt.
+
+    """
     path = _find_file(source.folder, file_name)
     if path is None:
         return ''

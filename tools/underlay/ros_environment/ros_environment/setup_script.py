@@ -20,12 +20,33 @@ class SetupScript(NamedTuple):
     has_package_name: bool
 
     def installs(self, relative_path: str) -> bool:
-        """Tell if a file of the package is named, or matched by a pattern, in data_files."""
+        """
+        Check whether `data_files` names a file, or has a pattern that matches it.
+
+        Parameters
+        ----------
+        relative_path
+            The path in the folder of the package, with slashes.
+
+        """
         return any(_matches(relative_path, pattern) for pattern in self.data_patterns)
 
 
 def read_setup_script(path: Path) -> SetupScript | None:
-    """Return what a setup.py declares, or None if it cannot be read as Python."""
+    """
+    Parse what a setup.py installs, without running it.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    Returns
+    -------
+    SetupScript or None
+        None if the file cannot be read or is no valid Python.
+
+    """
     try:
         tree = ast.parse(path.read_text(encoding='utf-8'))
     except (OSError, SyntaxError, ValueError):
@@ -44,7 +65,15 @@ def read_setup_script(path: Path) -> SetupScript | None:
 
 
 def defines_main(module: Path) -> bool:
-    """Tell if a module has a name `main` at its top level."""
+    """
+    Check whether a module defines or imports a function `main` at its top level.
+
+    Parameters
+    ----------
+    module
+        The file of the module.
+
+    """
     try:
         tree = ast.parse(module.read_text(encoding='utf-8'))
     except (OSError, SyntaxError, ValueError):

@@ -22,7 +22,20 @@ class SourcePackage(NamedTuple):
 
 
 def find_workspace(start: Path) -> Path | None:
-    """Return the nearest folder at or above `start` whose `src` folder contains packages."""
+    """
+    Find the nearest folder whose `src` folder contains packages.
+
+    Parameters
+    ----------
+    start
+        Where the search begins, which goes on in the folders above.
+
+    Returns
+    -------
+    Path or None
+        None if there is no such folder.
+
+    """
     for folder in (start, *start.parents):
         if (folder / 'src').is_dir() and next(_package_folders(folder / 'src'), None):
             return folder
@@ -30,7 +43,20 @@ def find_workspace(start: Path) -> Path | None:
 
 
 def source_packages(workspace: Path) -> dict[str, SourcePackage]:
-    """Return the packages below the `src` folder of a workspace by their names."""
+    """
+    Find the packages below the `src` folder of a workspace.
+
+    Parameters
+    ----------
+    workspace
+        The folder of the workspace.
+
+    Returns
+    -------
+    dict[str, SourcePackage]
+        The packages by name; the first one counts if there are several of a name.
+
+    """
     found: dict[str, SourcePackage] = {}
     for folder in _package_folders(workspace / 'src'):
         name = _package_name(folder / 'package.xml')

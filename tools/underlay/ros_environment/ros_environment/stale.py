@@ -20,7 +20,20 @@ class StaleFiles:
         self._folders: dict[tuple[Path, str], Path | None] = {}
 
     def newer_source(self, path: str) -> str:
-        """Return the source of an installed file if it has been changed since, or ''."""
+        """
+        Find the source of an installed file if it has been changed since.
+
+        Parameters
+        ----------
+        path
+            The installed file, below `share/PACKAGE` of a prefix.
+
+        Returns
+        -------
+        str
+            The newer source file; '' if the installed one is up to date, or a link to its source.
+
+        """
         prefix, share, rest = path.rpartition(_SHARE)
         package, _, relative = rest.partition('/')
         if not (share and relative) or not _is_copy(path, prefix):

@@ -21,7 +21,20 @@ def workspaces() -> list[Path]:
 
 
 def explain_missing_package(package: str) -> str:
-    """Explain why a package is not found, or return '' when there is nothing to say."""
+    """
+    Explain why a package is not found, with the command that helps.
+
+    Parameters
+    ----------
+    package
+        The name that was asked for.
+
+    Returns
+    -------
+    str
+        The explanation: the package is not sourced, not built, or unknown in the places searched.
+
+    """
     for workspace in workspaces():
         if installed.is_installed_in(workspace / 'install', package):
             return (
@@ -38,7 +51,22 @@ def explain_missing_package(package: str) -> str:
 
 
 def explain_missing_executable(package: str, executable: str, prefix: str) -> str:
-    """Explain why a package has no such executable: entry point, rebuild or misspelling."""
+    """
+    Explain why a package has no such executable: entry point, rebuild or misspelling.
+
+    Parameters
+    ----------
+    package, executable
+        The package, which is installed, and the name that was asked for.
+    prefix
+        The install prefix of the package.
+
+    Returns
+    -------
+    str
+        One or more lines; the last one lists the executables that there are.
+
+    """
     names = installed.executables(Path(prefix), package)
     lines = [misplaced_script(package, executable, Path(prefix))]
     workspace, source = _find_source(package)
@@ -53,7 +81,22 @@ def explain_missing_executable(package: str, executable: str, prefix: str) -> st
 
 
 def explain_missing_share_file(package: str, file_name: str, share: str) -> str:
-    """Explain why a file is not in a package's share folder: data_files, rebuild or spelling."""
+    """
+    Explain why a package has no such launch file: data_files, rebuild or misspelling.
+
+    Parameters
+    ----------
+    package, file_name
+        The package, which is installed, and the name that was asked for.
+    share
+        The share folder of the package.
+
+    Returns
+    -------
+    str
+        One or more lines; the last one lists the launch files that there are.
+
+    """
     names = installed.launch_files(Path(share))
     lines = []
     workspace, source = _find_source(package)
@@ -68,7 +111,20 @@ def explain_missing_share_file(package: str, file_name: str, share: str) -> str:
 
 
 def explain_uninstalled_file(path: str) -> str:
-    """Say how a missing file of an installed package gets there from its source, '' if not."""
+    """
+    Explain how a missing file of an installed package gets there from its source.
+
+    Parameters
+    ----------
+    path
+        Where the file was looked for, in the share folder of the package.
+
+    Returns
+    -------
+    str
+        The explanation; '' if the package has no source here, or no file of that name.
+
+    """
     package = installed.package_of_share_file(Path(path))
     workspace, source = _find_source(package) if package else (None, None)
     if not workspace or not source:

@@ -26,7 +26,19 @@ _LOOPS = ColorRGBA(g=0.8, a=1.0)
 
 
 def make_map(grid: Grid, frame: str, stamp: Any) -> OccupancyGrid:
-    """Return the message of a map."""
+    """
+    Build the `nav_msgs/OccupancyGrid` of a map.
+
+    Parameters
+    ----------
+    grid
+        The cells, with their origin and width.
+    frame
+        The frame of the map.
+    stamp
+        The time of the message, also as the load time of the map.
+
+    """
     message = OccupancyGrid()
     message.header.frame_id, message.header.stamp = frame, stamp
     message.info.map_load_time = stamp
@@ -40,7 +52,22 @@ def make_map(grid: Grid, frame: str, stamp: Any) -> OccupancyGrid:
 def make_placement(
     placement: Placement, frame: str, stamp: Any, position_scale: float, yaw_scale: float
 ) -> PoseWithCovarianceStamped:
-    """Return the message of where a scan was taken; the scales are factors of the covariance."""
+    """
+    Build the `geometry_msgs/PoseWithCovarianceStamped` of where a scan was taken.
+
+    Parameters
+    ----------
+    placement
+        Pose of the base in the map, with its covariance in the axes of the base; the message has
+        it in those of the map.
+    frame
+        The frame of the map.
+    stamp
+        The time of the scan.
+    position_scale, yaw_scale
+        Factors of the covariance of the position and of the heading.
+
+    """
     message = PoseWithCovarianceStamped()
     message.header.frame_id, message.header.stamp = frame, stamp
     x, y, yaw = (float(each) for each in placement.pose)
@@ -56,7 +83,19 @@ def make_placement(
 
 
 def make_transform(pose: FloatArray, frame: str, child: str, stamp: Any) -> TransformStamped:
-    """Return the message of the (3,) pose of a child frame."""
+    """
+    Build the `geometry_msgs/TransformStamped` of a planar pose.
+
+    Parameters
+    ----------
+    pose
+        Pose (3,) of the child frame in its parent: x and y in m, yaw in rad.
+    frame, child
+        The parent frame and the child frame.
+    stamp
+        The time of the transform.
+
+    """
     message = TransformStamped(child_frame_id=child)
     message.header.frame_id, message.header.stamp = frame, stamp
     message.transform.translation.x = float(pose[0])
@@ -66,7 +105,19 @@ def make_transform(pose: FloatArray, frame: str, child: str, stamp: Any) -> Tran
 
 
 def make_graph_markers(graph: PoseGraph, frame: str, stamp: Any) -> MarkerArray:
-    """Return spheres at the keyframes (red), and lines between them: blue, closed loops green."""
+    """
+    Build the markers of a pose graph: keyframes red, edges blue, closed loops green.
+
+    Parameters
+    ----------
+    graph
+        The poses and edges.
+    frame
+        The frame of the map.
+    stamp
+        The time of the markers.
+
+    """
     points = [Point(x=float(x), y=float(y)) for x, y in graph.poses[:, :2]]
     nodes = _marker(Marker.SPHERE_LIST, 'slam_toolbox', frame, stamp, _NODE_M, _NODES)
     nodes.points = points

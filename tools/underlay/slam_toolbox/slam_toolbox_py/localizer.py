@@ -43,7 +43,15 @@ class Localizer:
         """(3,) pose of the odometry frame in the map."""
 
     def start_at(self, *poses: FloatArray) -> None:
-        """Look for the robot near some (3,) poses."""
+        """
+        Search for the robot near given poses with the next scan.
+
+        Parameters
+        ----------
+        *poses
+            Poses (3,) of the base in the map.
+
+        """
         self._starts = [np.asarray(pose, dtype=float) for pose in poses]
 
     @property
@@ -52,13 +60,39 @@ class Localizer:
         return bool(self._starts)
 
     def is_due(self, odometry: FloatArray, share: float = 1.0) -> bool:
-        """Whether the robot has moved enough to match a scan; see `Mapper.is_due`."""
+        """
+        Check whether the robot has moved enough to match a scan.
+
+        Parameters
+        ----------
+        odometry
+            Pose (3,) of the base in the odometry frame.
+        share
+            The share of the least travel that is enough.
+
+        """
         if self._starts or self._odometry is None:
             return True
         return has_moved(self._odometry, odometry, self._mapper.settings, share)
 
     def add(self, scan: Scan, odometry: FloatArray) -> Placement:
-        """Place a scan that was taken at a (3,) pose of odometry."""
+        """
+        Match a scan with the map, and correct `map_to_odom`.
+
+        Parameters
+        ----------
+        scan
+            What was seen.
+        odometry
+            Pose (3,) of the base in the odometry frame at that time.
+
+        Returns
+        -------
+        Placement
+            Pose of the base in the map, with covariance; predicted by odometry if the match is
+            poor.
+
+        """
         settings = self._mapper.settings
         if self._starts or self._odometry is None:
             match, _ = find_again(self._mapper, scan, self._starts)

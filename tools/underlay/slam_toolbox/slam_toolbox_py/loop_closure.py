@@ -61,12 +61,21 @@ def find_chains(mapper: Mapper, node: int) -> list[list[int]]:
 
 def close_loops(mapper: Mapper, node: int) -> Iterator[str]:
     """
-    Look for loops that a keyframe closes, in steps, and correct the graph.
+    Search for loops that a keyframe closes, in steps, and correct the graph.
+
+    Parameters
+    ----------
+    mapper
+        The keyframes and the graph, which is changed.
+    node
+        The keyframe, as a rule the newest one.
 
     Yields
     ------
-    What was found out, as a text for a log, which is empty after most steps. Each step takes some
-    ten milliseconds, and other things may be done meanwhile. After a loop the next keyframes rest.
+    str
+        The message for the log, which is empty after most steps. Each step takes some ten
+        milliseconds, and other work may be done meanwhile. The two keyframes after a loop close
+        none.
 
     """
     if node - mapper.last_loop < _REST:

@@ -34,12 +34,33 @@ class MapDrawing:
         """(N, 3) poses at which the keyframes were drawn."""
 
     def backlog(self, mapper: Mapper) -> int:
-        """Return how many keyframes are to be drawn."""
+        """
+        Count the keyframes that are yet to be drawn.
+
+        Parameters
+        ----------
+        mapper
+            The keyframes; all of them count if any has moved since it was drawn.
+
+        """
         drawn = 0 if self._has_moved(mapper) else len(self._drawn)
         return len(mapper.keyframes) - drawn
 
     def drawing(self, mapper: Mapper) -> Iterator[None]:
-        """Draw what is new, or all if keyframes have moved, in steps of some milliseconds."""
+        """
+        Draw new keyframes, or all if any has moved, in steps of some milliseconds.
+
+        Parameters
+        ----------
+        mapper
+            The keyframes.
+
+        Yields
+        ------
+        None
+            After every 15 keyframes.
+
+        """
         if self._has_moved(mapper):
             counts, poses = OccupancyCounts(self.resolution_m), mapper.graph.poses.copy()
             for i, pose in enumerate(poses):
@@ -56,12 +77,33 @@ class MapDrawing:
                 yield
 
     def update(self, mapper: Mapper) -> None:
-        """Draw all that is to be drawn, now."""
+        """
+        Draw new keyframes, or all if any has moved, at once.
+
+        Parameters
+        ----------
+        mapper
+            The keyframes.
+
+        """
         for _ in self.drawing(mapper):
             pass
 
     def grid(self, min_pass_through: int, occupancy_threshold: float) -> Grid | None:
-        """Return the grid; see `OccupancyCounts.grid`."""
+        """
+        Compute the occupancy grid of what is drawn.
+
+        Parameters
+        ----------
+        min_pass_through, occupancy_threshold
+            As for `OccupancyCounts.grid`.
+
+        Returns
+        -------
+        Grid or None
+            The part of the grid that is known; None if none is.
+
+        """
         return self._counts.grid(min_pass_through, occupancy_threshold)
 
     def _has_moved(self, mapper: Mapper) -> bool:

@@ -15,7 +15,17 @@ _BLACK, _WHITE, _GREY = 0, 254, 205
 
 
 def full_path(name: str, *extensions: str) -> Path:
-    """Return the whole path of a file's name, which may begin with ~, without an extension."""
+    """
+    Make an absolute path from the name of a file, without its extension.
+
+    Parameters
+    ----------
+    name
+        The name, which may begin with `~`.
+    *extensions
+        The extensions that are removed, with their dots; others are kept as part of the name.
+
+    """
     path = Path(os.path.abspath(os.path.expanduser(name)))
     return path.with_suffix('') if path.suffix in extensions else path
 
@@ -23,6 +33,13 @@ def full_path(name: str, *extensions: str) -> Path:
 def write_atomically(path: Path, content: bytes) -> None:
     """
     Write a file so that nobody ever sees half of it.
+
+    Parameters
+    ----------
+    path
+        The file, which is replaced if it exists.
+    content
+        All that is in it.
 
     Raises
     ------

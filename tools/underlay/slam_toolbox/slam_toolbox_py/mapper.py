@@ -57,7 +57,15 @@ class Placement:
 
 
 def placement_of(match: RefinedMatch) -> Placement:
-    """Return where a scan was taken that has matched."""
+    """
+    Convert a match to the placement of its scan.
+
+    Parameters
+    ----------
+    match
+        Pose and information, in the axes of the base; the covariance is the inverse.
+
+    """
     covariance: FloatArray = np.asarray(np.linalg.inv(match.information), dtype=np.float64)
     return Placement(match.pose, covariance, match.response)
 
@@ -88,7 +96,15 @@ class Mapper:
         self._middles: list[FloatArray] = []
 
     def start_at(self, *poses: FloatArray) -> None:
-        """Take the next scan as one that was taken near one of some (3,) poses in the map."""
+        """
+        Search for the robot near given poses with the next scan, which begins a new session.
+
+        Parameters
+        ----------
+        *poses
+            Poses (3,) of the base in the map.
+
+        """
         self._starts = [np.asarray(pose, dtype=float) for pose in poses]
         self._session = len(self.keyframes)
 
@@ -114,13 +130,38 @@ class Mapper:
         return has_moved(self.keyframes[-1].odometry, odometry, self.settings, share)
 
     def add_known(self, keyframe: Keyframe, pose: FloatArray, travelled_m: float) -> None:
-        """Add a keyframe whose pose is known, without matching it and without an edge."""
+        """
+        Add a keyframe whose pose is known, without matching it and without an edge.
+
+        Parameters
+        ----------
+        keyframe
+            The scan, with odometry and time.
+        pose
+            Pose (3,) of the base in the map.
+        travelled_m
+            The distance that the robot has covered up to there, in m.
+
+        """
         self.keyframes.append(keyframe)
         self.travelled_m.append(travelled_m)
         self.graph.add_node(pose)
 
     def pose_at(self, odometry: FloatArray) -> FloatArray:
-        """Return the pose of the base in the map, when it has a (3,) pose of odometry."""
+        """
+        Convert a pose from the odometry frame to the map.
+
+        Parameters
+        ----------
+        odometry
+            Pose (3,) of the base in the odometry frame.
+
+        Returns
+        -------
+        FloatArray
+            Pose (3,) of the base in the map.
+
+        """
         return compose(self.map_to_odom, odometry)
 
     def add(self, scan: Scan, odometry: FloatArray, stamp_s: float = 0.0) -> Placement:
@@ -164,7 +205,15 @@ class Mapper:
             self.map_to_odom = compose(self.graph.poses[-1], last)
 
     def surfaces(self, nodes: list[int]) -> Surfaces:
-        """Return what the scans of nodes have seen, where the graph has them now."""
+        """
+        Collect the points and normals that keyframes have seen, in the map.
+
+        Parameters
+        ----------
+        nodes
+            The numbers of the keyframes, which are placed where the graph has them now.
+
+        """
         return Surfaces([(self.keyframes[i].scan, self.graph.poses[i]) for i in nodes])
 
     def positions(self) -> FloatArray:
@@ -177,7 +226,22 @@ class Mapper:
         return compose(self.graph.poses, np.reshape(self._middles, (-1, 3)))[:, :2]
 
     def nearest(self, position: FloatArray, count: int = _REFERENCES) -> list[int]:
-        """Return the keyframes that were taken nearest to a (2,) position in the map."""
+        """
+        Find the keyframes that were taken nearest to a position.
+
+        Parameters
+        ----------
+        position
+            Position (2,) in the map, in m.
+        count
+            How many keyframes are wanted.
+
+        Returns
+        -------
+        list of int
+            Their numbers, the nearest first.
+
+        """
         away = np.hypot(*(self.graph.poses[:, :2] - position).T)
         return [int(i) for i in np.argsort(away, kind='stable')[:count]]
 
@@ -208,7 +272,19 @@ class Mapper:
 def has_moved(
     before: FloatArray, odometry: FloatArray, settings: MapperSettings, share: float
 ) -> bool:
-    """Whether a robot has moved by a share of the least travel between (3,) poses."""
+    """
+    Check whether a robot has moved enough between two poses, by distance or by turn.
+
+    Parameters
+    ----------
+    before, odometry
+        Earlier and current pose (3,) of the base in the odometry frame.
+    settings
+        The least travel and turn.
+    share
+        The share of these that is enough.
+
+    """
     moved = relative(before, odometry)
     return bool(
         np.hypot(moved[0], moved[1]) >= share * settings.minimum_travel_distance
@@ -220,9 +296,26 @@ def find_again(
     mapper: Mapper, scan: Scan, guesses: list[FloatArray], half_window_m: float = _START_WINDOW_M
 ) -> tuple[RefinedMatch, int]:
     """
-    Match a scan with those that were taken near poses; return the best match and a keyframe there.
+    Match a scan with the keyframes near given poses, to relocalize the robot.
 
     A match that is not good enough is replaced by the first guess, with little information.
+
+    Parameters
+    ----------
+    mapper
+        The keyframes, and how to match with them.
+    scan
+        What was seen.
+    guesses
+        Poses (3,) of the base in the map.
+    half_window_m
+        How far from each guess to search along x and y, in m.
+
+    Returns
+    -------
+    tuple of RefinedMatch and int
+        The best match, and the number of the keyframe nearest to its guess.
+
     """
     search, found = mapper.settings.loop_search(half_window_m), []
     for guess in guesses:
@@ -238,7 +331,20 @@ def find_again(
 
 
 def trust_in_odometry(moved: FloatArray) -> FloatArray:
-    """Return the (3, 3) information of a motion, (3,), that odometry tells of."""
+    """
+    Model the information of a motion that odometry measures.
+
+    Parameters
+    ----------
+    moved
+        The motion (3,) in the axes of the base at its start: x and y in m, yaw in rad.
+
+    Returns
+    -------
+    FloatArray
+        Diagonal information matrix (3, 3), in 1/m2 and 1/rad2.
+
+    """
     way, turn = float(np.hypot(moved[0], moved[1])), abs(float(wrap(moved[2])))
     position = 0.01 + 0.1 * way + 0.02 * turn
     heading = 0.02 + 0.1 * turn + 0.05 * way

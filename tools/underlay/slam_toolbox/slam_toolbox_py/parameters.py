@@ -153,7 +153,15 @@ class SlamParameters:
 
 
 def settings_of(parameters: SlamParameters) -> MapperSettings:
-    """Return what of the parameters is for the mapper."""
+    """
+    Select the parameters that are settings of the mapper.
+
+    Parameters
+    ----------
+    parameters : SlamParameters
+        All parameters of the node.
+
+    """
     names = [each.name for each in fields(MapperSettings)]
     told: dict[str, Any] = {name: getattr(parameters, name) for name in names}
     return MapperSettings(**told)

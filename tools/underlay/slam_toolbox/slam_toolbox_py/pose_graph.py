@@ -48,18 +48,52 @@ class PoseGraph:
         self.edges: list[Edge] = []
 
     def add_node(self, pose: FloatArray) -> int:
-        """Add a pose; return its number."""
+        """
+        Add a pose.
+
+        Parameters
+        ----------
+        pose
+            Pose (3,) in the map.
+
+        Returns
+        -------
+        int
+            The number of the node.
+
+        """
         self.poses = np.concatenate([self.poses, np.reshape(pose, (1, 3))])
         return len(self.poses) - 1
 
     def add_edge(self, edge: Edge) -> None:
-        """Add a measurement between nodes."""
+        """
+        Add a measurement between two nodes.
+
+        Parameters
+        ----------
+        edge
+            The measurement.
+
+        Raises
+        ------
+        ValueError
+            One of its nodes does not exist.
+
+        """
         if not 0 <= min(edge.first, edge.second) <= max(edge.first, edge.second) < len(self.poses):
             raise ValueError('The edge leads to a node that does not exist.')
         self.edges.append(edge)
 
     def error_of(self, edge: Edge) -> float:
-        """Return the squared Mahalanobis distance between a measurement and the poses."""
+        """
+        Compute the squared Mahalanobis distance between a measurement and the poses.
+
+        Parameters
+        ----------
+        edge
+            The measurement, which need not be part of the graph.
+
+        """
         away = _errors(self.poses, [edge])[0]
         return float(away @ edge.information @ away)
 

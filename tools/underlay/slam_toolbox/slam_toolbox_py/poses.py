@@ -12,7 +12,15 @@ FloatArray = npt.NDArray[np.float64]
 
 
 def wrap(angle_rad: FloatArray | float) -> FloatArray:
-    """Return the same angles from -pi, inclusive, to pi."""
+    """
+    Wrap angles to the range from -pi, inclusive, to pi, exclusive.
+
+    Parameters
+    ----------
+    angle_rad
+        Angles of any shape, in rad.
+
+    """
     wrapped: FloatArray = (np.asarray(angle_rad) + np.pi) % (2.0 * np.pi) - np.pi
     return wrapped
 
@@ -41,7 +49,20 @@ def compose(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 def inverse(pose: FloatArray) -> FloatArray:
-    """Return the poses, (..., 3), of the outer frame in those that are given."""
+    """
+    Invert poses.
+
+    Parameters
+    ----------
+    pose
+        Poses (..., 3) of inner frames in an outer one.
+
+    Returns
+    -------
+    FloatArray
+        Poses (..., 3) of the outer frame in the inner ones.
+
+    """
     cos, sin = np.cos(pose[..., 2]), np.sin(pose[..., 2])
     inverted = np.empty(pose.shape)
     inverted[..., 0] = -cos * pose[..., 0] - sin * pose[..., 1]
@@ -51,7 +72,20 @@ def inverse(pose: FloatArray) -> FloatArray:
 
 
 def relative(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Return the second poses, (..., 3), in the first ones."""
+    """
+    Express poses in other ones.
+
+    Parameters
+    ----------
+    first, second
+        Poses (..., 3) in the same frame, which broadcast.
+
+    Returns
+    -------
+    FloatArray
+        The second poses (..., 3) in the first ones.
+
+    """
     return compose(inverse(first), second)
 
 
@@ -72,6 +106,14 @@ def transform(pose: FloatArray, points: FloatArray) -> FloatArray:
 
 
 def rotation(yaw_rad: float) -> FloatArray:
-    """Return the (2, 2) matrix of a turn."""
+    """
+    Build the rotation matrix (2, 2) of an angle.
+
+    Parameters
+    ----------
+    yaw_rad
+        The angle in rad.
+
+    """
     cos, sin = np.cos(yaw_rad), np.sin(yaw_rad)
     return np.array([[cos, -sin], [sin, cos]])

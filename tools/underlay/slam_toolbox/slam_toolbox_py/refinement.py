@@ -67,9 +67,17 @@ class Surfaces:
         """
         Find the nearest points with known surfaces.
 
+        Parameters
+        ----------
+        points
+            Points (N, 2) in m, in the frame of the scans' poses.
+        within_m
+            How far away they may be, in m.
+
         Returns
         -------
-        (N, 2) points, and (N, 2) normals, which are 0 where none is within the distance.
+        tuple of FloatArray
+            Points (N, 2), and their normals (N, 2), which are 0 where none is within the distance.
 
         """
         if self._tree is None:
@@ -118,7 +126,23 @@ def refine(
 
 
 def fit_of(seen: Surfaces, scan: Scan, pose: FloatArray) -> float:
-    """Return how well a scan with known surfaces fits at a pose, from 0 to 1."""
+    """
+    Rate how well a scan fits to what was seen.
+
+    Parameters
+    ----------
+    seen
+        What it is compared with.
+    scan, pose
+        The scan, and its pose (3,) in the frame of what was seen.
+
+    Returns
+    -------
+    float
+        From 0 to 1: the mean of how near its points with known normals lie to surfaces that face
+        the same way; 0 if it has none.
+
+    """
     _, errors, _, weights = _residuals(seen, scan, pose, 3.0 * _RESPONSE_M)
     known = (scan.normals != 0.0).any(axis=1).sum()
     fit = np.exp(-0.5 * (errors / _RESPONSE_M) ** 2) * (weights > 0.0)

@@ -72,7 +72,15 @@ class ScanIntake:
         self._waiting: deque[LaserScan] = deque(maxlen=_FOREVER if keeps_all else _QUEUE)
 
     def offer(self, message: LaserScan) -> None:
-        """Take a scan in."""
+        """
+        Queue a scan until its transforms are known.
+
+        Parameters
+        ----------
+        message
+            The scan; the oldest one is dropped if the queue is full.
+
+        """
         self._waiting.append(message)
 
     def clear(self) -> int:
@@ -112,7 +120,25 @@ class ScanIntake:
         return None
 
     def located(self, message: LaserScan) -> TimedScan:
-        """Return a scan with where the robot was; TransformException if that is not known."""
+        """
+        Look up where the robot and the scanner were when a scan was taken.
+
+        Parameters
+        ----------
+        message
+            The scan.
+
+        Returns
+        -------
+        TimedScan
+            The scan with both poses in the odometry frame.
+
+        Raises
+        ------
+        TransformException
+            They are not known, or not yet.
+
+        """
         found = self._look_up(self._odom, self._base, message)
         odometry = np.array([found.translation.x, found.translation.y, yaw_of(found.rotation)])
         sensor = self._look_up(self._odom, message.header.frame_id, message)

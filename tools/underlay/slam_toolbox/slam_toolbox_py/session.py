@@ -66,7 +66,15 @@ class Session:
         self._began: FloatArray = np.zeros(3)
 
     def change(self, settings: SessionSettings) -> None:
-        """Go on with other settings."""
+        """
+        Replace the settings.
+
+        Parameters
+        ----------
+        settings
+            The new ones; another resolution begins the drawing of the map anew.
+
+        """
         if settings.resolution_m != self.settings.resolution_m:
             self._drawing = MapDrawing(settings.resolution_m)
         self.settings = settings
@@ -85,7 +93,17 @@ class Session:
         self.begin(Mapper(self.settings.mapper))
 
     def begin(self, mapper: Mapper, localizer: Localizer | None = None) -> None:
-        """Go on with another map, and perhaps only localize in it."""
+        """
+        Replace the map, and drop the work that was left to do for the old one.
+
+        Parameters
+        ----------
+        mapper
+            The new map.
+        localizer
+            Localizes in it; None to go on mapping.
+
+        """
         self.mapper, self.localizer = mapper, localizer
         self._drawing = MapDrawing(self.settings.resolution_m)
         self._jobs.clear()
@@ -119,7 +137,25 @@ class Session:
             self.begin(mapper)
 
     def save(self, name: str) -> Path:
-        """Write the map to a file; OSError if that fails."""
+        """
+        Write the map to a file.
+
+        Parameters
+        ----------
+        name
+            The path without extension; `map` if it is empty.
+
+        Returns
+        -------
+        Path
+            The absolute path of the file.
+
+        Raises
+        ------
+        OSError
+            It cannot be written.
+
+        """
         return save_pose_graph(self.mapper, name)
 
     def process(
@@ -162,13 +198,31 @@ class Session:
         return placement
 
     def draw(self, then: Callable[[], None]) -> None:
-        """Draw the map in steps, and call something at the end."""
+        """
+        Schedule the drawing of the map, in steps of `work`.
+
+        Nothing happens if it is being drawn already, or if there are no keyframes.
+
+        Parameters
+        ----------
+        then
+            Called when the map is drawn.
+
+        """
         if not self._is_drawing and self.mapper.keyframes:
             self._is_drawing = True
             self._jobs.append(self._drawn(then))
 
     def work(self, duration_s: float) -> None:
-        """Do steps of what is to be done, until a duration is over."""
+        """
+        Run steps of loop closure and drawing for some time.
+
+        Parameters
+        ----------
+        duration_s
+            No step begins after this time, in s.
+
+        """
         end_s = time.monotonic() + duration_s
         while self._jobs and time.monotonic() < end_s:
             try:

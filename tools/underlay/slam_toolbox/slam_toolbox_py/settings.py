@@ -51,7 +51,16 @@ class MapperSettings:
         )
 
     def loop_search(self, half_window_m: float) -> CorrelationSettings:
-        """Return the search for a place that was seen before."""
+        """
+        Derive the settings of the search for a place that was seen before.
+
+        Parameters
+        ----------
+        half_window_m
+            How far from the guess to search along x and y, in m; half of
+            `loop_search_space_dimension` at most.
+
+        """
         return self._search(
             min(half_window_m, 0.5 * self.loop_search_space_dimension),
             self.loop_search_space_resolution,

@@ -32,31 +32,82 @@ MessageT = TypeVar('MessageT')
 
 
 def to_msg_msg(msg: MessageT) -> MessageT:
-    """Return the message, which is one already."""
+    """
+    Convert a message to a message: return it as it is.
+
+    Parameters
+    ----------
+    msg
+        A message of any type.
+
+    """
     return msg
 
 
 def from_msg_msg(msg: MessageT) -> MessageT:
-    """Return the message, which is what is asked for."""
+    """
+    Convert a message from a message: return it as it is.
+
+    Parameters
+    ----------
+    msg
+        A message of any type.
+
+    """
     return msg
 
 
 def do_transform_point(point: PointStamped, transform: TransformStamped) -> PointStamped:
-    """Return a point in another frame."""
+    """
+    Transform a point to another frame.
+
+    Parameters
+    ----------
+    point
+        The point, in the child frame of the transform.
+    transform
+        The pose of that frame in the target frame; its header becomes that of the result.
+
+    """
     return PointStamped(
         header=transform.header, point=_moved(Point, point.point, pose_of(transform.transform))
     )
 
 
 def do_transform_vector3(vector3: Vector3Stamped, transform: TransformStamped) -> Vector3Stamped:
-    """Return a vector in another frame: turned, not moved."""
+    """
+    Rotate a free vector to another frame, without the translation.
+
+    Parameters
+    ----------
+    vector3
+        The vector, in the child frame of the transform.
+    transform
+        The pose of that frame in the target frame; its header becomes that of the result.
+
+    """
     return Vector3Stamped(
         header=transform.header, vector=_turned(vector3.vector, pose_of(transform.transform))
     )
 
 
 def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
-    """Return a pose in another frame."""
+    """
+    Transform a pose without a header to another frame.
+
+    Parameters
+    ----------
+    pose
+        The pose, in the child frame of the transform.
+    transform
+        The pose of that frame in the target frame.
+
+    Raises
+    ------
+    TypeError
+        The pose is a PoseStamped, which `do_transform_pose_stamped` is for.
+
+    """
     if isinstance(pose, PoseStamped):
         raise TypeError(
             'do_transform_pose takes a Pose and returns one, but this is a PoseStamped: use '
@@ -69,14 +120,34 @@ def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
 
 
 def do_transform_pose_stamped(pose: PoseStamped, transform: TransformStamped) -> PoseStamped:
-    """Return a pose in another frame."""
+    """
+    Transform a pose to another frame.
+
+    Parameters
+    ----------
+    pose
+        The pose, in the child frame of the transform.
+    transform
+        The pose of that frame in the target frame; its header becomes that of the result.
+
+    """
     return PoseStamped(header=transform.header, pose=do_transform_pose(pose.pose, transform))
 
 
 def do_transform_pose_with_covariance_stamped(
     pose: PoseWithCovarianceStamped, transform: TransformStamped
 ) -> PoseWithCovarianceStamped:
-    """Return a pose in another frame, and its covariance."""
+    """
+    Transform a pose and its covariance to another frame.
+
+    Parameters
+    ----------
+    pose
+        The pose, in the child frame of the transform.
+    transform
+        The pose of that frame in the target frame; its header becomes that of the result.
+
+    """
     result = PoseWithCovarianceStamped(header=transform.header)
     result.pose.pose = do_transform_pose(pose.pose.pose, transform)
     result.pose.covariance = transform_covariance(pose.pose.covariance, transform)
@@ -86,7 +157,17 @@ def do_transform_pose_with_covariance_stamped(
 def do_transform_polygon_stamped(
     polygon: PolygonStamped, transform: TransformStamped
 ) -> PolygonStamped:
-    """Return a polygon in another frame."""
+    """
+    Transform a polygon to another frame.
+
+    Parameters
+    ----------
+    polygon
+        The polygon, in the child frame of the transform.
+    transform
+        The pose of that frame in the target frame; its header becomes that of the result.
+
+    """
     numbers = pose_of(transform.transform)
     result = PolygonStamped(header=transform.header)
     result.polygon.points = [_moved(Point32, point, numbers) for point in polygon.polygon.points]
@@ -95,10 +176,18 @@ def do_transform_polygon_stamped(
 
 def do_transform_wrench(wrench: WrenchStamped, transform: TransformStamped) -> WrenchStamped:
     """
-    Return a wrench in another frame.
+    Rotate a wrench to another frame.
 
-    Force and torque are turned as vectors, as elsewhere in tf2: the torque stays that about the
+    Force and torque are rotated as vectors, as elsewhere in tf2: the torque stays that about the
     point where it was measured.
+
+    Parameters
+    ----------
+    wrench
+        The wrench, in the axes of the child frame of the transform.
+    transform
+        The pose of that frame in the target frame; its header becomes that of the result.
+
     """
     numbers = pose_of(transform.transform)
     result = WrenchStamped(header=transform.header)
@@ -110,7 +199,22 @@ def do_transform_wrench(wrench: WrenchStamped, transform: TransformStamped) -> W
 def transform_covariance(
     cov_in: Iterable[float], transform: TransformStamped
 ) -> numpy.ndarray[Any, Any]:
-    """Return the 36 numbers of a pose's covariance in another frame."""
+    """
+    Rotate the covariance of a pose to another frame.
+
+    Parameters
+    ----------
+    cov_in
+        36 numbers, (6, 6) by rows, of x, y, z and the rotations about x, y and z.
+    transform
+        The pose of their frame in the target frame, of which the rotation counts.
+
+    Returns
+    -------
+    numpy.ndarray
+        The same numbers (36,) in the axes of the target frame.
+
+    """
     import numpy
     from scipy.spatial.transform import Rotation
 

@@ -10,7 +10,19 @@ _SILENCE_S = 10.0
 
 
 class Complaints:
-    """Says each kind of complaint at most every ten seconds, or how often it is told to."""
+    """
+    Logs each kind of warning at most once per period, 10 s by default.
+
+    Parameters
+    ----------
+    say
+        Logs the text.
+    now_s
+        The clock, in s; only differences count.
+    silence_s
+        How long a kind of warning is suppressed after it was logged, in s.
+
+    """
 
     def __init__(
         self,
@@ -18,14 +30,23 @@ class Complaints:
         now_s: Callable[[], float] = time.monotonic,
         silence_s: float = _SILENCE_S,
     ) -> None:
-        """Create the object; it has said nothing yet."""
         self._silence_s = silence_s
         self._say = say
         self._now_s = now_s
         self._said_s: dict[tuple[str, ...], float] = {}
 
     def add(self, text: str, *kind: str) -> None:
-        """Say a text unless one of this kind was said just now."""
+        """
+        Log a warning unless one of the same kind was logged recently.
+
+        Parameters
+        ----------
+        text
+            The warning.
+        *kind
+            What identifies its kind, such as the frame and the broadcaster.
+
+        """
         now_s = self._now_s()
         if now_s - self._said_s.get(kind, -self._silence_s) >= self._silence_s:
             self._said_s[kind] = now_s

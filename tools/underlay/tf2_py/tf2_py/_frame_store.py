@@ -30,16 +30,42 @@ class _Latest(NamedTuple):
 
 
 class FrameStore:
-    """Samples of frames by the frame's name. It knows neither messages nor threads."""
+    """
+    Samples of frames by the frame's name. It knows neither messages nor threads.
+
+    Parameters
+    ----------
+    cache_ns
+        How much of the past is kept for moving frames, in ns.
+
+    """
 
     def __init__(self, cache_ns: int) -> None:
-        """Create a store that keeps this much of the past."""
         self.cache_ns = cache_ns
         # A frame that is only known as a parent has no cache.
         self._caches: dict[str, Cache | None] = {}
 
     def insert(self, frame: str, sample: Sample, is_static: bool) -> bool:
-        """Take a sample of a frame; return False if it is too old."""
+        """
+        Insert a sample of a frame.
+
+        A frame that changes between static and moving loses its earlier samples.
+
+        Parameters
+        ----------
+        frame
+            The child frame.
+        sample
+            Its parent, pose, time and broadcaster.
+        is_static
+            Whether the sample holds at all times.
+
+        Returns
+        -------
+        bool
+            False if the sample is older than what is kept, and so was left out.
+
+        """
         cache = self._caches.get(frame)
         if cache is None or cache.is_static != is_static:
             cache = StaticCache() if is_static else TimeCache(self.cache_ns)
@@ -48,7 +74,17 @@ class FrameStore:
         return cache.insert(sample)
 
     def changes_kind(self, frame: str, is_static: bool) -> bool:
-        """Tell if a frame has been static and begins to move, or the other way round."""
+        """
+        Check whether a sample would turn a static frame into a moving one, or the other way round.
+
+        Parameters
+        ----------
+        frame
+            The child frame.
+        is_static
+            Whether the sample holds at all times.
+
+        """
         cache = self._caches.get(frame)
         return cache is not None and cache.is_static != is_static
 
@@ -62,7 +98,15 @@ class FrameStore:
         return list(self._caches)
 
     def has(self, *frames: str) -> bool:
-        """Tell if all these are names of frames."""
+        """
+        Check whether frames are known, be it only as parents.
+
+        Parameters
+        ----------
+        *frames
+            Their names, all of which must be known.
+
+        """
         return all(frame in self._caches for frame in frames)
 
     def known(self) -> Iterator[tuple[str, Cache]]:
@@ -70,12 +114,42 @@ class FrameStore:
         return ((frame, cache) for frame, cache in self._caches.items() if cache is not None)
 
     def latest(self, frame: str) -> Sample | None:
-        """Return the newest sample of a frame."""
+        """
+        Look up the newest sample of a frame.
+
+        Parameters
+        ----------
+        frame
+            The child frame.
+
+        Returns
+        -------
+        Sample or None
+            None if the frame has no parent.
+
+        """
         cache = self._caches.get(frame)
         return None if cache is None else cache.latest()
 
     def check(self, call: str, **frames: str) -> None:
-        """Raise unless all these arguments of a call are names of known frames."""
+        """
+        Validate the frame names of a call.
+
+        Parameters
+        ----------
+        call
+            The name of the call, for the error message: 'lookupTransform'.
+        **frames
+            The names by argument, such as `target_frame`.
+
+        Raises
+        ------
+        InvalidArgumentException
+            A name is empty or begins with a slash.
+        LookupException
+            There is no such frame.
+
+        """
         for argument, frame in frames.items():
             if frame in self._caches:
                 continue
@@ -86,12 +160,55 @@ class FrameStore:
             raise LookupException(_reasons.unknown_frame(call, argument, frame, self._caches))
 
     def pose(self, target: str, source: str, time_ns: int) -> Pose:
-        """Return the pose of the source in the target at a time that is not 0."""
+        """
+        Compute the pose of the source frame in the target frame.
+
+        Parameters
+        ----------
+        target, source
+            The frames, which must be known.
+        time_ns
+            The time in ns; here 0 does not stand for the latest one.
+
+        Returns
+        -------
+        Pose
+            Translation in m and quaternion x, y, z, w.
+
+        Raises
+        ------
+        ConnectivityException
+            The frames are in different trees.
+        ExtrapolationException
+            There are no samples around that time.
+        LookupException
+            The parents form a loop.
+
+        """
         route = self.route(target, source, time_ns)
         return chain(inverse(_pose_above(route.from_target)), _pose_above(route.from_source))
 
     def route(self, target: str, source: str, time_ns: int) -> Route[Link]:
-        """Return the links between two frames at a time."""
+        """
+        Find the links from two frames up to their common ancestor.
+
+        Parameters
+        ----------
+        target, source
+            The frames, which must be known.
+        time_ns
+            The time in ns; here 0 does not stand for the latest one.
+
+        Raises
+        ------
+        ConnectivityException
+            The frames are in different trees.
+        ExtrapolationException
+            There are no samples around that time.
+        LookupException
+            The parents form a loop.
+
+        """
 
         def link_of(frame: str) -> Link | None:
             cache = self._caches[frame]
@@ -106,7 +223,27 @@ class FrameStore:
             raise ExtrapolationException(text) from None
 
     def common_time_ns(self, target: str, source: str) -> int:
-        """Return the newest time at which all between two frames is known; 0 if nothing moves."""
+        """
+        Find the latest time at which the whole chain between two frames is known.
+
+        Parameters
+        ----------
+        target, source
+            The frames, which must be known.
+
+        Returns
+        -------
+        int
+            The time in ns; 0 if all transforms between them are static.
+
+        Raises
+        ------
+        ConnectivityException
+            The frames are in different trees.
+        LookupException
+            The parents form a loop.
+
+        """
         if target == source:
             sample = self.latest(source)
             return sample.stamp_ns if sample is not None else 0

@@ -29,7 +29,15 @@ class Branch(NamedTuple):
 
 
 def branches(store: FrameStore) -> list[Branch]:
-    """Return all frames with a parent."""
+    """
+    List what is known of all frames that have a parent.
+
+    Parameters
+    ----------
+    store
+        The frames.
+
+    """
     return [_branch(frame, cache) for frame, cache in store.known() if cache.samples]
 
 
@@ -41,7 +49,20 @@ def _branch(frame: str, cache: Cache) -> Branch:
 
 
 def as_yaml(store: FrameStore) -> str:
-    """Return a YAML mapping of the frames."""
+    """
+    Format the frames as YAML, for `tf2_tools view_frames` and the service `tf2_frames`.
+
+    Parameters
+    ----------
+    store
+        The frames.
+
+    Returns
+    -------
+    str
+        A mapping from each child frame to its parent, broadcaster, rate (Hz) and times (s).
+
+    """
     return ''.join(map(_yaml, branches(store))) or '{}'
 
 
@@ -67,14 +88,30 @@ def _yaml_text(text: str) -> str:
 
 
 def as_string(store: FrameStore) -> str:
-    """Return a sentence a frame."""
+    """
+    Format the frames and their parents as text, one a line.
+
+    Parameters
+    ----------
+    store
+        The frames.
+
+    """
     return ''.join(
         f'Frame {branch.frame} exists with parent {branch.parent}.\n' for branch in branches(store)
     )
 
 
 def as_dot(store: FrameStore) -> str:
-    """Return a graph for graphviz."""
+    """
+    Format the tree of frames as a graph for Graphviz.
+
+    Parameters
+    ----------
+    store
+        The frames.
+
+    """
     return 'digraph G {\n' + (''.join(map(_arrow, branches(store))) or '"no tf data"\n') + '}\n'
 
 

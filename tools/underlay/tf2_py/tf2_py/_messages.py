@@ -14,7 +14,20 @@ Reading = tuple[str, str, int, Pose]
 
 
 def nanoseconds(time: Any) -> int:
-    """Return a time or duration of rclpy or of a message in nanoseconds."""
+    """
+    Convert a time or duration to nanoseconds.
+
+    Parameters
+    ----------
+    time
+        A `Time` or `Duration` of rclpy, or of `builtin_interfaces`.
+
+    Raises
+    ------
+    TypeError
+        It is neither.
+
+    """
     try:
         return time.nanoseconds  # type: ignore[no-any-return]
     except AttributeError:
@@ -29,7 +42,20 @@ def nanoseconds(time: Any) -> int:
 
 
 def pose_of(transform: Any) -> Pose:
-    """Return the numbers of a Transform."""
+    """
+    Extract the numbers of a `geometry_msgs/Transform`.
+
+    Parameters
+    ----------
+    transform
+        The message.
+
+    Returns
+    -------
+    Pose
+        Translation in m and quaternion x, y, z, w.
+
+    """
     translation = transform.translation
     rotation = transform.rotation
     return (
@@ -44,7 +70,20 @@ def pose_of(transform: Any) -> Pose:
 
 
 def reading_of(transform: Any) -> Reading:
-    """Return the names and numbers of a TransformStamped."""
+    """
+    Extract the names and numbers of a `geometry_msgs/TransformStamped`.
+
+    Parameters
+    ----------
+    transform
+        The message.
+
+    Returns
+    -------
+    Reading
+        Parent frame, child frame, stamp in ns, and pose of the child.
+
+    """
     header = transform.header
     return (
         header.frame_id,
@@ -55,7 +94,19 @@ def reading_of(transform: Any) -> Reading:
 
 
 def transform_message(parent: str, child: str, time_ns: int, pose: Pose) -> TransformStamped:
-    """Return the message that says where the child is in the parent."""
+    """
+    Build a `geometry_msgs/TransformStamped`.
+
+    Parameters
+    ----------
+    parent, child
+        The frame of the header, and the child frame.
+    time_ns
+        The stamp in ns.
+    pose
+        Pose of the child in the parent: translation in m, quaternion x, y, z, w.
+
+    """
     message = TransformStamped()
     header = message.header
     header.frame_id = parent

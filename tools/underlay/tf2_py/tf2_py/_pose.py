@@ -21,7 +21,22 @@ _NORM_TOLERANCE = 0.01
 
 
 def chain(parent: Pose, child: Pose) -> Pose:
-    """Return the pose of a child of a frame in the parent of that frame."""
+    """
+    Compose two transforms.
+
+    Parameters
+    ----------
+    parent
+        Pose of a frame in its parent: x, y, z in m, quaternion x, y, z, w of length 1.
+    child
+        Pose of a child in that frame.
+
+    Returns
+    -------
+    Pose
+        Pose of the child in the parent.
+
+    """
     px, py, pz, ax, ay, az, aw = parent
     x, y, z, bx, by, bz, bw = child
     tx = 2.0 * (ay * z - az * y)
@@ -39,13 +54,38 @@ def chain(parent: Pose, child: Pose) -> Pose:
 
 
 def inverse(pose: Pose) -> Pose:
-    """Return the pose of the parent in the child."""
+    """
+    Invert a transform.
+
+    Parameters
+    ----------
+    pose
+        Pose of a child in its parent, with a quaternion of length 1.
+
+    Returns
+    -------
+    Pose
+        Pose of the parent in the child.
+
+    """
     x, y, z, qx, qy, qz, qw = pose
     return chain((0.0, 0.0, 0.0, -qx, -qy, -qz, qw), (-x, -y, -z, 0.0, 0.0, 0.0, 1.0))
 
 
 def interpolate(first: Pose, last: Pose, fraction: float) -> Pose:
-    """Return the pose on the way: straight, and turning evenly along the shorter arc."""
+    """
+    Interpolate between two poses: linearly in translation, by slerp in rotation.
+
+    The rotation takes the shorter arc.
+
+    Parameters
+    ----------
+    first, last
+        The poses, with quaternions of length 1.
+    fraction
+        How far the result is on the way, from 0 (first) to 1 (last).
+
+    """
     x, y, z, ax, ay, az, aw = first
     lx, ly, lz, bx, by, bz, bw = last
     cosine = ax * bx + ay * by + az * bz + aw * bw
@@ -72,12 +112,33 @@ def _weights(cosine: float, fraction: float) -> tuple[float, float]:
 
 
 def is_finite(pose: Pose) -> bool:
-    """Tell if all numbers are."""
+    """
+    Check whether all numbers of a pose are finite.
+
+    Parameters
+    ----------
+    pose
+        Translation and quaternion.
+
+    """
     return all(map(isfinite, pose))
 
 
 def normalized(pose: Pose) -> Pose | None:
-    """Return the pose with a quaternion of length 1, or None if it is far from that."""
+    """
+    Normalize the quaternion of a pose.
+
+    Parameters
+    ----------
+    pose
+        Translation and quaternion x, y, z, w.
+
+    Returns
+    -------
+    Pose or None
+        None if the squared length of the quaternion is off by more than 0.01 from 1.
+
+    """
     x, y, z, qx, qy, qz, qw = pose
     square = qx * qx + qy * qy + qz * qz + qw * qw
     if abs(square - 1.0) > _NORM_TOLERANCE:

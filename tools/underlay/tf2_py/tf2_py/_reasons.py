@@ -13,7 +13,19 @@ _ADVICE_TO_WAIT = 'give a timeout to wait for it'
 
 
 def unknown_frame(call: str, argument: str, frame: str, known: Collection[str]) -> str:
-    """Say that there is no such frame, and which there are."""
+    """
+    Format the error for a frame that does not exist, with a suggestion.
+
+    Parameters
+    ----------
+    call, argument
+        The call, such as 'lookupTransform', and its argument, such as 'target_frame'.
+    frame
+        The name that was given.
+    known
+        The names that exist.
+
+    """
     if call == 'canTransform':
         text = f'Invalid frame ID "{frame}" passed to canTransform argument {argument}'
         return f'{text} - frame does not exist. {_which(frame, known)}'
@@ -21,14 +33,32 @@ def unknown_frame(call: str, argument: str, frame: str, known: Collection[str]) 
 
 
 def empty_frame(call: str, argument: str) -> str:
-    """Say that a name is missing."""
+    """
+    Format the error for a frame name that is empty.
+
+    Parameters
+    ----------
+    call, argument
+        The call, such as 'lookupTransform', and its argument, such as 'target_frame'.
+
+    """
     return (
         f'Invalid argument passed to {call} argument {argument} in tf2 frame_ids cannot be empty'
     )
 
 
 def slashed_frame(call: str, argument: str, frame: str) -> str:
-    """Say that names of frames have no slash in front, and which name is meant."""
+    """
+    Format the error for a frame name with a leading slash.
+
+    Parameters
+    ----------
+    call, argument
+        The call, such as 'lookupTransform', and its argument, such as 'target_frame'.
+    frame
+        The name that was given.
+
+    """
     return (
         f'Invalid argument "{frame}" passed to {call} argument {argument} in tf2 frame_ids '
         f"cannot start with a '/'. Write '{frame.lstrip('/')}'"
@@ -36,7 +66,17 @@ def slashed_frame(call: str, argument: str, frame: str) -> str:
 
 
 def unconnected(target: str, source: str, roots: tuple[str, str]) -> str:
-    """Say that no frame is above both."""
+    """
+    Format the error for two frames in different trees.
+
+    Parameters
+    ----------
+    target, source
+        The frames.
+    roots
+        The root of the target's tree, and that of the source's tree.
+
+    """
     return (
         f"Could not find a connection between '{target}' and '{source}' because they are not "
         'part of the same tree. Tf has two or more unconnected trees. '
@@ -50,12 +90,32 @@ def _below(frame: str, root: str) -> str:
 
 
 def after_waiting(reason: str, timeout_s: float) -> str:
-    """Return the reason of a lookup for one who has waited already."""
+    """
+    Adapt the reason of a failed lookup to a caller that has waited already.
+
+    Parameters
+    ----------
+    reason
+        The text of the exception.
+    timeout_s
+        How long the caller has waited, in s.
+
+    """
     return reason.replace(_ADVICE_TO_WAIT, f'it has not come within {timeout_s:g} s; wait longer')
 
 
 def extrapolation(gap: Gap, target: str, source: str) -> str:
-    """Say that there is nothing of this time, and how far off the nearest is."""
+    """
+    Format the error for a time outside the samples, with how far off the nearest one is.
+
+    Parameters
+    ----------
+    gap
+        The time that was asked for, and the range of the samples.
+    target, source
+        The frames of the lookup.
+
+    """
     where = f'when looking up transform from frame [{source}] to frame [{target}]'
     requested = _seconds(gap.requested_ns)
     if gap.oldest_ns == gap.latest_ns:

@@ -7,7 +7,24 @@ from tf2_py._pose import is_finite, Pose
 
 
 def refusal(parent: str, child: str, pose: Pose, authority: str) -> str:
-    """Return why a transform with sound names and numbers is none, or ''."""
+    """
+    Validate the frame names and numbers of a transform, other than the length of its quaternion.
+
+    Parameters
+    ----------
+    parent, child
+        The frame of the header, and the child frame, without leading slashes.
+    pose
+        Translation and quaternion.
+    authority
+        Who has published it.
+
+    Returns
+    -------
+    str
+        Why the transform is rejected; '' if it is valid.
+
+    """
     if not child:
         return (
             f'Ignoring transform from authority "{authority}" because child_frame_id is not set, '
@@ -36,7 +53,19 @@ def _bad_number(child: str, pose: Pose, authority: str) -> str:
 
 
 def bad_quaternion(child: str, pose: Pose, authority: str) -> str:
-    """Say that the quaternion of a transform is no rotation."""
+    """
+    Format the error for a transform whose quaternion is not of length 1.
+
+    Parameters
+    ----------
+    child
+        The child frame.
+    pose
+        Translation and quaternion x, y, z, w.
+    authority
+        Who has published it.
+
+    """
     hint = ' (an empty message has w = 0; no rotation is w = 1)' if not any(pose[3:]) else ''
     return (
         f'Ignoring transform for child_frame_id "{child}" from authority "{authority}" because '
@@ -46,7 +75,21 @@ def bad_quaternion(child: str, pose: Pose, authority: str) -> str:
 
 
 def old_data(child: str, stamp_ns: int, latest_ns: int, cache_ns: int, authority: str) -> str:
-    """Say that a transform is older than what is kept."""
+    """
+    Format the warning for a transform that is older than what is kept.
+
+    Parameters
+    ----------
+    child
+        The child frame.
+    stamp_ns, latest_ns
+        The time of the transform, and that of the newest one of this frame, in ns.
+    cache_ns
+        How much of the past is kept, in ns.
+    authority
+        Who has published it.
+
+    """
     return (
         f'TF_OLD_DATA ignoring data from the past for frame {child} at time {stamp_ns / 1e9:.6f} '
         f'according to authority {authority}: the latest is of {latest_ns / 1e9:.6f}, and '
@@ -56,7 +99,17 @@ def old_data(child: str, stamp_ns: int, latest_ns: int, cache_ns: int, authority
 
 
 def both_kinds(child: str, authority: str) -> str:
-    """Say that a frame is called static and not static."""
+    """
+    Format the warning for a frame that is published both as static and as moving.
+
+    Parameters
+    ----------
+    child
+        The child frame.
+    authority
+        Who has published the last one, which counts.
+
+    """
     return (
         f'The frame "{child}" comes both as a static transform and as one that moves; the last '
         f'one counts, from authority "{authority}". Two nodes publish it: '

@@ -42,7 +42,24 @@ class Unconnected(Exception):
 
 
 def find_route(source: str, target: str, step_of: Callable[[str], StepT | None]) -> Route[StepT]:
-    """Return the way; `step_of` returns None at a root, and may raise a Gap."""
+    """
+    Find the steps from two frames up to their common ancestor.
+
+    Parameters
+    ----------
+    source, target
+        The frames.
+    step_of
+        Looks up the step from a frame to its parent; returns None at a root, and may raise a Gap.
+
+    Raises
+    ------
+    Unconnected
+        There is no common ancestor; it holds the Gap, if one has been met on the way.
+    LookupException
+        The parents form a loop, or a chain of more than 1000 frames.
+
+    """
     frames, source_steps, gap = _climb(source, step_of, (target,))
     if frames[-1] == target:
         return Route(source_steps, [])

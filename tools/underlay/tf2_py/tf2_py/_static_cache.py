@@ -24,13 +24,39 @@ class StaticCache:
         return [] if self._sample is None else [self._sample]
 
     def insert(self, sample: Sample) -> bool:
-        """Take a sample instead of the one before."""
+        """
+        Replace the sample.
+
+        Parameters
+        ----------
+        sample
+            The new one, whose time is ignored.
+
+        Returns
+        -------
+        bool
+            True, as a static sample is never too old.
+
+        """
         self._sample = sample._replace(stamp_ns=0)
         self._link = Link(sample.parent, sample.pose, sample.pose, 0.0)
         return True
 
     def link_at(self, time_ns: int) -> Link | None:
-        """Return the link, whatever the time is."""
+        """
+        Return the link to the parent, which is the same at all times.
+
+        Parameters
+        ----------
+        time_ns
+            Ignored.
+
+        Returns
+        -------
+        Link or None
+            None without a sample.
+
+        """
         return self._link
 
     def latest(self) -> Sample | None:

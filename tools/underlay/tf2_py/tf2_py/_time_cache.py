@@ -10,12 +10,19 @@ from tf2_py._link import Gap, Link, Sample
 
 
 class TimeCache:
-    """The samples of a frame, in the order of their time, as far back as they are kept."""
+    """
+    The samples of a moving frame, in the order of their time.
+
+    Parameters
+    ----------
+    duration_ns
+        How long before the newest sample the older ones are kept, in ns.
+
+    """
 
     is_static = False
 
     def __init__(self, duration_ns: int) -> None:
-        """Create a cache without samples."""
         self._duration_ns = duration_ns
         self._stamps_ns: list[int] = []
         self._samples: list[Sample] = []
@@ -26,7 +33,20 @@ class TimeCache:
         return self._samples
 
     def insert(self, sample: Sample) -> bool:
-        """Take a sample; one of the same time makes way. Return False if it is too old."""
+        """
+        Insert a sample, in place of one with the same time.
+
+        Parameters
+        ----------
+        sample
+            The parent, pose, time and broadcaster.
+
+        Returns
+        -------
+        bool
+            False if the sample is older than what is kept, and so was left out.
+
+        """
         stamps_ns = self._stamps_ns
         stamp_ns = sample.stamp_ns
         if not stamps_ns or stamp_ns > stamps_ns[-1]:
@@ -43,7 +63,27 @@ class TimeCache:
         return True
 
     def link_at(self, time_ns: int) -> Link | None:
-        """Return the link at a time, None without samples; a Gap is raised out of their range."""
+        """
+        Interpolate the link to the parent at a time.
+
+        Between samples with different parents the earlier sample holds.
+
+        Parameters
+        ----------
+        time_ns
+            The time in ns.
+
+        Returns
+        -------
+        Link or None
+            None if there are no samples.
+
+        Raises
+        ------
+        Gap
+            The time is outside the range of the samples.
+
+        """
         stamps_ns = self._stamps_ns
         index = bisect_right(stamps_ns, time_ns) - 1
         if index < 0:

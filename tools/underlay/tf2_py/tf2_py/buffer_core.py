@@ -26,17 +26,23 @@ _CACHE_NS = 10 * 10**9
 
 class BufferCore:
     """
-    Keeps what is said of frames for some seconds, and answers where a frame is in another one.
+    Buffers the transforms of some seconds, and looks up those between any two frames.
 
     All methods may be called from several threads.
+
+    Parameters
+    ----------
+    cache_time
+        How much of the past is kept; 10 s by default.
+
+    Raises
+    ------
+    ValueError
+        The cache time is negative.
+
     """
 
     def __init__(self, cache_time: Optional[Duration] = None) -> None:
-        """
-        Create a buffer without frames.
-
-        :param cache_time: how much of the past is kept; 10 s unless given
-        """
         cache_ns = _CACHE_NS if cache_time is None else nanoseconds(cache_time)
         if cache_ns < 0:
             raise ValueError(
@@ -48,19 +54,33 @@ class BufferCore:
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
         """
-        Take a transform of a frame that moves.
+        Insert a transform of a moving frame.
 
-        :param transform: where the child frame is in the frame of the header, at its time
-        :param authority: who says so
+        An invalid or outdated one is left out with a warning.
+
+        Parameters
+        ----------
+        transform
+            The pose of the child frame in the frame of the header, at its time.
+        authority
+            Who has published it.
+
         """
         self._take([reading_of(transform)], authority, is_static=False)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
         """
-        Take a transform that holds at all times.
+        Insert a transform that holds at all times.
 
-        :param transform: where the child frame is in the frame of the header
-        :param authority: who says so
+        An invalid one is left out with a warning.
+
+        Parameters
+        ----------
+        transform
+            The pose of the child frame in the frame of the header.
+        authority
+            Who has published it.
+
         """
         self._take([reading_of(transform)], authority, is_static=True)
 
@@ -68,11 +88,28 @@ class BufferCore:
         self, target_frame: str, source_frame: str, time: Time
     ) -> TransformStamped:
         """
-        Return the transform that takes data from the source frame to the target frame.
+        Look up the transform that takes data from the source frame to the target frame.
 
-        :param target_frame: the frame of the result
-        :param source_frame: the frame of the data
-        :param time: when; 0 is the latest time at which all between the frames is known
+        Parameters
+        ----------
+        target_frame
+            The frame of the result.
+        source_frame
+            The frame of the data.
+        time
+            The time of the transform; 0 is the latest time at which the whole chain is known.
+
+        Returns
+        -------
+        TransformStamped
+            Pose of the source frame (child) in the target frame (header), in m and as a
+            quaternion.
+
+        Raises
+        ------
+        TransformException
+            There is no such transform; the subclass and the text say why.
+
         """
         with self._lock:
             self._store.check(
@@ -90,13 +127,28 @@ class BufferCore:
         fixed_frame: str,
     ) -> TransformStamped:
         """
-        Return the transform from the source frame at one time to the target frame at another.
+        Look up the transform from the source frame at one time to the target frame at another.
 
-        :param target_frame: the frame of the result
-        :param target_time: the time of the result
-        :param source_frame: the frame of the data
-        :param source_time: the time of the data
-        :param fixed_frame: the frame that does not move between the two times
+        Parameters
+        ----------
+        target_frame, target_time
+            The frame of the result, and its time; 0 is the latest.
+        source_frame, source_time
+            The frame of the data, and its time; 0 is the latest.
+        fixed_frame
+            The frame that does not move between the two times.
+
+        Returns
+        -------
+        TransformStamped
+            Pose of the source frame (child) in the target frame (header), stamped with the target
+            time.
+
+        Raises
+        ------
+        TransformException
+            There is no such transform; the subclass and the text say why.
+
         """
         with self._lock:
             self._check_full('lookupTransform', target_frame, source_frame, fixed_frame)
@@ -107,7 +159,20 @@ class BufferCore:
     def can_transform_core(
         self, target_frame: str, source_frame: str, time: Time
     ) -> tuple[bool, str]:
-        """Return whether the look-up with these arguments succeeds, and why not."""
+        """
+        Check whether `lookup_transform_core` succeeds with the same arguments.
+
+        Parameters
+        ----------
+        target_frame, source_frame, time
+            As for `lookup_transform_core`.
+
+        Returns
+        -------
+        tuple of bool and str
+            Whether it succeeds, and why not; '' if it does.
+
+        """
         try:
             with self._lock:
                 self._store.check(
@@ -126,7 +191,20 @@ class BufferCore:
         source_time: Time,
         fixed_frame: str,
     ) -> tuple[bool, str]:
-        """Return whether the look-up with these arguments succeeds, and why not."""
+        """
+        Check whether `lookup_transform_full_core` succeeds with the same arguments.
+
+        Parameters
+        ----------
+        target_frame, target_time, source_frame, source_time, fixed_frame
+            As for `lookup_transform_full_core`.
+
+        Returns
+        -------
+        tuple of bool and str
+            Whether it succeeds, and why not; '' if it does.
+
+        """
         try:
             with self._lock:
                 self._check_full('canTransform', target_frame, source_frame, fixed_frame)
@@ -137,7 +215,25 @@ class BufferCore:
         return True, ''
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
-        """Return the latest time at which all between two frames is known; 0 if nothing moves."""
+        """
+        Find the latest time at which the whole chain between two frames is known.
+
+        Parameters
+        ----------
+        target_frame, source_frame
+            The frames.
+
+        Returns
+        -------
+        Time
+            0 if all transforms between them are static.
+
+        Raises
+        ------
+        TransformException
+            A frame is unknown, or the frames are in different trees.
+
+        """
         from rclpy.time import Time
 
         with self._lock:

@@ -16,10 +16,23 @@ _TIMEOUT_S = 10.0
 
 
 class Background:
-    """Spins a node until it is stopped, at the latest when the program ends."""
+    """
+    Spins a node in a thread until it is stopped, at the latest when the program ends.
+
+    Parameters
+    ----------
+    node
+        What is spun, with an executor of its own.
+
+    Attributes
+    ----------
+    stop
+        Ends the thread and shuts the executor down when called; also runs when this object is
+        garbage collected.
+
+    """
 
     def __init__(self, node: Node) -> None:
-        """Start the thread."""
         executor = SingleThreadedExecutor(context=node.context)
         executor.add_node(node)
         stop = threading.Event()

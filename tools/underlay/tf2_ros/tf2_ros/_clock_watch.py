@@ -13,7 +13,15 @@ _TOPIC = '/clock'
 
 
 def watch_clock(node: Node) -> None:
-    """Log after a while that no time has come, if the node takes it from /clock."""
+    """
+    Warn after 5 s if a node with `use_sim_time` has received no time on `/clock`.
+
+    Parameters
+    ----------
+    node
+        The node whose clock is checked; it gets a timer for that if it follows `/clock`.
+
+    """
     if not node.get_clock().ros_time_is_active:
         return
     from rclpy.clock import Clock, ClockType

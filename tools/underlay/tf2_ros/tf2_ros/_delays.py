@@ -19,7 +19,15 @@ class Delays:
     longest_s: float = 0.0
 
     def add(self, delay_s: float) -> None:
-        """Count a delay."""
+        """
+        Record the delay of one transform.
+
+        Parameters
+        ----------
+        delay_s
+            Receive time minus time stamp, in s; negative for a stamp in the future.
+
+        """
         self.count += 1
         self.sum_s += delay_s
         self.longest_s = max(self.longest_s, delay_s) if self.count > 1 else delay_s
@@ -44,7 +52,15 @@ class Traffic:
     messages: int = 0
 
     def add(self, delays_s: Iterable[tuple[str, float]]) -> None:
-        """Count one message: the frames and their delays."""
+        """
+        Record the transforms of one message.
+
+        Parameters
+        ----------
+        delays_s
+            Child frame and delay in s of each transform in the message.
+
+        """
         self.messages += 1
         for frame, delay_s in delays_s:
             self.frames.setdefault(frame, Delays()).add(delay_s)
@@ -52,7 +68,21 @@ class Traffic:
 
 
 def report(traffic: Traffic, static: Iterable[str], chain: list[str], duration_s: float) -> str:
-    """Return the table of all frames, or of those of a chain between two."""
+    """
+    Format the table of delays and rates that tf2_monitor prints.
+
+    Parameters
+    ----------
+    traffic
+        What was received during the period.
+    static
+        Child frames of `/tf_static`, which are listed with a delay of 0.
+    chain
+        Frames between the source and the target, to list only these; empty for all frames.
+    duration_s
+        Length of the period, in s.
+
+    """
     frames = {**dict.fromkeys(static, Delays()), **traffic.frames}
     rows = [
         f'Frame: {frame}, published by {AUTHORITY}, {delays}'

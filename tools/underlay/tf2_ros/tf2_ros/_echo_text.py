@@ -8,7 +8,23 @@ from typing import Any
 
 
 def echo_text(message: Any, precision: int) -> str:
-    """Return the time, the translation, and the rotation in four forms."""
+    """
+    Format a transform as tf2_echo prints it: translation, quaternion, RPY and matrix.
+
+    Parameters
+    ----------
+    message
+        The `geometry_msgs/TransformStamped`.
+    precision
+        Digits after the decimal point.
+
+    Returns
+    -------
+    str
+        Several lines: translation in m, rotation also as roll, pitch and yaw in rad and in
+        degrees.
+
+    """
     from scipy.spatial.transform import Rotation
 
     place, turn = message.transform.translation, message.transform.rotation

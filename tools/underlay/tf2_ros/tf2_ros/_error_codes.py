@@ -23,13 +23,34 @@ _CODES = {
 
 
 def to_message(error: TransformException) -> TF2Error:
-    """Return the message that tells an exception."""
+    """
+    Convert an exception of tf2 to a `tf2_msgs/TF2Error`.
+
+    Parameters
+    ----------
+    error
+        The exception; a type without a code of its own becomes TRANSFORM_ERROR.
+
+    """
     code = _CODES.get(type(error), TF2Error.TRANSFORM_ERROR)
     return TF2Error(error=code, error_string=str(error))
 
 
 def raise_error(message: TF2Error) -> None:
-    """Raise the exception that a message tells, if it tells one."""
+    """
+    Raise the exception that a `tf2_msgs/TF2Error` stands for, if any.
+
+    Parameters
+    ----------
+    message
+        The error of an action result; nothing is raised for NO_ERROR.
+
+    Raises
+    ------
+    TransformException
+        The subclass for the error code, or the base class if the code is unknown.
+
+    """
     if message.error == TF2Error.NO_ERROR:
         return
     for kind, code in _CODES.items():

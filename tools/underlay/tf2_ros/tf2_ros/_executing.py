@@ -78,7 +78,15 @@ def _awaited(coroutine: Any) -> Future[Any] | None:
 
 
 def make_executor(context: Context | None = None) -> Executor:
-    """Make an executor without nodes, in a context or that of the process."""
+    """
+    Create an events executor without nodes.
+
+    Parameters
+    ----------
+    context
+        The context that wakes it on shutdown; by default that of the process.
+
+    """
     context = context or rclpy.get_default_context()
     faulthandler.enable()
     executor = _Executor(context)
@@ -88,6 +96,18 @@ def make_executor(context: Context | None = None) -> Executor:
 
 
 def spin_until(executor: Executor, stop: Future[None], context: Context | None = None) -> None:
-    """Run callbacks until the future is set, from any thread, or the context is shut down."""
+    """
+    Spin an executor until a future is done or the context is shut down.
+
+    Parameters
+    ----------
+    executor
+        What runs the callbacks, from `make_executor`.
+    stop
+        Ends spinning when it is done; may be set from any thread.
+    context
+        The context whose shutdown ends spinning; by default that of the process.
+
+    """
     while not stop.done() and rclpy.ok(context=context):
         executor.spin_until_future_complete(stop, timeout_sec=_WAIT_S)

@@ -21,11 +21,34 @@ class TransformRegistration:
     _transforms: dict[type, Transform] = {}
 
     def add(self, key: type, callback: Transform) -> None:
-        """Register a function that takes an object and a TransformStamped."""
+        """
+        Register the function that transforms objects of a type.
+
+        Parameters
+        ----------
+        key
+            The type.
+        callback
+            Takes an object of the type and a `TransformStamped`, returns the transformed object.
+
+        """
         self._transforms[key] = callback
 
     def get(self, key: type) -> Transform:
-        """Return the function of a type."""
+        """
+        Look up the function that transforms objects of a type.
+
+        Parameters
+        ----------
+        key
+            The type.
+
+        Raises
+        ------
+        TypeException
+            No package has registered the type.
+
+        """
         return _entry(self._transforms, key, 'transforms')
 
 
@@ -37,27 +60,96 @@ class ConvertRegistration:
     _conversions: dict[tuple[type, type], Conversion] = {}
 
     def add_from_msg(self, key: type, callback: Conversion) -> None:
-        """Register a function that makes an object of a message."""
+        """
+        Register the conversion from a message to objects of a type.
+
+        Parameters
+        ----------
+        key
+            The type of the result.
+        callback
+            Takes a message, returns an object of the type.
+
+        """
         self._from_messages[key] = callback
 
     def add_to_msg(self, key: type, callback: Conversion) -> None:
-        """Register a function that makes a message of an object."""
+        """
+        Register the conversion of objects of a type to a message.
+
+        Parameters
+        ----------
+        key
+            The type that is converted.
+        callback
+            Takes an object of the type, returns a message.
+
+        """
         self._to_messages[key] = callback
 
     def add_convert(self, key: tuple[type, type], callback: Conversion) -> None:
-        """Register a function that makes an object of the second type of one of the first."""
+        """
+        Register a direct conversion between two types.
+
+        Parameters
+        ----------
+        key
+            The types converted from and to.
+        callback
+            Takes an object of the first type, returns one of the second.
+
+        """
         self._conversions[key] = callback
 
     def get_from_msg(self, key: type) -> Conversion:
-        """Return the function that makes objects of a type."""
+        """
+        Look up the conversion from a message to objects of a type.
+
+        Parameters
+        ----------
+        key
+            The type of the result.
+
+        Raises
+        ------
+        TypeException
+            No package has registered the type.
+
+        """
         return _entry(self._from_messages, key, 'conversions from messages')
 
     def get_to_msg(self, key: type) -> Conversion:
-        """Return the function that makes messages of a type's objects."""
+        """
+        Look up the conversion of objects of a type to a message.
+
+        Parameters
+        ----------
+        key
+            The type that is converted.
+
+        Raises
+        ------
+        TypeException
+            No package has registered the type.
+
+        """
         return _entry(self._to_messages, key, 'conversions to messages')
 
     def get_convert(self, key: tuple[type, type]) -> Conversion | None:
-        """Return the function between two types, or None."""
+        """
+        Look up the direct conversion between two types.
+
+        Parameters
+        ----------
+        key
+            The types converted from and to.
+
+        Returns
+        -------
+        Conversion or None
+            None if no direct conversion is registered.
+
+        """
         return self._conversions.get(key)
 
 

@@ -41,7 +41,26 @@ class StaticTransform:
 
 
 def parsed(arguments: Sequence[str]) -> StaticTransform:
-    """Return what the arguments mean; unclear ones end the program with a sentence."""
+    """
+    Parse the command line of static_transform_publisher.
+
+    Parameters
+    ----------
+    arguments : Sequence[str]
+        The words after the program name, without those for ROS; options or the old positional
+        style.
+
+    Returns
+    -------
+    StaticTransform
+        Pose of the child frame in its parent: translation in m, quaternion x, y, z, w.
+
+    Raises
+    ------
+    SystemExit
+        Help was asked for, or the arguments are invalid, which a message on stderr explains.
+
+    """
     parser = _parser()
     if arguments and not any(word.startswith('--') or word == '-h' for word in arguments):
         return _old_style(parser, arguments)

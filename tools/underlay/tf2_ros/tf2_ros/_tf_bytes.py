@@ -31,7 +31,20 @@ class TfReader:
         self._layouts: dict[tuple[int, bytes], _Layout] = {}
 
     def read(self, data: bytes) -> list[Reading]:
-        """Return the transforms of a message."""
+        """
+        Deserialize a `tf2_msgs/TFMessage` to plain numbers.
+
+        Parameters
+        ----------
+        data
+            The serialized message (CDR).
+
+        Returns
+        -------
+        list of Reading
+            For each transform: parent frame, child frame, stamp in ns, and pose of the child.
+
+        """
         try:
             return self._read(data)
         except (IndexError, KeyError, struct.error, UnicodeDecodeError):

@@ -13,10 +13,17 @@ _LOOK_S = 0.1
 
 
 class Waiting:
-    """Those who wait for transforms: threads, and futures."""
+    """
+    Threads and futures that wait for transforms.
+
+    Parameters
+    ----------
+    is_alive
+        Threads stop waiting as soon as this returns False, as after a shutdown of ROS.
+
+    """
 
     def __init__(self, is_alive: Callable[[], bool]) -> None:
-        """Create the object; nobody waits while `is_alive` returns False."""
         self._is_alive = is_alive
         self._changed = threading.Condition()
         self._threads = 0
@@ -24,7 +31,17 @@ class Waiting:
         self._feeding_thread = 0
 
     def until(self, check: Check, timeout_s: float) -> None:
-        """Return when the check succeeds, or at the end of the time."""
+        """
+        Block until a check succeeds, a timeout expires or ROS is shut down.
+
+        Parameters
+        ----------
+        check
+            Whether the buffer can answer; called again after each change of the buffer.
+        timeout_s
+            Longest time to block, in s of the wall clock.
+
+        """
         end_s = time.monotonic() + timeout_s
         with self._changed:
             self._threads += 1
@@ -38,7 +55,17 @@ class Waiting:
                 self._threads -= 1
 
     def add(self, check: Check, future: Any) -> None:
-        """Give the future a result as soon as the check succeeds."""
+        """
+        Complete a future with True as soon as a check succeeds.
+
+        Parameters
+        ----------
+        check
+            Whether the buffer can answer; called again after each change of the buffer.
+        future
+            What is completed; it is dropped if it has been canceled or completed before.
+
+        """
         with self._changed:
             self._futures.append((check, future))
         self._settle()

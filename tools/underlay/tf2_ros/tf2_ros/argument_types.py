@@ -11,7 +11,22 @@ __all__ = ['number_in']
 
 
 def number_in(low: float, high: float, what: str) -> Callable[[str], float]:
-    """Return a function that makes a number in a range of an argument, or says what is wrong."""
+    """
+    Create an argparse type for numbers in a range.
+
+    Parameters
+    ----------
+    low, high
+        The range, both ends included.
+    what
+        What the number is, with its unit, for the error message: 'rate in Hz'.
+
+    Returns
+    -------
+    Callable
+        Converts the text of an argument to a number, or raises `argparse.ArgumentTypeError`.
+
+    """
 
     def read(text: str) -> float:
         number = _number(text)

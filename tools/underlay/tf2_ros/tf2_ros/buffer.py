@@ -67,15 +67,25 @@ class Question(NamedTuple):
 
 
 class Buffer(BufferCore, BufferInterface):
-    """A BufferCore that can wait, and that forgets everything when time jumps back."""
+    """
+    A BufferCore that can wait, and that is cleared when time jumps back.
+
+    Parameters
+    ----------
+    cache_time
+        How much of the past is kept; 10 s by default.
+    node
+        The node that offers the frames as service `tf2_frames`, and whose clock is followed; none
+        by default.
+
+    Raises
+    ------
+    ValueError
+        The cache time is negative.
+
+    """
 
     def __init__(self, cache_time: Optional[Duration] = None, node: Optional[Node] = None) -> None:
-        """
-        Create a buffer without frames.
-
-        :param cache_time: how much of the past is kept; 10 s unless given
-        :param node: offers the frames as service `tf2_frames`, if given
-        """
         BufferCore.__init__(self, cache_time)
         BufferInterface.__init__(self)
         self._node: Optional[Node] = None
@@ -88,7 +98,18 @@ class Buffer(BufferCore, BufferInterface):
             self._service = node.create_service(FrameGraph, 'tf2_frames', self._answer)
 
     def follow_clock_of(self, node: Node) -> None:
-        """Forget everything when the time of a node jumps back, and wait no longer than it is."""
+        """
+        Clear the buffer when the clock of a node jumps back.
+
+        Threads also stop waiting when the context of the node is shut down. Only the first call
+        has an effect.
+
+        Parameters
+        ----------
+        node
+            The node whose clock and context count.
+
+        """
         if self._node is not None:
             return
         self._node = node
@@ -104,7 +125,15 @@ class Buffer(BufferCore, BufferInterface):
         finalize(self, _end, jumps)
 
     def time_jump_callback(self, time_jump: Any) -> None:
-        """Forget all transforms but the static ones."""
+        """
+        Clear all transforms except the static ones after a jump of time, and log a warning.
+
+        Parameters
+        ----------
+        time_jump
+            The `rclpy.clock.TimeJump`.
+
+        """
         kept_clock = (ClockChange.ROS_TIME_NO_CHANGE, ClockChange.SYSTEM_TIME_NO_CHANGE)
         is_back = time_jump.clock_change in kept_clock
         what = 'jump back in time' if is_back else 'change between system and simulated time'
@@ -119,12 +148,30 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Duration = Duration(),
     ) -> TransformStamped:
         """
-        Return the transform that takes data from the source frame to the target frame.
+        Look up the transform that takes data from the source frame to the target frame.
 
-        :param target_frame: the frame of the result
-        :param source_frame: the frame of the data
-        :param time: when; 0 is the latest time at which all between the frames is known
-        :param timeout: how long to wait for it
+        Parameters
+        ----------
+        target_frame
+            The frame of the result.
+        source_frame
+            The frame of the data.
+        time
+            The time of the transform; 0 is the latest time at which the whole chain is known.
+        timeout
+            How long to wait for it, in wall clock time; by default not at all.
+
+        Returns
+        -------
+        TransformStamped
+            Pose of the source frame (child) in the target frame (header), in m and as a
+            quaternion.
+
+        Raises
+        ------
+        TransformException
+            There is no such transform; the subclass and the text say why.
+
         """
         arguments = (target_frame, source_frame, time)
         question = Question(self.can_transform_core, arguments)
@@ -140,14 +187,30 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Duration = Duration(),
     ) -> TransformStamped:
         """
-        Return the transform from the source frame at one time to the target frame at another.
+        Look up the transform from the source frame at one time to the target frame at another.
 
-        :param target_frame: the frame of the result
-        :param target_time: the time of the result
-        :param source_frame: the frame of the data
-        :param source_time: the time of the data
-        :param fixed_frame: the frame that does not move between the two times
-        :param timeout: how long to wait for it
+        Parameters
+        ----------
+        target_frame, target_time
+            The frame of the result, and its time; 0 is the latest.
+        source_frame, source_time
+            The frame of the data, and its time; 0 is the latest.
+        fixed_frame
+            The frame that does not move between the two times.
+        timeout
+            How long to wait for it, in wall clock time; by default not at all.
+
+        Returns
+        -------
+        TransformStamped
+            Pose of the source frame (child) in the target frame (header), stamped with the target
+            time.
+
+        Raises
+        ------
+        TransformException
+            There is no such transform; the subclass and the text say why.
+
         """
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
         question = Question(self.can_transform_full_core, arguments)
@@ -163,13 +226,20 @@ class Buffer(BufferCore, BufferInterface):
         return_debug_tuple: bool = False,
     ) -> Result:
         """
-        Return whether the look-up with these arguments succeeds.
+        Check whether `lookup_transform` succeeds with the same arguments.
 
-        :param target_frame: the frame of the result
-        :param source_frame: the frame of the data
-        :param time: when; 0 is the latest time
-        :param timeout: how long to wait for it
-        :param return_debug_tuple: return a text as well that says why not
+        Parameters
+        ----------
+        target_frame, source_frame, time, timeout
+            As for `lookup_transform`.
+        return_debug_tuple
+            Whether to return the reason too.
+
+        Returns
+        -------
+        bool or tuple of bool and str
+            Whether it succeeds; with `return_debug_tuple` also why it does not, '' if it does.
+
         """
         arguments = (target_frame, source_frame, time)
         result = self._wait(Question(self.can_transform_core, arguments), timeout)
@@ -186,22 +256,40 @@ class Buffer(BufferCore, BufferInterface):
         return_debug_tuple: bool = False,
     ) -> Result:
         """
-        Return whether the look-up with these arguments succeeds.
+        Check whether `lookup_transform_full` succeeds with the same arguments.
 
-        :param target_frame: the frame of the result
-        :param target_time: the time of the result
-        :param source_frame: the frame of the data
-        :param source_time: the time of the data
-        :param fixed_frame: the frame that does not move between the two times
-        :param timeout: how long to wait for it
-        :param return_debug_tuple: return a text as well that says why not
+        Parameters
+        ----------
+        target_frame, target_time, source_frame, source_time, fixed_frame, timeout
+            As for `lookup_transform_full`.
+        return_debug_tuple
+            Whether to return the reason too.
+
+        Returns
+        -------
+        bool or tuple of bool and str
+            Whether it succeeds; with `return_debug_tuple` also why it does not, '' if it does.
+
         """
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
         result = self._wait(Question(self.can_transform_full_core, arguments), timeout)
         return result if return_debug_tuple else result[0]
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future:
-        """Return a future whose result is True as soon as the look-up would succeed."""
+        """
+        Create a future that is done when `lookup_transform` would succeed.
+
+        Parameters
+        ----------
+        target_frame, source_frame, time
+            As for `lookup_transform`.
+
+        Returns
+        -------
+        Future
+            Its result is True; cancel it to stop waiting.
+
+        """
         arguments = (target_frame, source_frame, time)
         return self._future(Question(self.can_transform_core, arguments))
 
@@ -213,14 +301,40 @@ class Buffer(BufferCore, BufferInterface):
         source_time: Time,
         fixed_frame: str,
     ) -> Future:
-        """Return a future whose result is True as soon as the look-up would succeed."""
+        """
+        Create a future that is done when `lookup_transform_full` would succeed.
+
+        Parameters
+        ----------
+        target_frame, target_time, source_frame, source_time, fixed_frame
+            As for `lookup_transform_full`.
+
+        Returns
+        -------
+        Future
+            Its result is True; cancel it to stop waiting.
+
+        """
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
         return self._future(Question(self.can_transform_full_core, arguments))
 
     async def lookup_transform_async(
         self, target_frame: str, source_frame: str, time: Time
     ) -> TransformStamped:
-        """Return the transform as soon as it is known."""
+        """
+        Await the transform that takes data from the source frame to the target frame.
+
+        Parameters
+        ----------
+        target_frame, source_frame, time
+            As for `lookup_transform`.
+
+        Returns
+        -------
+        TransformStamped
+            As from `lookup_transform`.
+
+        """
         await self.wait_for_transform_async(target_frame, source_frame, time)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
@@ -232,7 +346,20 @@ class Buffer(BufferCore, BufferInterface):
         source_time: Time,
         fixed_frame: str,
     ) -> TransformStamped:
-        """Return the transform between two times as soon as it is known."""
+        """
+        Await the transform from the source frame at one time to the target frame at another.
+
+        Parameters
+        ----------
+        target_frame, target_time, source_frame, source_time, fixed_frame
+            As for `lookup_transform_full`.
+
+        Returns
+        -------
+        TransformStamped
+            As from `lookup_transform_full`.
+
+        """
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
         await self.wait_for_transform_full_async(*arguments)
         return self.lookup_transform_full_core(*arguments)

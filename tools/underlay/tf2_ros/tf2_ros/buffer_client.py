@@ -28,7 +28,26 @@ _SPIN = (
 
 
 class BufferClient(BufferInterface):
-    """Has the look-ups of a Buffer, which another node answers; they block until then."""
+    """
+    Looks transforms up in the buffer of another node, through its action; calls block until then.
+
+    Parameters
+    ----------
+    node
+        The node that sends the requests; another thread must spin it.
+    ns
+        The name of the server's action; that of the program `buffer_server` is tf2_buffer_server.
+    check_frequency
+        How often to check whether the server is there, in Hz.
+    timeout_padding
+        How much longer than its timeout a look-up may take, for the communication.
+
+    Attributes
+    ----------
+    action_client
+        The `rclpy.action.ActionClient`.
+
+    """
 
     def __init__(
         self,
@@ -37,14 +56,6 @@ class BufferClient(BufferInterface):
         check_frequency: float = 10.0,
         timeout_padding: Duration = Duration(seconds=2.0),
     ) -> None:
-        """
-        Create a client.
-
-        :param node: the node that asks; another thread must spin it
-        :param ns: the name of the server's action; that of `buffer_server` is tf2_buffer_server
-        :param check_frequency: how often a second it is looked whether the server is there
-        :param timeout_padding: how much longer than its timeout a look-up may take
-        """
         super().__init__()
         self.node = node
         self.action_client = ActionClient(node, LookupTransform, ns)
@@ -60,12 +71,32 @@ class BufferClient(BufferInterface):
         timeout: Duration = Duration(),
     ) -> TransformStamped:
         """
-        Return the transform that takes data from the source frame to the target frame.
+        Look up the transform that takes data from the source frame to the target frame.
 
-        :param target_frame: the frame of the result
-        :param source_frame: the frame of the data
-        :param time: when; 0 is the latest time at which all between the frames is known
-        :param timeout: how long the server waits for it
+        Parameters
+        ----------
+        target_frame
+            The frame of the result.
+        source_frame
+            The frame of the data.
+        time
+            The time of the transform; 0 is the latest time at which the whole chain is known.
+        timeout
+            How long the server waits for it; by default not at all.
+
+        Returns
+        -------
+        TransformStamped
+            Pose of the source frame (child) in the target frame (header), in m and as a
+            quaternion.
+
+        Raises
+        ------
+        TimeoutException
+            The server is not there, or has not answered within the timeout and the padding.
+        TransformException
+            The server has no such transform; the subclass and the text say why.
+
         """
         goal = _goal(target_frame, source_frame, time, timeout)
         return self._answer(goal)
@@ -80,14 +111,32 @@ class BufferClient(BufferInterface):
         timeout: Duration = Duration(),
     ) -> TransformStamped:
         """
-        Return the transform from the source frame at one time to the target frame at another.
+        Look up the transform from the source frame at one time to the target frame at another.
 
-        :param target_frame: the frame of the result
-        :param target_time: the time of the result
-        :param source_frame: the frame of the data
-        :param source_time: the time of the data
-        :param fixed_frame: the frame that does not move between the two times
-        :param timeout: how long the server waits for it
+        Parameters
+        ----------
+        target_frame, target_time
+            The frame of the result, and its time; 0 is the latest.
+        source_frame, source_time
+            The frame of the data, and its time; 0 is the latest.
+        fixed_frame
+            The frame that does not move between the two times.
+        timeout
+            How long the server waits for it; by default not at all.
+
+        Returns
+        -------
+        TransformStamped
+            Pose of the source frame (child) in the target frame (header), stamped with the target
+            time.
+
+        Raises
+        ------
+        TimeoutException
+            The server is not there, or has not answered within the timeout and the padding.
+        TransformException
+            The server has no such transform; the subclass and the text say why.
+
         """
         goal = _goal(target_frame, source_frame, source_time, timeout)
         goal.target_time = _stamp(target_time)
@@ -102,7 +151,15 @@ class BufferClient(BufferInterface):
         time: Time,
         timeout: Duration = Duration(),
     ) -> bool:
-        """Return whether the look-up with these arguments succeeds."""
+        """
+        Check whether `lookup_transform` succeeds with the same arguments.
+
+        Parameters
+        ----------
+        target_frame, source_frame, time, timeout
+            As for `lookup_transform`.
+
+        """
         try:
             self.lookup_transform(target_frame, source_frame, time, timeout)
         except TransformException:
@@ -118,7 +175,15 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Duration = Duration(),
     ) -> bool:
-        """Return whether the look-up with these arguments succeeds."""
+        """
+        Check whether `lookup_transform_full` succeeds with the same arguments.
+
+        Parameters
+        ----------
+        target_frame, target_time, source_frame, source_time, fixed_frame, timeout
+            As for `lookup_transform_full`.
+
+        """
         try:
             self.lookup_transform_full(
                 target_frame, target_time, source_frame, source_time, fixed_frame, timeout

@@ -50,12 +50,31 @@ class BufferInterface:
         new_type: Optional[type] = None,
     ) -> Any:
         """
-        Return an object in another frame.
+        Transform an object to another frame, at the time of its header.
 
-        :param object_stamped: an object with a header, of a type that a package has registered
-        :param target_frame: the frame of the result
-        :param timeout: how long to wait for the transform
-        :param new_type: the type of the result, if not that of the object
+        Parameters
+        ----------
+        object_stamped
+            An object with a header, of a type that a package has registered.
+        target_frame
+            The frame of the result.
+        timeout
+            How long to wait for the transform; by default not at all.
+        new_type
+            The type of the result, if not that of the object.
+
+        Returns
+        -------
+        object
+            A new object, of `new_type` if given.
+
+        Raises
+        ------
+        TypeException
+            The object has no header, or no package has registered its type or the conversion.
+        TransformException
+            There is no such transform.
+
         """
         do_transform = self._do_transform_of(object_stamped)
         header = object_stamped.header
@@ -72,14 +91,33 @@ class BufferInterface:
         new_type: Optional[type] = None,
     ) -> Any:
         """
-        Return an object in another frame at another time.
+        Transform an object to another frame at another time.
 
-        :param object_stamped: an object with a header, of a type that a package has registered
-        :param target_frame: the frame of the result
-        :param target_time: the time of the result
-        :param fixed_frame: the frame that does not move between the two times
-        :param timeout: how long to wait for the transforms
-        :param new_type: the type of the result, if not that of the object
+        Parameters
+        ----------
+        object_stamped
+            An object with a header, of a type that a package has registered.
+        target_frame, target_time
+            The frame of the result, and its time.
+        fixed_frame
+            The frame that does not move between the time of the header and the target time.
+        timeout
+            How long to wait for the transform; by default not at all.
+        new_type
+            The type of the result, if not that of the object.
+
+        Returns
+        -------
+        object
+            A new object, of `new_type` if given.
+
+        Raises
+        ------
+        TypeException
+            The object has no header, or no package has registered its type or the conversion.
+        TransformException
+            There is no such transform.
+
         """
         do_transform = self._do_transform_of(object_stamped)
         header = object_stamped.header
@@ -106,7 +144,31 @@ class BufferInterface:
         time: Time,
         timeout: Duration = Duration(),
     ) -> TransformStamped:
-        """Return the transform from the source frame to the target frame."""
+        """
+        Look up the transform between two frames; for subclasses to implement.
+
+        Parameters
+        ----------
+        target_frame
+            The frame of the result.
+        source_frame
+            The frame of the data.
+        time
+            The time of the transform; 0 is the latest.
+        timeout
+            How long to wait for it.
+
+        Returns
+        -------
+        TransformStamped
+            Pose of the source frame in the target frame.
+
+        Raises
+        ------
+        NotImplementedException
+            The subclass lacks this method.
+
+        """
         raise NotImplementedException('lookup_transform')
 
     def lookup_transform_full(
@@ -118,7 +180,31 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Duration = Duration(),
     ) -> TransformStamped:
-        """Return the transform from the source frame at one time to the target at another."""
+        """
+        Look up the transform between two frames at two times; for subclasses to implement.
+
+        Parameters
+        ----------
+        target_frame, target_time
+            The frame of the result, and its time; 0 is the latest.
+        source_frame, source_time
+            The frame of the data, and its time; 0 is the latest.
+        fixed_frame
+            The frame that does not move between the two times.
+        timeout
+            How long to wait for it.
+
+        Returns
+        -------
+        TransformStamped
+            Pose of the source frame at its time in the target frame at its time.
+
+        Raises
+        ------
+        NotImplementedException
+            The subclass lacks this method.
+
+        """
         raise NotImplementedException('lookup_transform_full')
 
     def can_transform(
@@ -128,7 +214,20 @@ class BufferInterface:
         time: Time,
         timeout: Duration = Duration(),
     ) -> Any:
-        """Return whether the look-up with these arguments succeeds."""
+        """
+        Check whether `lookup_transform` succeeds; for subclasses to implement.
+
+        Parameters
+        ----------
+        target_frame, source_frame, time, timeout
+            As for `lookup_transform`.
+
+        Raises
+        ------
+        NotImplementedException
+            The subclass lacks this method.
+
+        """
         raise NotImplementedException('can_transform')
 
     def can_transform_full(
@@ -140,12 +239,37 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Duration = Duration(),
     ) -> Any:
-        """Return whether the look-up with these arguments succeeds."""
+        """
+        Check whether `lookup_transform_full` succeeds; for subclasses to implement.
+
+        Parameters
+        ----------
+        target_frame, target_time, source_frame, source_time, fixed_frame, timeout
+            As for `lookup_transform_full`.
+
+        Raises
+        ------
+        NotImplementedException
+            The subclass lacks this method.
+
+        """
         raise NotImplementedException('can_transform_full')
 
 
 def Stamped(obj: Any, stamp: Any, frame_id: str) -> Any:  # noqa: N802
-    """Give an object a header; return it."""
+    """
+    Set the header of an object, and return the same object.
+
+    Parameters
+    ----------
+    obj
+        What gets the attribute `header`.
+    stamp
+        Its time, a `builtin_interfaces/Time`.
+    frame_id
+        Its frame.
+
+    """
     from std_msgs.msg import Header
 
     obj.header = Header(frame_id=frame_id, stamp=stamp)
@@ -153,7 +277,25 @@ def Stamped(obj: Any, stamp: Any, frame_id: str) -> Any:  # noqa: N802
 
 
 def convert(a: Any, b_type: type) -> Any:
-    """Return an object of another type that means the same."""
+    """
+    Convert an object to another type by the registered conversions.
+
+    A direct conversion is preferred to one by way of a message. An object that is of the type
+    already is copied.
+
+    Parameters
+    ----------
+    a
+        The object, which stays as it is.
+    b_type
+        The type of the result.
+
+    Raises
+    ------
+    TypeException
+        No package has registered the conversion.
+
+    """
     registration = ConvertRegistration()
     direct = registration.get_convert((type(a), b_type))
     if direct is not None:

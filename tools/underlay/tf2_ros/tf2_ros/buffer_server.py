@@ -19,16 +19,21 @@ _CACHE_S = 120.0
 
 
 class BufferServer:
-    """Offers a buffer as an action, which each BufferClient asks instead of listening itself."""
+    """
+    Offers a buffer as an action, which each BufferClient asks instead of listening itself.
+
+    Parameters
+    ----------
+    buffer
+        Where transforms are looked up.
+    node
+        The node that offers the action.
+    ns
+        The name of the action.
+
+    """
 
     def __init__(self, buffer: Buffer, node: Node, ns: str) -> None:
-        """
-        Offer the action.
-
-        :param buffer: what has the transforms
-        :param node: the node that offers the action
-        :param ns: the name of the action
-        """
         from rclpy.action import ActionServer
         from rclpy.callback_groups import ReentrantCallbackGroup
         from tf2_msgs.action import LookupTransform
@@ -118,7 +123,20 @@ class BufferServer:
 
 
 def make_node(words: list[str]) -> Node:
-    """Return the node of the program, which listens and offers its buffer."""
+    """
+    Create the node of the program buffer_server, which listens and offers its buffer.
+
+    Parameters
+    ----------
+    words
+        The command line without the arguments for ROS; must be empty.
+
+    Raises
+    ------
+    ValueError
+        There are arguments.
+
+    """
     from rclpy.duration import Duration
     from rclpy.node import Node
     from tf2_ros.buffer import Buffer

@@ -29,10 +29,23 @@ def run_node(
     make_node: Callable[[list[str]], Node], arguments: Sequence[str] | None = None
 ) -> int:
     """
-    Run the node that is made from the arguments without those for ROS; return the exit status.
+    Run a program whose work is to spin one node.
 
-    A ValueError while the node is made, or a parameter that ROS refuses, is one message on
-    stderr and status 1.
+    A ValueError while the node is made, or a parameter that ROS rejects, is one message on stderr
+    and status 1.
+
+    Parameters
+    ----------
+    make_node
+        Creates the node from the command line without the arguments for ROS.
+    arguments : Sequence[str] | None
+        The command line with the program's name; by default that of the process.
+
+    Returns
+    -------
+    int
+        The exit status.
+
     """
 
     def work(words: list[str]) -> int:
@@ -56,15 +69,27 @@ def run(
     arguments: Sequence[str] | None = None,
 ) -> int:
     """
-    Do the work of a program; return the exit status.
+    Run the work of a program between the start and the shutdown of ROS.
 
-    SIGINT and SIGTERM are blocked from here to the end of the process, so that they interrupt
-    nothing; `spin` waits for them. A thread that is older, as those of numpy, may get them all
-    the same, and hands them over.
+    SIGINT and SIGTERM are blocked while the work runs, so that they interrupt nothing (`spin`
+    waits for them), and ignored afterwards. A thread that is older, as those of numpy, may get
+    them all the same, and hands them over.
 
-    :param parse: makes the work's arguments of the words that are not for ROS
-    :param work: runs while ROS does; may return an exit status
-    :param arguments: the command line with the program's name; by default that of the process
+    Parameters
+    ----------
+    parse
+        Makes the arguments of `work` from the words that are not for ROS.
+    work
+        Runs while ROS does; may return an exit status.
+    arguments : Sequence[str] | None
+        The command line with the program's name; by default that of the process.
+
+    Returns
+    -------
+    int
+        The exit status: that of `work`, 0 if it returns None, 1 if ROS cannot be started or the
+        disk is full, 141 if nobody reads the output any longer.
+
     """
     before = signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)
     _handle(_hand_over)
@@ -136,11 +161,24 @@ def _status_of_lost_output(error: OSError) -> int:
 
 def spin(node: Node, timeout_s: float | None = None) -> bool:
     """
-    Let a node work until a signal to stop, or so long; return whether a signal came.
+    Spin a node in a thread of its own until SIGINT, SIGTERM or a timeout.
 
-    With it work its `companions`, if it has any: further nodes that it has made for itself. It
-    works in a thread of its own, so that the signals are heard whatever it does. A callback
-    that does not return within some seconds is not waited for: the process ends.
+    Its `companions`, further nodes that it has made for itself, are spun with it, if it has any. A
+    callback that does not return within 3 s after the end is not waited for: the process exits
+    with status 1.
+
+    Parameters
+    ----------
+    node
+        What is spun; an error in one of its callbacks ends spinning, and is raised here.
+    timeout_s
+        Longest time to spin, in s; by default there is no limit.
+
+    Returns
+    -------
+    bool
+        Whether a signal to stop has come.
+
     """
     from rclpy.task import Future
     from tf2_ros._clock_watch import watch_clock
@@ -172,7 +210,20 @@ def _leave(node: Node) -> None:
 
 
 def wait_for_signal(timeout_s: float | None) -> bool:
-    """Return whether a signal to stop came in time."""
+    """
+    Wait for SIGINT or SIGTERM, which `run` has blocked.
+
+    Parameters
+    ----------
+    timeout_s
+        Longest time to wait, in s; 0 only looks, None waits without limit.
+
+    Returns
+    -------
+    bool
+        Whether a signal has come in time.
+
+    """
     # Now and then a look for one that another thread has got.
     end_s = None if timeout_s is None else time.monotonic() + timeout_s
     left_s = _LOOK_S

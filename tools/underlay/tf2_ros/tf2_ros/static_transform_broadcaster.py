@@ -17,22 +17,39 @@ if TYPE_CHECKING:
 
 
 class StaticTransformBroadcaster:
-    """Publishes transforms on `/tf_static`; who comes later gets them as well."""
+    """
+    Publishes transforms on `/tf_static`, which late subscribers receive as well.
+
+    Parameters
+    ----------
+    node
+        The node that publishes.
+    qos
+        QoS profile instead of the usual one, which is reliable and transient local with a depth of
+        1.
+
+    Attributes
+    ----------
+    pub_tf
+        The publisher.
+
+    """
 
     def __init__(self, node: Node, qos: Optional[Union[QoSProfile, int]] = None) -> None:
-        """
-        Create the publisher.
-
-        :param node: the node that publishes
-        :param qos: another QoS than the usual one, which is reliable and transient local with a
-            depth of 1
-        """
         chosen = STATIC_BROADCASTER if qos is None else qos
         self.pub_tf = node.create_publisher(TFMessage, '/tf_static', chosen)
         self._transforms: dict[str, TransformStamped] = {}
 
     def sendTransform(self, transform: Transforms) -> None:  # noqa: N802
-        """Publish a transform, or several, with all that were sent before."""
+        """
+        Publish static transforms, together with all that were sent before.
+
+        Parameters
+        ----------
+        transform
+            One or several; each replaces an earlier one with the same child frame.
+
+        """
         # The caller may fill the same message again.
         sent = deepcopy(as_list(transform))
         self._transforms.update({item.child_frame_id: item for item in sent})

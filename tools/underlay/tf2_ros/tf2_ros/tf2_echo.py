@@ -47,10 +47,22 @@ def _digits(text: str) -> int:
 
 
 class Echo:
-    """Waits for a transform, then prints it at a rate."""
+    """
+    Waits for a transform, then prints it at a rate.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The command line: source_frame, target_frame, rate in Hz, and precision in digits.
+
+    Attributes
+    ----------
+    node
+        The node that is to be spun.
+
+    """
 
     def __init__(self, args: argparse.Namespace) -> None:
-        """Begin to listen."""
         from rclpy.clock import Clock, ClockType
         from rclpy.node import Node
         from tf2_ros.buffer import Buffer

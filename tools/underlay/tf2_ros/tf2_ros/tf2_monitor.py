@@ -47,10 +47,22 @@ def _parser() -> argparse.ArgumentParser:
 
 
 class Monitor:
-    """Counts transforms, and prints a report of each period."""
+    """
+    Counts transforms, and prints a report of each period.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The command line: source_frame and target_frame, both '' for all frames, and period in s.
+
+    Attributes
+    ----------
+    node
+        The node that is to be spun.
+
+    """
 
     def __init__(self, args: argparse.Namespace) -> None:
-        """Begin to listen."""
         from rclpy.clock import Clock, ClockType
         from rclpy.node import Node
         from tf2_msgs.msg import TFMessage

@@ -18,22 +18,47 @@ Transforms = Union[TransformStamped, Iterable[TransformStamped]]
 
 
 class TransformBroadcaster:
-    """Publishes transforms on `/tf`."""
+    """
+    Publishes transforms on `/tf`.
+
+    Parameters
+    ----------
+    node
+        The node that publishes.
+    qos
+        QoS profile instead of the usual one, which is reliable with a depth of 100.
+
+    Attributes
+    ----------
+    pub_tf
+        The publisher.
+
+    """
 
     def __init__(self, node: Node, qos: Optional[Union[QoSProfile, int]] = None) -> None:
-        """
-        Create the publisher.
-
-        :param node: the node that publishes
-        :param qos: another QoS than the usual one, which is reliable with a depth of 100
-        """
         self.pub_tf = node.create_publisher(TFMessage, '/tf', DYNAMIC if qos is None else qos)
 
     def sendTransform(self, transform: Transforms) -> None:  # noqa: N802
-        """Publish a transform, or several in one message."""
+        """
+        Publish transforms of moving frames in one message.
+
+        Parameters
+        ----------
+        transform
+            One or several: the pose of the child frame in the frame of the header, at its time.
+
+        """
         self.pub_tf.publish(TFMessage(transforms=as_list(transform)))
 
 
 def as_list(transforms: Transforms) -> list[TransformStamped]:
-    """Return one transform or several as a list."""
+    """
+    Make a list of one transform or several.
+
+    Parameters
+    ----------
+    transforms
+        A `TransformStamped`, or an iterable of them.
+
+    """
     return [transforms] if isinstance(transforms, TransformStamped) else list(transforms)

@@ -21,7 +21,32 @@ _AUTHORITY = 'default_authority'
 
 
 class TransformListener:
-    """Subscribes `/tf` and `/tf_static`, and hands the transforms to a buffer."""
+    """
+    Subscribes to `/tf` and `/tf_static`, and inserts the transforms into a buffer.
+
+    Parameters
+    ----------
+    buffer
+        What is filled; a `Buffer` also follows the clock of the node.
+    node
+        The node that subscribes.
+    spin_thread
+        Whether to spin the node in a thread of its own.
+    qos
+        QoS profile for `/tf` instead of the usual one, which is reliable with a depth of 100.
+    static_qos
+        The same for `/tf_static`, where the usual one is also transient local.
+    static_only
+        Whether to leave `/tf` out.
+
+    Attributes
+    ----------
+    tf_sub, tf_static_sub
+        The subscriptions; None if there is none.
+    group
+        Their callback group.
+
+    """
 
     def __init__(
         self,
@@ -33,16 +58,6 @@ class TransformListener:
         static_qos: Optional[Union[QoSProfile, int]] = None,
         static_only: bool = False,
     ) -> None:
-        """
-        Subscribe.
-
-        :param buffer: what is filled
-        :param node: the node that subscribes
-        :param spin_thread: let the node work in a thread of its own
-        :param qos: another QoS for `/tf` than the usual one, reliable with a depth of 100
-        :param static_qos: another one for `/tf_static`, transient local as well
-        :param static_only: leave `/tf` out
-        """
         self.buffer = buffer
         self.node = node
         self.group = self._group()
@@ -57,12 +72,32 @@ class TransformListener:
         self._background = Background(node) if spin_thread else None
 
     def callback(self, data: TFMessage) -> None:
-        """Take the transforms of frames that move."""
+        """
+        Insert the transforms of moving frames into the buffer.
+
+        A subclass that overrides this gets the messages of `/tf`.
+
+        Parameters
+        ----------
+        data
+            The message of `/tf`.
+
+        """
         for transform in data.transforms:
             self.buffer.set_transform(transform, _AUTHORITY)
 
     def static_callback(self, data: TFMessage) -> None:
-        """Take transforms that hold at all times."""
+        """
+        Insert static transforms into the buffer.
+
+        A subclass that overrides this gets the messages of `/tf_static`.
+
+        Parameters
+        ----------
+        data
+            The message of `/tf_static`.
+
+        """
         for transform in data.transforms:
             self.buffer.set_transform_static(transform, _AUTHORITY)
 

@@ -16,7 +16,27 @@ _LOOK_S = 0.1
 
 
 def write_graph(path: str, graph: str) -> str:
-    """Write the graph as PATH.gv; return the path of the file, or raise OSError."""
+    """
+    Write the graph of the frames as PATH.gv, and create its folder.
+
+    Parameters
+    ----------
+    path
+        The path without extension.
+    graph
+        The graph in the language of Graphviz.
+
+    Returns
+    -------
+    str
+        The path of the file.
+
+    Raises
+    ------
+    OSError
+        It cannot be written.
+
+    """
     os.makedirs(os.path.dirname(path) or '.', exist_ok=True)
     with open(f'{path}.gv', 'w', encoding='utf-8') as file:
         file.write(graph)
@@ -29,7 +49,27 @@ def has_graphviz() -> bool:
 
 
 def write_tree(path: str, frames: Frames) -> str:
-    """Write the tree as PATH.svg; return the path of the file, or raise OSError."""
+    """
+    Draw the tree of the frames as PATH.svg.
+
+    Parameters
+    ----------
+    path
+        The path without extension.
+    frames
+        What `Buffer.all_frames_as_yaml` says of each frame that has a parent.
+
+    Returns
+    -------
+    str
+        The path of the file.
+
+    Raises
+    ------
+    OSError
+        It cannot be written.
+
+    """
     with open(f'{path}.svg', 'w', encoding='utf-8') as file:
         file.write(tree_svg(frames))
     return f'{path}.svg'
@@ -37,9 +77,21 @@ def write_tree(path: str, frames: Frames) -> str:
 
 def draw(path: str, is_stopped: Callable[[], bool]) -> str:
     """
-    Let graphviz draw PATH.gv as PATH.pdf; return what kept it from being drawn, or ''.
+    Render PATH.gv as PATH.pdf with Graphviz.
 
-    :param is_stopped: is asked again and again while graphviz works
+    Parameters
+    ----------
+    path
+        The path without extension.
+    is_stopped
+        Polled every 0.1 s while Graphviz works, which is killed when it returns True, or after 60
+        s.
+
+    Returns
+    -------
+    str
+        Why the file was not rendered; '' if it was.
+
     """
     command = ['dot', '-Tpdf', f'{path}.gv', '-o', f'{path}.pdf']
     try:

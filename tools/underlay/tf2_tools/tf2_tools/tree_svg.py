@@ -41,9 +41,18 @@ class Row:
 
 def tree_svg(frames: Frames) -> str:
     """
-    Return a drawing of all trees, one frame a row.
+    Draw the trees of the frames as an SVG, one frame a row.
 
-    :param frames: for each frame that has a parent what `Buffer.all_frames_as_yaml` says of it
+    Parameters
+    ----------
+    frames
+        What `Buffer.all_frames_as_yaml` says of each frame that has a parent.
+
+    Returns
+    -------
+    str
+        The text of the SVG.
+
     """
     rows = list(_rows(frames)) or [Row('no tf data', 0, -1, '')]
     width = max(row.x + row.width + len(row.detail) * _DETAIL_LETTER for row in rows) + 3 * _MARGIN

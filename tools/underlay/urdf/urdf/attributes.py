@@ -15,7 +15,24 @@ NO_MOVE = (0.0, 0.0, 0.0)
 
 
 def child(element: XmlElement, tag: str, where: str) -> XmlElement:
-    """Return the child element that must be there."""
+    """
+    Find a required child element.
+
+    Parameters
+    ----------
+    element
+        The parent element.
+    tag
+        The kind of the child.
+    where
+        What the parent element is, for the error message: "joint 'hip'".
+
+    Raises
+    ------
+    UrdfError
+        There is no such child.
+
+    """
     found = element.find(tag)
     if found is None:
         raise UrdfError(f'There is no <{tag}> in {where}. Add it.', element.line)
@@ -23,7 +40,24 @@ def child(element: XmlElement, tag: str, where: str) -> XmlElement:
 
 
 def text(element: XmlElement, name: str, where: str) -> str:
-    """Return the attribute that must be there."""
+    """
+    Read a required attribute as text.
+
+    Parameters
+    ----------
+    element
+        The element that has it.
+    name
+        The attribute.
+    where
+        What the element is, for the error message: "<parent> of joint 'hip'".
+
+    Raises
+    ------
+    UrdfError
+        The attribute is missing or empty.
+
+    """
     value = element.attributes.get(name, '')
     if not value:
         raise UrdfError(f"There is no attribute '{name}' in {where}. Add it.", element.line)
@@ -31,7 +65,26 @@ def text(element: XmlElement, name: str, where: str) -> str:
 
 
 def number(element: XmlElement, name: str, where: str, default: float) -> float:
-    """Return an attribute that is a number."""
+    """
+    Read an optional attribute as a number.
+
+    Parameters
+    ----------
+    element
+        The element that has it.
+    name
+        The attribute.
+    where
+        What the element belongs to, for the error message: "joint 'hip'".
+    default
+        What is returned if the attribute is missing.
+
+    Raises
+    ------
+    UrdfError
+        The attribute is not one finite number.
+
+    """
     given = element.attributes.get(name)
     if given is None:
         return default
@@ -42,7 +95,26 @@ def number(element: XmlElement, name: str, where: str, default: float) -> float:
 
 
 def vector(element: XmlElement | None, name: str, where: str, default: Vector) -> Vector:
-    """Return an attribute that is three numbers."""
+    """
+    Read an optional attribute as three numbers.
+
+    Parameters
+    ----------
+    element
+        The element that has it, if there is one.
+    name
+        The attribute.
+    where
+        What the element belongs to, for the error message: "joint 'hip'".
+    default
+        What is returned if the element or the attribute is missing.
+
+    Raises
+    ------
+    UrdfError
+        The attribute is not three finite numbers.
+
+    """
     given = element.attributes.get(name) if element is not None else None
     if element is None or given is None:
         return default
@@ -53,7 +125,27 @@ def vector(element: XmlElement | None, name: str, where: str, default: Vector) -
 
 
 def origin_of(element: XmlElement, where: str) -> Origin:
-    """Return where an element is in the frame of its link; at its origin if nothing is said."""
+    """
+    Read the `<origin>` of an element; without one it is the identity.
+
+    Parameters
+    ----------
+    element
+        The joint, visual or collision.
+    where
+        What the element is, for the error message: "joint 'hip'".
+
+    Returns
+    -------
+    Origin
+        xyz in m, and roll, pitch and yaw in rad, in the frame of the (parent) link.
+
+    Raises
+    ------
+    UrdfError
+        An attribute is not three finite numbers.
+
+    """
     origin = element.find('origin')
     return Origin(vector(origin, 'xyz', where, NO_MOVE), vector(origin, 'rpy', where, NO_MOVE))
 

@@ -15,7 +15,20 @@ __all__ = ['check_consistency']
 
 
 def check_consistency(model: RobotModel) -> None:
-    """Raise UrdfError unless names are unique, links form one tree and mimic joints exist."""
+    """
+    Validate a robot: unique names, one tree of links, and mimic joints that exist.
+
+    Parameters
+    ----------
+    model
+        The robot.
+
+    Raises
+    ------
+    UrdfError
+        It has no links, or is not consistent.
+
+    """
     if not model.links:
         raise UrdfError(f"Robot '{model.name}' has no links. Add at least one <link>.")
     _check_unique('link', model.links)

@@ -9,7 +9,22 @@ __all__ = ['closest', 'did_you_mean']
 
 
 def closest(name: str, known: Iterable[str]) -> str | None:
-    """Return the name that comes closest, if any is close."""
+    """
+    Find the known name that is most similar to a misspelt one.
+
+    Parameters
+    ----------
+    name
+        What was written.
+    known
+        The names that exist.
+
+    Returns
+    -------
+    str or None
+        None if no name is similar enough (0.75 by `difflib`).
+
+    """
     from difflib import get_close_matches
 
     close = get_close_matches(name, list(known), n=1, cutoff=0.75)
@@ -17,6 +32,21 @@ def closest(name: str, known: Iterable[str]) -> str | None:
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return a question, with a space before it, that names what comes closest; or ''."""
+    """
+    Suggest the known name that is most similar to a misspelt one.
+
+    Parameters
+    ----------
+    name
+        What was written.
+    known
+        The names that exist.
+
+    Returns
+    -------
+    str
+        " Did you mean '...'?", with the leading space, or '' if no name is similar.
+
+    """
     meant = closest(name, known)
     return f" Did you mean '{meant}'?" if meant else ''

@@ -12,9 +12,23 @@ __all__ = ['check_for_loops', 'followed']
 
 def followed(name: str, mimics: Mapping[str, Mimic], known: Container[str]) -> Mimic | None:
     """
-    Return how a joint follows the first joint of its chain whose position is known.
+    Resolve a chain of mimic joints to the first joint in it whose position is known.
 
-    A known joint follows itself. None if no joint of the chain is known.
+    Parameters
+    ----------
+    name
+        The joint; if it is known, it follows itself.
+    mimics
+        What each mimic joint follows, by name.
+    known
+        The joints whose positions are known.
+
+    Returns
+    -------
+    Mimic or None
+        The known joint with the multiplier and offset (rad or m) of the whole chain; None if no
+        joint of the chain is known.
+
     """
     multiplier, offset = 1.0, 0.0
     while name not in known:
@@ -28,7 +42,20 @@ def followed(name: str, mimics: Mapping[str, Mimic], known: Container[str]) -> M
 
 
 def check_for_loops(mimics: Mapping[str, Mimic]) -> None:
-    """Raise ValueError if joints follow each other in a circle."""
+    """
+    Check that no mimic joints follow each other in a loop.
+
+    Parameters
+    ----------
+    mimics
+        What each mimic joint follows, by name.
+
+    Raises
+    ------
+    ValueError
+        There is a loop; the text is the names of its joints, joined by ' -> '.
+
+    """
     for name in mimics:
         chain = [name]
         while chain[-1] in mimics:

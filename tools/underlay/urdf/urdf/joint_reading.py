@@ -15,7 +15,20 @@ __all__ = ['read_joint']
 
 
 def read_joint(element: XmlElement) -> Joint:
-    """Return the joint that an element describes, or raise UrdfError."""
+    """
+    Parse a `<joint>` element.
+
+    Parameters
+    ----------
+    element
+        The element.
+
+    Raises
+    ------
+    UrdfError
+        Something is missing or invalid.
+
+    """
     name = text(element, 'name', 'this <joint>')
     where = f"joint '{name}'"
     kind = _kind(element, where)

@@ -22,7 +22,21 @@ Pose = tuple[float, float, float, float, float, float, float]
 
 
 def joint_motion(joint: Joint) -> Callable[[float], Pose]:
-    """Return the function that gives the pose for a position of the joint."""
+    """
+    Create the forward kinematics of one joint.
+
+    Parameters
+    ----------
+    joint
+        A joint of any kind; one that is fixed, floating or planar stays at its origin.
+
+    Returns
+    -------
+    Callable
+        Takes the position (rad or m), returns the pose of the child link in the frame of the
+        parent link: translation in m, quaternion x, y, z, w.
+
+    """
     rotation = rotation_of(joint.origin.rpy)
     if joint.kind in ('revolute', 'continuous'):
         return _turning(joint.origin.xyz, rotation, joint.axis)
@@ -57,7 +71,20 @@ def _sliding(at: Vector, rotation: Quaternion, axis: Vector) -> Callable[[float]
 
 
 def rotation_of(rpy: Vector) -> Quaternion:
-    """Return the rotation about the fixed axes x, then y, then z."""
+    """
+    Convert roll, pitch and yaw to a quaternion.
+
+    Parameters
+    ----------
+    rpy
+        Rotations about the fixed axes x, then y, then z, in rad.
+
+    Returns
+    -------
+    Quaternion
+        x, y, z, w.
+
+    """
     turns: list[Quaternion] = [
         (sin(rpy[0] / 2.0), 0.0, 0.0, cos(rpy[0] / 2.0)),
         (0.0, sin(rpy[1] / 2.0), 0.0, cos(rpy[1] / 2.0)),
@@ -67,14 +94,32 @@ def rotation_of(rpy: Vector) -> Quaternion:
 
 
 def rotate(rotation: Quaternion, vector: Vector) -> Vector:
-    """Return a vector, rotated."""
+    """
+    Rotate a vector by a quaternion.
+
+    Parameters
+    ----------
+    rotation
+        Quaternion x, y, z, w of length 1.
+    vector
+        x, y, z.
+
+    """
     x, y, z, w = rotation
     turned = product(product(rotation, (*vector, 0.0)), (-x, -y, -z, w))
     return turned[0], turned[1], turned[2]
 
 
 def product(left: Quaternion, right: Quaternion) -> Quaternion:
-    """Return the rotation that is `right` first and then `left`, both about fixed axes."""
+    """
+    Multiply two quaternions: the rotation that is `right` first and then `left`, about fixed axes.
+
+    Parameters
+    ----------
+    left, right
+        Quaternions x, y, z, w.
+
+    """
     ax, ay, az, aw = left
     bx, by, bz, bw = right
     return (

@@ -15,7 +15,25 @@ __all__ = ['read_materials', 'read_shapes']
 
 
 def read_materials(robot: XmlElement) -> dict[str, Color]:
-    """Return the colours that are defined for all links, and those that links define, by name."""
+    """
+    Collect the colours of all named materials, of the robot and of its links.
+
+    Parameters
+    ----------
+    robot
+        The `<robot>` element.
+
+    Returns
+    -------
+    dict[str, Color]
+        The colours by the names of their materials; the robot's own prevail over those of links.
+
+    Raises
+    ------
+    UrdfError
+        The `rgba` of a colour is missing or invalid.
+
+    """
     links = [visual for link in robot.find_all('link') for visual in link.find_all('visual')]
     materials = [each for place in (*links, robot) for each in place.find_all('material')]
     colors = {each.attributes.get('name', ''): _color(each) for each in materials}
@@ -25,7 +43,26 @@ def read_materials(robot: XmlElement) -> dict[str, Color]:
 def read_shapes(
     link: XmlElement, tag: str, where: str, materials: Mapping[str, Color]
 ) -> tuple[Shape, ...]:
-    """Return what a link has of `visual` or `collision`, or raise UrdfError."""
+    """
+    Parse the `<visual>` or `<collision>` elements of a link.
+
+    Parameters
+    ----------
+    link
+        The `<link>` element.
+    tag
+        'visual' or 'collision'.
+    where
+        What the link is, for error messages: "link 'pelvis'".
+    materials
+        The colours of `read_materials`.
+
+    Raises
+    ------
+    UrdfError
+        A geometry or colour is missing or invalid.
+
+    """
     return tuple(_shape(each, f'<{tag}> of {where}', materials) for each in link.find_all(tag))
 
 

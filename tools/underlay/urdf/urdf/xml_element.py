@@ -21,16 +21,55 @@ class XmlElement:
     children: list[XmlElement] = field(default_factory=list)
 
     def find(self, tag: str) -> XmlElement | None:
-        """Return the first child of a kind."""
+        """
+        Find the first child element of a kind.
+
+        Parameters
+        ----------
+        tag
+            The kind.
+
+        Returns
+        -------
+        XmlElement or None
+            None if there is none.
+
+        """
         return next((child for child in self.children if child.tag == tag), None)
 
     def find_all(self, tag: str) -> list[XmlElement]:
-        """Return the children of a kind; not what is deeper inside."""
+        """
+        List the child elements of a kind, without those deeper inside.
+
+        Parameters
+        ----------
+        tag
+            The kind.
+
+        """
         return [child for child in self.children if child.tag == tag]
 
 
 def parse_xml(text: str) -> XmlElement:
-    """Return the outermost element of a text, or raise UrdfError."""
+    """
+    Parse XML to elements that know their lines.
+
+    Parameters
+    ----------
+    text
+        The document.
+
+    Returns
+    -------
+    XmlElement
+        The root element.
+
+    Raises
+    ------
+    UrdfError
+        The text is not valid XML.
+
+    """
     parser = expat.ParserCreate(encoding='utf-8')
     document = XmlElement('', {}, 0)
     open_elements = [document]

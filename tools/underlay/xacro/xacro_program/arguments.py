@@ -7,10 +7,17 @@ from collections.abc import Mapping
 
 
 class WatchedArguments(dict[str, str]):
-    """The arguments of a file; they note which names it declares or uses."""
+    """
+    The arguments of a file; they note which names it declares or uses.
+
+    Parameters
+    ----------
+    given
+        Those of the command line, by their names.
+
+    """
 
     def __init__(self, given: Mapping[str, str]) -> None:
-        """Create them from what is given on the command line."""
         super().__init__(given)
         self._given = list(given)
         self._asked: set[str] = set()

@@ -17,7 +17,17 @@ _NAMESPACE = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 
 
 def explain(error: BaseException, trail: Trail) -> str:
-    """Return the cause of an error, and a suggestion if there is one."""
+    """
+    Explain the cause of an error, with a suggestion if there is one.
+
+    Parameters
+    ----------
+    error
+        What xacro raised.
+    trail
+        What xacro was doing at that time.
+
+    """
     root = root_of(error)
     for kind, explanation in _BY_TYPE.items():
         if type(root).__name__ == kind:

@@ -17,7 +17,25 @@ _TRACEBACKS = 2
 
 
 def main(argv: Optional[list[str]] = None) -> int:
-    """Expand a file; return 0, 1 for an error in the files, 2 for one in the command line."""
+    """
+    Expand a xacro file from the command line.
+
+    Parameters
+    ----------
+    argv
+        The arguments without the program; None takes those of the process.
+
+    Returns
+    -------
+    int
+        The exit code: 0, 1 for an error in the files or in writing, 2 for one in an argument.
+
+    Raises
+    ------
+    SystemExit
+        There is not exactly one file, or an option is unknown.
+
+    """
     try:
         options, path = process_args(sys.argv[1:] if argv is None else argv)
     except RuntimeError as error:

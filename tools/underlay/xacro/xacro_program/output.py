@@ -9,7 +9,22 @@ from typing import Optional
 
 
 def write_output(text: str, path: Optional[str]) -> None:
-    """Write to a file, whose folder is made if need be, or to the standard output."""
+    """
+    Write the result to a file, atomically, or to the standard output.
+
+    Parameters
+    ----------
+    text
+        The result.
+    path
+        The file, whose folder is created if need be; None is the standard output.
+
+    Raises
+    ------
+    OSError
+        It cannot be written.
+
+    """
     if path is None:
         sys.stdout.write(text)
         sys.stdout.flush()

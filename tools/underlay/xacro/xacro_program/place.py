@@ -22,7 +22,17 @@ class Place(NamedTuple):
         return f'{self.file}:{self.line}'
 
     def of(self, code: str, in_tag: bool) -> Place:
-        """Return where a piece of the element's text stands, or this if it is not found."""
+        """
+        Return the place of a piece of code in the element, or this place if it is not found.
+
+        Parameters
+        ----------
+        code
+            The code, with `${...}` or `$(...)` around it.
+        in_tag
+            Whether it stands in the tag of the element, as attributes do, and not below it.
+
+        """
         with open(self.file, 'rb') as source:
             source.seek(self.byte)
             text = source.read().decode('utf-8', 'replace')
@@ -54,12 +64,30 @@ _TO_CLONES = _ToClones()
 
 
 def put_place(element: Any, place: Place) -> None:
-    """Note the place of an element in itself."""
+    """
+    Store the place of an element in the element itself; clones get it, too.
+
+    Parameters
+    ----------
+    element
+        The DOM element.
+    place
+        Where it begins in its file.
+
+    """
     element.setUserData(KEY, place, _TO_CLONES)
 
 
 def place_of(node: Any) -> Optional[Place]:
-    """Return the place of an element, or of the closest element around a node."""
+    """
+    Return the place of the closest element that has one, from a node upwards; None without any.
+
+    Parameters
+    ----------
+    node
+        A DOM node, or None.
+
+    """
     while node is not None and node.nodeType != Node.DOCUMENT_NODE:
         place: Optional[Place] = node.getUserData(KEY)
         if place is not None:

@@ -50,7 +50,22 @@ class _PlacedBuilder(expatbuilder.ExpatBuilderNS):
 
 
 def parse_placed(path: str) -> Any:
-    """Return the document in a file."""
+    """
+    Parse an XML file into a DOM document whose elements know their places.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    Raises
+    ------
+    BrokenXmlError
+        The file is not well-formed.
+    OSError
+        It cannot be read.
+
+    """
     builder = _PlacedBuilder(path)
     with open(path, 'rb') as file:
         try:

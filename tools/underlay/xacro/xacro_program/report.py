@@ -8,7 +8,17 @@ from xacro_program.trail import Trail
 
 
 def report(error: BaseException, path: str) -> str:
-    """Return the lines about an error in the expansion of a file."""
+    """
+    Format an error in the expansion of a file: where it is, its cause, and how xacro came there.
+
+    Parameters
+    ----------
+    error
+        What xacro raised.
+    path
+        The file that is expanded, for an error without a place.
+
+    """
     trail = Trail(error)
     place = trail.exact_place()
     where = f'{place.file}:{place.line}:{place.column}' if place else path

@@ -25,10 +25,31 @@ class Step(NamedTuple):
 
 
 class Trail:
-    """The way of xacro to the place of an error."""
+    """
+    The path of xacro to the place of an error.
+
+    Parameters
+    ----------
+    error
+        What xacro raised; the frames of it, and of the errors that it was raised for, are
+        followed.
+
+    Attributes
+    ----------
+    place
+        The element or attribute that was being expanded last, None if it is not known.
+    code
+        The expression that failed, such as `${x}`; empty if it is none.
+    in_tag
+        Whether that stands in the tag of the element, not below it.
+    symbols, macros
+        The tables of names at that place.
+    macro
+        The macro that was being called last, None if there is none.
+
+    """
 
     def __init__(self, error: BaseException) -> None:
-        """Follow the frames of an error, and of those that it was raised for."""
         self.place: Optional[Place] = None
         self.code = ''
         self.in_tag = True
@@ -96,7 +117,15 @@ class Trail:
 
 
 def root_of(error: BaseException) -> BaseException:
-    """Return the error that xacro has wrapped, perhaps several times."""
+    """
+    Return the error that xacro has wrapped, perhaps several times.
+
+    Parameters
+    ----------
+    error
+        What xacro raised.
+
+    """
     while isinstance(error, xacro.XacroException) and error.exc is not None:
         error = error.exc
     return error

@@ -22,10 +22,28 @@ WIDEST = 1e4
 
 
 class Board:
-    """The sliders of all joints that follow no other, by limb, and what is done to all at once."""
+    """
+    The sliders of all joints that follow no other one, by limb.
+
+    Parameters
+    ----------
+    model
+        The robot.
+    joints
+        Its joint states, which the sliders set and follow.
+
+    Attributes
+    ----------
+    robot
+        The name of the robot.
+    limbs
+        The groups of joints.
+    sliders
+        The sliders by the names of their joints, in the order of the URDF.
+
+    """
 
     def __init__(self, model: RobotModel, joints: MergedJoints) -> None:
-        """Make the sliders of a robot."""
         self.robot = model.name
         self.limbs: list[Limb] = limbs(model, joints.free)
         self._moving = {joint.name for joint in model.moving_joints}
@@ -41,7 +59,20 @@ class Board:
         }
 
     def found(self, text: str) -> list[Limb]:
-        """Return the limbs with those joints only that have all words of a text in the name."""
+        """
+        Search for joints by words.
+
+        Parameters
+        ----------
+        text
+            Words, all of which must be part of the name of a joint or the title of its limb.
+
+        Returns
+        -------
+        list of Limb
+            The limbs with the joints that match; all for an empty text.
+
+        """
         words = text.lower().split()
         found = []
         for limb in self.limbs:
@@ -65,7 +96,15 @@ class Board:
             slider.move(0.0)
 
     def randomise(self, random: Random) -> None:
-        """Move all joints to anywhere within their limits."""
+        """
+        Move each joint to a random position within its limits.
+
+        Parameters
+        ----------
+        random
+            The source of random numbers.
+
+        """
         for slider in self.sliders.values():
             slider.move(random.uniform(slider.scale.lower, slider.scale.upper))
 
@@ -74,7 +113,20 @@ class Board:
         return {name: slider.position for name, slider in self.sliders.items()}
 
     def apply(self, pose: Pose) -> list[str]:
-        """Move the joints that a pose names; return a sentence for each that it does not move."""
+        """
+        Move joints to a saved pose, as far as their limits allow.
+
+        Parameters
+        ----------
+        pose
+            Positions by joint, in rad or m.
+
+        Returns
+        -------
+        list of str
+            A message for each joint that has no slider or stops at a limit.
+
+        """
         return list(self._apply(pose))
 
     def _apply(self, pose: Mapping[str, float]) -> Iterator[str]:

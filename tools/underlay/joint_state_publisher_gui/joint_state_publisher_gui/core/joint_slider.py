@@ -17,10 +17,21 @@ class JointSlider:
 
     The slider that a person moves shows already what it is to show. So `news` is only what others
     have changed, and nothing that the person does comes back to be done again.
+
+    Parameters
+    ----------
+    name
+        The joint.
+    joint
+        Its state, which is set.
+    scale
+        The limits, and how positions are rounded.
+    default
+        The position that is shown as long as none is known, in rad or m.
+
     """
 
     def __init__(self, name: str, joint: FreeJoint, scale: Scale, default: float) -> None:
-        """Show the position of the joint, or the one by default as long as it is not known."""
         self.name = name
         self.scale = scale
         self.default = default
@@ -38,13 +49,29 @@ class JointSlider:
         return self.scale.shown(self.position)
 
     def give(self, shown: float) -> None:
-        """Move the joint to where a person has moved the slider."""
+        """
+        Move the joint to where a person has dragged the slider.
+
+        Parameters
+        ----------
+        shown
+            The value of the slider, in rad or m; one that is not finite is ignored.
+
+        """
         if isfinite(shown):
             self._joint.position = self.scale.meant(shown)
             self._seen = shown
 
     def move(self, position: float) -> None:
-        """Move the joint, as far as its limits allow."""
+        """
+        Move the joint to a position, clamped to its limits.
+
+        Parameters
+        ----------
+        position
+            The position in rad or m.
+
+        """
         self._joint.position = self.scale.within(position)
 
     def news(self) -> float | None:

@@ -32,7 +32,20 @@ class Limb:
     joints: tuple[str, ...]
 
     def label(self, name: str) -> str:
-        """Return the name of a joint, as it stands below the title."""
+        """
+        Shorten the name of a joint for a slider below the title of the limb.
+
+        Parameters
+        ----------
+        name
+            The joint.
+
+        Returns
+        -------
+        str
+            The name without the side with which it begins.
+
+        """
         return short_name(name, self.side)
 
 
@@ -52,10 +65,23 @@ class _Group:
 
 def limbs(model: RobotModel, names: Container[str]) -> list[Limb]:
     """
-    Return groups of those joints that are named.
+    Group joints by limb.
 
     The words of a name tell the side and the kind of limb; what it does not tell is as for the
     joint before it on the same branch.
+
+    Parameters
+    ----------
+    model
+        The robot.
+    names
+        The joints that are grouped; others are left out.
+
+    Returns
+    -------
+    list of Limb
+        Groups and their joints in the order of the URDF.
+
     """
     members: dict[_Group, list[str]] = {}
     groups = _groups(model)

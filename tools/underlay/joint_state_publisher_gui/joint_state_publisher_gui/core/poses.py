@@ -26,15 +26,32 @@ class PoseError(ValueError):
 
 
 def pose_file(robot: str, folder: Path) -> Path:
-    """Return the file for the poses of a robot, whose name may have any characters."""
+    """
+    Build the path of the file for the poses of a robot.
+
+    Parameters
+    ----------
+    robot
+        The name of the robot, with any characters.
+    folder
+        The folder for the files of all robots.
+
+    """
     return folder / f'{quote(robot, safe=" ()")}.yaml'
 
 
 class Poses:
-    """Poses by name in a file, which is read each time, as others may write it too."""
+    """
+    Named poses in a file, which is read each time, as others may write it too.
+
+    Parameters
+    ----------
+    file
+        The YAML file, which need not exist.
+
+    """
 
     def __init__(self, file: Path) -> None:
-        """Use a file, which need not be there."""
         self.file = file
 
     def read(self) -> dict[str, Pose]:
@@ -52,7 +69,27 @@ class Poses:
         return self._poses({} if content is None else content)
 
     def save(self, name: str, pose: Pose) -> str:
-        """Keep a pose; return its name without spaces around it."""
+        """
+        Save a pose, in place of one with the same name.
+
+        Parameters
+        ----------
+        name
+            Its name; spaces around it are removed.
+        pose
+            Positions by joint, in rad or m.
+
+        Returns
+        -------
+        str
+            The name without spaces around it.
+
+        Raises
+        ------
+        PoseError
+            The name is empty, too long or not printable, or the file cannot be read or written.
+
+        """
         name = name.strip()
         if not name:
             raise PoseError('The pose is not saved: give it a name first.')
@@ -65,7 +102,25 @@ class Poses:
         return name
 
     def delete(self, name: str) -> bool:
-        """Keep a pose no longer; tell if it was there."""
+        """
+        Delete a pose.
+
+        Parameters
+        ----------
+        name
+            Its name.
+
+        Returns
+        -------
+        bool
+            Whether there was one.
+
+        Raises
+        ------
+        PoseError
+            The file cannot be read or written.
+
+        """
         poses = self.read()
         if name not in poses:
             return False

@@ -51,23 +51,55 @@ class Scale:
         return ceil(first - 1e-6) / factor, floor(last + 1e-6) / factor
 
     def within(self, position: float) -> float:
-        """Return a position, or the limit if it is beyond."""
+        """
+        Clamp a position to the limits.
+
+        Parameters
+        ----------
+        position
+            The position in rad or m.
+
+        """
         return min(max(position, self.lower), self.upper)
 
     def shown(self, position: float) -> float:
-        """Return where the slider is for a position."""
+        """
+        Convert a position to the value of the slider, rounded and clamped to its ends.
+
+        Parameters
+        ----------
+        position
+            The position in rad or m.
+
+        """
         first, last = self.ends
         return min(max(round(position, self.decimals), first), last)
 
     def meant(self, shown: float) -> float:
-        """Return which position a person means who moves the slider to somewhere."""
+        """
+        Convert the value of the slider to the position that a person means: at an end, the limit.
+
+        Parameters
+        ----------
+        shown
+            The value of the slider, in rad or m.
+
+        """
         first, last = self.ends
         if shown <= first:
             return self.lower
         return self.upper if shown >= last else shown
 
     def in_words(self, position: float) -> str:
-        """Return a position in whole degrees or millimetres."""
+        """
+        Format a position in whole degrees or millimetres.
+
+        Parameters
+        ----------
+        position
+            The position in rad or m.
+
+        """
         number = degrees(position) if self.is_angle else position * 1000.0
         return f'{round(number)}°' if self.is_angle else f'{round(number)}\u00a0mm'
 

@@ -29,7 +29,15 @@ SIDELESS = ('head', 'torso', 'wheels')
 
 
 def words_of(name: str) -> list[str]:
-    """Return the words of a name such as `left_knee2` or `LHipYaw`, in small letters."""
+    """
+    Split the name of a joint, such as `left_knee2` or `LHipYaw`, into words in lower case.
+
+    Parameters
+    ----------
+    name
+        The name; digits in it are dropped.
+
+    """
     words = re.findall(
         r'[A-Z]+(?![a-z])|[A-Z]?[a-z]+', re.sub(r'([A-Z])([A-Z][a-z])', r'\1_\2', name)
     )
@@ -37,7 +45,20 @@ def words_of(name: str) -> list[str]:
 
 
 def kind_of(words: Sequence[str]) -> str | None:
-    """Return the kind of limb that words mean, or None."""
+    """
+    Find the kind of limb that words mean.
+
+    Parameters
+    ----------
+    words
+        The words of a joint's name, in lower case.
+
+    Returns
+    -------
+    str or None
+        A key of `KINDS`, the first one with a matching word; None if there is none.
+
+    """
     for kind, known in KINDS.items():
         if any(word.removesuffix('s') in known.split() for word in words):
             return kind
@@ -45,7 +66,22 @@ def kind_of(words: Sequence[str]) -> str | None:
 
 
 def side_of(words: Sequence[str], kind: str | None) -> str | None:
-    """Return the side, or the corner of a robot with four legs, that words mean; or None."""
+    """
+    Find the side, or the corner of a robot with four legs, that words mean.
+
+    Parameters
+    ----------
+    words
+        The words of a joint's name, in lower case.
+    kind
+        The kind of limb; one in `SIDELESS` has no side.
+
+    Returns
+    -------
+    str or None
+        Such as 'left' or 'front right'; None if no word means a side.
+
+    """
     if kind in SIDELESS:
         return None
     for place, word in enumerate(words):
@@ -58,7 +94,17 @@ def side_of(words: Sequence[str], kind: str | None) -> str | None:
 
 
 def short_name(name: str, side: str | None) -> str:
-    """Return a name without the side with which it begins, as the title of its group has it."""
+    """
+    Strip the side from the beginning of a joint's name.
+
+    Parameters
+    ----------
+    name
+        The name, such as `left_knee`.
+    side
+        The side in the title of its group; a name that begins with another one stays as it is.
+
+    """
     first, _, rest = name.partition('_')
     is_side = side is not None and side_of([first.lower()], None) == side
     return rest if is_side and rest else name

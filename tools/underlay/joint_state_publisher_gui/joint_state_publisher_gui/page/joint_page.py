@@ -30,10 +30,26 @@ class JointPage:
     The widgets of the page; all is done in the thread of the node.
 
     What is set in one frame reaches browsers together.
+
+    Parameters
+    ----------
+    server
+        The viser server of the page.
+    queue
+        Takes the callbacks of widgets to the thread of the node.
+    poses_folder
+        The folder of the files with saved poses.
+
+    Attributes
+    ----------
+    poses, sliders
+        The saved poses and the sliders; None as long as no robot is shown.
+    notice, warnings
+        The status line, and the warnings below it.
+
     """
 
     def __init__(self, server: ViserServer, queue: WorkQueue, poses_folder: Path) -> None:
-        """Show that no robot is known yet."""
         self._server = server
         self._queue = queue
         self._poses_folder = poses_folder
@@ -48,7 +64,15 @@ class JointPage:
         self._warned_frames = 0
 
     def show(self, board: Board) -> None:
-        """Show the sliders of a robot instead of those that were there."""
+        """
+        Show the sliders of a robot, in place of those of an earlier one.
+
+        Parameters
+        ----------
+        board
+            The sliders.
+
+        """
         gui = self._server.gui
         with self._server.atomic():
             if self._folder is not None:
@@ -64,7 +88,15 @@ class JointPage:
             self.sliders = SliderRows(self._server, post, self._folder, board)
 
     def warn(self, *sentences: str) -> None:
-        """Say what others do wrong; for some time, as it may be over then."""
+        """
+        Show warnings for the next 100 refreshes, since their cause may be gone after that.
+
+        Parameters
+        ----------
+        *sentences
+            The warnings, which replace earlier ones.
+
+        """
         self.warnings.say(*sentences)
         self._warned_frames = WARNED_FRAMES
 

@@ -17,10 +17,17 @@ STYLE = 'padding:0.1em 0.8em 0.6em; font-size:0.85em; line-height:1.35; overflow
 
 
 class Notice:
-    """A place of the page for sentences, whose names may come from anywhere."""
+    """
+    A place in the page for messages, which may contain names from anywhere.
+
+    Parameters
+    ----------
+    gui
+        Where the widget is added, at the current place; the message is empty at first.
+
+    """
 
     def __init__(self, gui: GuiApi) -> None:
-        """Say nothing yet."""
         self._html = gui.add_html('')
 
     @property
@@ -29,7 +36,16 @@ class Notice:
         return str(self._html.content)
 
     def say(self, *sentences: str) -> None:
-        """Say something instead of what was said before."""
+        """
+        Show messages in place of earlier ones, escaped for HTML.
+
+        Parameters
+        ----------
+        *sentences
+            The messages, one a line; at most 6 are shown, cut at 400 characters. None clears the
+            place.
+
+        """
         lines = [line[:LONGEST_LINE] for line in sentences]
         if len(lines) > MOST_LINES:
             lines[MOST_LINES:] = [f'And {len(lines) - MOST_LINES} more like this.']

@@ -20,12 +20,27 @@ NONE = '(none is saved)'
 
 
 class PoseFolder:
-    """Saves poses by name, and loads and deletes them."""
+    """
+    The widgets that save, load and delete poses.
+
+    Parameters
+    ----------
+    gui
+        Where the folder is added, at the current place.
+    post
+        Runs the callbacks of widgets in the thread of the node.
+    board
+        The sliders that a pose is taken from and applied to.
+    poses
+        The file of the poses.
+    notice
+        Where results and errors are shown.
+
+    """
 
     def __init__(
         self, gui: GuiApi, post: Post, board: Board, poses: Poses, notice: Notice
     ) -> None:
-        """Add the widgets, with the poses of the file."""
         self._board = board
         self._poses = poses
         self._notice = notice

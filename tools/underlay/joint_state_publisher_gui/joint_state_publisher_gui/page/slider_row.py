@@ -21,10 +21,28 @@ SETTLED = 5
 
 
 class SliderRow:
-    """The slider of a joint with its value, its limits and, in the label, the other unit."""
+    """
+    The slider of a joint with its value, its limits and, in the label, the other unit.
+
+    Parameters
+    ----------
+    gui
+        Where the slider is added, at the current place.
+    post
+        Runs the callbacks of the slider in the thread of the node.
+    slider
+        What it shows and moves.
+    label
+        The name of the joint, as it is shown.
+
+    Attributes
+    ----------
+    handle
+        The handle of the slider in viser.
+
+    """
 
     def __init__(self, gui: GuiApi, post: Post, slider: JointSlider, label: str) -> None:
-        """Add the slider."""
         self.slider = slider
         self._label = label
         self._quiet = 0

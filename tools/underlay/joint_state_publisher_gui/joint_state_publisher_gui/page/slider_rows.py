@@ -22,12 +22,25 @@ OPEN_ROWS = 12
 
 
 class SliderRows:
-    """Groups of sliders, of which a search shows some."""
+    """
+    Groups of sliders, and a field that searches for joints.
+
+    Parameters
+    ----------
+    server
+        The viser server of the page.
+    post
+        Runs the callbacks of widgets in the thread of the node.
+    parent
+        The folder in which the field and the sliders are added.
+    board
+        The sliders of the robot.
+
+    """
 
     def __init__(
         self, server: ViserServer, post: Post, parent: GuiFolderHandle, board: Board
     ) -> None:
-        """Add the field for the search and all sliders at the end of a folder."""
         self._server = server
         self._post = post
         self._parent = parent

@@ -28,14 +28,21 @@ class Recorder(VisitObserver):
     """Makes a record of each action; what is no action belongs to the one around it."""
 
     def __init__(self) -> None:
-        """Begin with an empty tree."""
         self.root = Record('launch')
         self._open = [self.root]
         self._environment = dict(os.environ)
         self._expanded: Optional[str] = None
 
     def enter(self, entity: LaunchDescriptionEntity) -> None:
-        """Begin the record of an action."""
+        """
+        Open the record of an entity that is about to be visited.
+
+        Parameters
+        ----------
+        entity
+            The entity; one that is no action shares the record of the action around it.
+
+        """
         record = self._open[-1]
         if isinstance(entity, Action):
             record = Record(type(entity).__name__, entity.call_site)
@@ -44,30 +51,87 @@ class Recorder(VisitObserver):
         self._open.append(record)
 
     def leave(self, entity: LaunchDescriptionEntity) -> None:
-        """End it."""
+        """
+        Close the record of the entity that was entered last.
+
+        Parameters
+        ----------
+        entity
+            The entity, which is not used.
+
+        """
         self._open.pop()
 
     def expanded(self, text: str) -> None:
-        """Keep what the expression of the next condition expanded to."""
+        """
+        Keep what an expression became for the record of its condition.
+
+        Parameters
+        ----------
+        text
+            The expanded text.
+
+        """
         self._expanded = text
 
     def decided(self, entity: Any, value: bool) -> None:
-        """Note the condition of the action that is being visited."""
+        """
+        Record the condition of the action that is being visited.
+
+        Parameters
+        ----------
+        entity
+            The action, which has a condition.
+        value
+            Whether the condition is fulfilled.
+
+        """
         expression = entity.condition.describe()
         self._open[-1].condition = ConditionRecord(expression, self._expanded, value)
         self._expanded = None
 
     def note(self, **facts: Any) -> None:
-        """Note facts about the action that is being visited."""
+        """
+        Record facts about the action that is being visited.
+
+        Parameters
+        ----------
+        **facts
+            The facts by their keys in `launch._rehearsal.record`.
+
+        """
         self._open[-1].facts.update(facts)
 
     def note_waiting(self, event: str, entities: Iterable[LaunchDescriptionEntity]) -> None:
-        """Note what the action leaves waiting for an event."""
+        """
+        Record what the action that is being visited leaves waiting for an event.
+
+        Parameters
+        ----------
+        event
+            The event in words.
+        entities
+            What is visited when it comes; only actions are recorded.
+
+        """
         records = [_outline(each) for each in entities if isinstance(each, Action)]
         self._open[-1].waiting.append((event, records))
 
     def environment_changes(self, environment: dict[str, str]) -> dict[str, Optional[str]]:
-        """Return the variables that a process has otherwise; None are those that it lacks."""
+        """
+        Compare the environment of a process with that at the start of the rehearsal.
+
+        Parameters
+        ----------
+        environment
+            The variables of the process.
+
+        Returns
+        -------
+        dict
+            The variables that differ, sorted by name; None for those that the process lacks.
+
+        """
         before = self._environment
         changes: dict[str, Optional[str]] = {
             name: value for name, value in environment.items() if before.get(name) != value

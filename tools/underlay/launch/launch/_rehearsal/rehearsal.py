@@ -19,10 +19,21 @@ if TYPE_CHECKING:
 
 def rehearse(service: LaunchService) -> tuple[Record, int]:
     """
-    Return the tree of what a service visits at once, and the status that it would end with.
+    Visit the launch description of a service without starting anything.
 
-    The tasks of processes are made, but the loop never runs them: they are cancelled. Nothing is
+    The tasks of processes are made, but the loop never runs them: they are canceled. Nothing is
     written to log files.
+
+    Parameters
+    ----------
+    service
+        The service; the first description that was included in it is visited.
+
+    Returns
+    -------
+    tuple
+        The root of the tree of records, and the status that the launch would end with.
+
     """
     from launch.launch_service import cancel_all_tasks
 

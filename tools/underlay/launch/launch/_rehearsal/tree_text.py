@@ -25,7 +25,20 @@ _IN_THE_HEAD = (
 
 
 def tree_lines(record: Record) -> Iterator[str]:
-    """Yield the lines about all that lies in a record."""
+    """
+    Format the records of a rehearsal as lines of text.
+
+    Parameters
+    ----------
+    record
+        The record whose children are formatted, at any depth.
+
+    Returns
+    -------
+    iterator of str
+        The lines, wrapped at 80 columns where words allow it.
+
+    """
     return chain.from_iterable(_lines(each, '') for each in record.children)
 
 

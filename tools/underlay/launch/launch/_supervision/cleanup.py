@@ -20,7 +20,17 @@ _LOOK_EVERY_S = 0.05
 
 
 def main(launch_id: str, mark: str, start_ticks: str) -> None:
-    """Send one signal after the other until nothing is left; then remove the files."""
+    """
+    End what is left of a launch, with one signal after the other, and remove its files.
+
+    Process groups and files are read from the standard input.
+
+    Parameters
+    ----------
+    launch_id, mark, start_ticks
+        As for `Family`; the numbers as decimal texts.
+
+    """
     groups, *files = sys.stdin.read().splitlines()
     family = Family(launch_id, int(mark), int(start_ticks), map(int, groups.split()))
     try:

@@ -10,7 +10,28 @@ import signal
 
 
 class Escalation:
-    """Sends SIGINT, some time later SIGTERM, and at last SIGKILL."""
+    """
+    Ends a process: sends SIGINT, some time later SIGTERM, and at last SIGKILL.
+
+    Parameters
+    ----------
+    label
+        The label of the process, for the log.
+    logger
+        The logger that says what is sent.
+    send
+        Sends a signal to the process.
+    sigterm_timeout
+        The seconds from SIGINT to SIGTERM, as a text.
+    sigkill_timeout
+        The seconds from then to SIGKILL, as a text.
+
+    Raises
+    ------
+    ValueError
+        A timeout is not a number.
+
+    """
 
     def __init__(
         self,
@@ -21,7 +42,6 @@ class Escalation:
         sigterm_timeout: str,
         sigkill_timeout: str,
     ) -> None:
-        """Create the escalation of a process; the timeouts are texts of seconds."""
         self._label = label
         self._logger = logger
         self._send = send
@@ -31,7 +51,15 @@ class Escalation:
         self._timers: list[asyncio.TimerHandle] = []
 
     def begin(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Send SIGINT now and plan the rest."""
+        """
+        Send SIGINT now and schedule the other signals.
+
+        Parameters
+        ----------
+        loop
+            The event loop that runs the timers.
+
+        """
         self.send_logged(signal.SIGINT)
         self._timers = [
             loop.call_later(
@@ -48,7 +76,15 @@ class Escalation:
             timer.cancel()
 
     def send_logged(self, number: signal.Signals) -> None:
-        """Send a signal and say so."""
+        """
+        Send a signal and log it.
+
+        Parameters
+        ----------
+        number
+            The signal.
+
+        """
         self._logger.info("sending signal '%s' to process[%s]", number.name, self._label)
         self._send(number)
 

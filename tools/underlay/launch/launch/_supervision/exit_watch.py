@@ -15,7 +15,22 @@ def watch_exit(
     child: Child,
     loop: asyncio.AbstractEventLoop,
 ) -> asyncio.Future[int]:
-    """Return a future of the return code of a child process; to cancel it ends the watch."""
+    """
+    Watch for the end of a child process, and reap it.
+
+    Parameters
+    ----------
+    child
+        The process.
+    loop
+        The event loop of the future.
+
+    Returns
+    -------
+    Future of int
+        The exit status, negative for a signal; canceling it ends the watch.
+
+    """
     future: asyncio.Future[int] = loop.create_future()
     try:
         descriptor = os.pidfd_open(child.pid)

@@ -39,19 +39,26 @@ _runs = count()
 
 
 class Family:
-    """The processes of one run of a launch."""
+    """
+    The processes of one run of a launch, here or in another process.
+
+    Parameters
+    ----------
+    launch_id
+        Names the run in the variable `ROS_LAUNCH_ID`.
+    mark
+        The soft limit RLIMIT_LOCKS that its processes have; 0 if they have the variable only.
+    start_ticks
+        When the process of the run was started, in clock ticks since the system was; no member is
+        older.
+    sessions
+        All that is in these sessions belongs to the family as well.
+
+    """
 
     def __init__(
         self, launch_id: str, mark: int, start_ticks: int, sessions: Iterable[int] = ()
     ) -> None:
-        """
-        Create the family of a run, here or in another process.
-
-        :param launch_id: names the run in the variable
-        :param mark: the limit that its processes have; 0 if they have the variable only
-        :param start_ticks: when the process of the run was started; no member is older
-        :param sessions: all that is in these sessions belongs to the family as well
-        """
         self.id = launch_id
         self.mark = mark
         self.start_ticks = start_ticks
@@ -70,9 +77,20 @@ class Family:
 
     def environment(self, environment: Mapping[str, str]) -> dict[str, str]:
         """
-        Return the environment with which a process of this launch is started.
+        Mark the environment with which a process of this launch is started.
 
-        What a launch that may outlive the one around it has started does not outlive it for that.
+        A launch that may outlive the one around it does not hand this permission down.
+
+        Parameters
+        ----------
+        environment
+            The variables of the process.
+
+        Returns
+        -------
+        dict
+            A copy, with the variable `ROS_LAUNCH_ID` if the mark is not a resource limit.
+
         """
         marked = dict(environment)
         if not self.mark:
@@ -88,7 +106,15 @@ class Family:
             yield
 
     def detaches(self, environment: Mapping[str, str]) -> bool:
-        """Return whether a process with this environment is to outlive the launch."""
+        """
+        Whether a process with this environment is to outlive the launch.
+
+        Parameters
+        ----------
+        environment
+            Its variables; `ROS_LAUNCH_DETACHED` counts if this launch has not inherited its value.
+
+        """
         value = environment.get(DETACHED_VARIABLE)
         return bool(value) and value != self._detached
 
@@ -109,7 +135,20 @@ class Family:
         return []
 
     def descendants(self, pid: int) -> list[Member]:
-        """Return those whose parents, grandparents and so on lead to a process."""
+        """
+        List the members that descend from a process.
+
+        Parameters
+        ----------
+        pid
+            The id of the process.
+
+        Returns
+        -------
+        list of Member
+            Those whose parents, grandparents and so on lead to the process.
+
+        """
         members = self.members()
         ancestors = {pid}
         while True:
@@ -162,7 +201,20 @@ def unmarked() -> Iterator[None]:
 
 
 def detached_environment(environment: Mapping[str, str]) -> dict[str, str]:
-    """Return the environment of a process that may outlive all launches."""
+    """
+    Mark the environment of a process that may outlive all launches.
+
+    Parameters
+    ----------
+    environment
+        The variables of the process.
+
+    Returns
+    -------
+    dict
+        A copy, with the variable `ROS_LAUNCH_DETACHED` instead of `ROS_LAUNCH_ID`.
+
+    """
     return {
         **{name: value for name, value in environment.items() if name != ID_VARIABLE},
         DETACHED_VARIABLE: '1',

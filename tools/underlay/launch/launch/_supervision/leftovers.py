@@ -13,7 +13,17 @@ _LOOK_EVERY_S = 0.02
 
 
 async def end_leftovers(group: int, *, was_interrupted: bool) -> None:
-    """End the rest of a group whose leader has ended, first gently, then not."""
+    """
+    End the rest of a process group whose leader has ended, with SIGINT, SIGTERM and SIGKILL.
+
+    Parameters
+    ----------
+    group
+        The id of the group.
+    was_interrupted
+        Whether the group has got SIGINT already; it gets none again then.
+
+    """
     for number, patience_s in _STEPS:
         if is_empty(group):
             return

@@ -10,16 +10,38 @@ _PLACE = '{line}'
 
 
 class LineFormat:
-    """Formats lines, many of them at once if the format allows it."""
+    """
+    Format of the lines that a process writes, applied to many at once if it allows that.
+
+    Parameters
+    ----------
+    text
+        The brace-style format, with the fields `line` and `this`.
+    this
+        The action, which the field `this` stands for.
+
+    """
 
     def __init__(self, text: str, this: Any) -> None:
-        """Create the format from a brace-style text, in which `this` stands for the action."""
         self._text = text
         self._this = this
         self._frame = _frame_of(text, this)
 
     def apply(self, lines: Sequence[str]) -> str:
-        """Return the lines as they are logged, with line breaks between them."""
+        """
+        Format lines for the log.
+
+        Parameters
+        ----------
+        lines
+            The lines, without line breaks.
+
+        Returns
+        -------
+        str
+            The formatted lines, with line breaks between them.
+
+        """
         if self._frame is None:
             return '\n'.join(self._text.format(line=line, this=self._this) for line in lines)
         head, tail = self._frame

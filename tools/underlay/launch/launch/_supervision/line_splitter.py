@@ -11,12 +11,24 @@ class LineSplitter:
     """Collects bytes and returns the lines that are complete."""
 
     def __init__(self) -> None:
-        """Create an empty splitter."""
         self._pieces: list[bytes] = []
         self._size = 0
 
     def feed(self, data: bytes) -> list[str]:
-        """Return the lines that are complete with these bytes, or too long to wait for."""
+        """
+        Add bytes, and return the lines that are complete with them.
+
+        Parameters
+        ----------
+        data
+            The next bytes of the stream.
+
+        Returns
+        -------
+        list of str
+            The lines without line breaks; one that is longer than 1 MiB is cut.
+
+        """
         if b'\n' in data:
             lines, _, rest = b''.join([*self._pieces, data]).rpartition(b'\n')
             self._keep(rest)

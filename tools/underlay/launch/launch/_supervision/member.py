@@ -31,7 +31,15 @@ class Member:
     is_nested: bool = False
 
     def of_launch(self, *, nested: bool) -> Member:
-        """Return the same with what its marks say."""
+        """
+        Copy the member, with what its marks say about its launch.
+
+        Parameters
+        ----------
+        nested
+            Whether it belongs to a launch that this one has started.
+
+        """
         return replace(self, is_nested=nested)
 
     def __str__(self) -> str:
@@ -40,7 +48,20 @@ class Member:
 
 
 def look_at(pid: int) -> Optional[Member]:
-    """Return what the system tells about a process, None if it has ended."""
+    """
+    Read from /proc what the system tells about a process.
+
+    Parameters
+    ----------
+    pid
+        The id of the process.
+
+    Returns
+    -------
+    Member or None
+        The process, None if it has ended.
+
+    """
     try:
         with open(f'/proc/{pid}/stat', 'rb') as file:
             head, _, tail = file.read().rpartition(b')')
@@ -55,7 +76,20 @@ def look_at(pid: int) -> Optional[Member]:
 
 
 def variables_of(pid: int) -> dict[str, str]:
-    """Return those of the two variables that a process was started with."""
+    """
+    Read from /proc the variables of launch that a process was started with.
+
+    Parameters
+    ----------
+    pid
+        The id of the process.
+
+    Returns
+    -------
+    dict
+        The variables whose names begin with `ROS_LAUNCH_`; empty if they cannot be read.
+
+    """
     try:
         with open(f'/proc/{pid}/environ', 'rb') as file:
             items = file.read().split(b'\0')
@@ -66,7 +100,17 @@ def variables_of(pid: int) -> dict[str, str]:
 
 
 def send(member: Member, number: signal.Signals) -> None:
-    """Send a signal to a member, and never to another process that has its id by now."""
+    """
+    Send a signal to a member, and never to another process that has its id by now.
+
+    Parameters
+    ----------
+    member
+        The process; nothing is done if it has ended or is another user's.
+    number
+        The signal.
+
+    """
     try:
         descriptor = os.pidfd_open(member.pid)
     except ProcessLookupError:
@@ -90,6 +134,14 @@ def _send_quietly(function: object, target: int, number: signal.Signals) -> None
 
 
 def is_alive(member: Member) -> bool:
-    """Return whether a member has not ended yet."""
+    """
+    Whether a member has not ended yet.
+
+    Parameters
+    ----------
+    member
+        The process, which is known by its id and the time of its start.
+
+    """
     process = look_at(member.pid)
     return process is not None and process.start_ticks == member.start_ticks

@@ -58,10 +58,18 @@ class OrphanGuard:
     Watches over the processes and the files of a launch from outside.
 
     Even if the launch is killed, with no chance to do anything, they come to an end.
+
+    Parameters
+    ----------
+    family
+        The processes of the launch.
+    loop
+        The event loop that replaces guards that have ended; without one there is a single guard,
+        which nobody replaces.
+
     """
 
     def __init__(self, family: Family, loop: Optional[asyncio.AbstractEventLoop] = None) -> None:
-        """Create the guard of a family; without a loop, nobody replaces a process of it."""
         self._family = family
         self._loop = loop
         self._groups: set[int] = set()
@@ -84,17 +92,41 @@ class OrphanGuard:
         self._plan(1, _SECOND_AFTER_S)
 
     def add(self, group: int) -> None:
-        """Watch over a group, whatever may hide its processes."""
+        """
+        Watch over a process group, whatever may hide its processes.
+
+        Parameters
+        ----------
+        group
+            The id of the group, which is also that of its session.
+
+        """
         self._groups.add(group)
         self._tell(f'add {group}\n')
 
     def remove(self, group: int) -> None:
-        """Watch over a group no longer, as it has ended."""
+        """
+        Watch over a process group no longer, as it has ended.
+
+        Parameters
+        ----------
+        group
+            The id of the group.
+
+        """
         self._groups.discard(group)
         self._tell(f'end {group}\n')
 
     def add_file(self, path: str) -> None:
-        """See to it that a file goes too."""
+        """
+        Watch over a file, which is removed if the launch is killed.
+
+        Parameters
+        ----------
+        path
+            The absolute path of the file; nothing is done if it has a line break in it.
+
+        """
         if '\n' not in path:
             self.start()
             self._files.append(path)

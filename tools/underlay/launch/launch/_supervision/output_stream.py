@@ -15,9 +15,19 @@ _CHUNKS_AT_THE_END = 64
 
 class OutputStream:
     """
-    Hands what comes out of a pipe or a pseudo terminal to a function.
+    Reads a pipe or a pseudo terminal, and hands what comes out of it to a function.
 
     Nothing is read while the screen is congested, so that whoever writes has to wait.
+
+    Parameters
+    ----------
+    loop
+        The event loop that watches the descriptor.
+    descriptor
+        What is read from; the stream owns it from now on.
+    use
+        Called with each piece of the output.
+
     """
 
     def __init__(
@@ -26,7 +36,6 @@ class OutputStream:
         descriptor: int,
         use: Callable[[bytes], None],
     ) -> None:
-        """Start to read from a descriptor, which the stream owns from now on."""
         self._loop = loop
         self._descriptor = descriptor
         self._use = use

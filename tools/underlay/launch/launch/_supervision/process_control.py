@@ -21,16 +21,33 @@ _EVENTS = (ProcessTargetedEvent, ProcessStdin, Shutdown)
 
 
 class ProcessControl(BaseEventHandler):
-    """Hands the events that are meant for a process to its supervisor."""
+    """
+    Event handler that hands the events that are meant for a process to its supervisor.
+
+    Parameters
+    ----------
+    action
+        The action that runs the process, by which its events are told.
+    supervisor
+        The supervisor of the process.
+
+    """
 
     def __init__(self, action: ExecuteLocal, supervisor: Supervisor) -> None:
-        """Create the handler of one process."""
         super().__init__(matcher=self.matches)
         self._action = action
         self._supervisor = supervisor
 
     def matches(self, event: Event) -> bool:
-        """Return whether an event is meant for the process, or for all."""
+        """
+        Whether an event is meant for the process, or for all.
+
+        Parameters
+        ----------
+        event
+            The event that was emitted.
+
+        """
         if not isinstance(event, _EVENTS):  # most are not; each process is asked about each event
             return False
         if isinstance(event, ProcessTargetedEvent):
@@ -40,7 +57,17 @@ class ProcessControl(BaseEventHandler):
         return True
 
     def handle(self, event: Event, context: LaunchContext) -> None:
-        """End the process, send it a signal, or write to it."""
+        """
+        End the process, send it a signal, or write to it, as the event asks for.
+
+        Parameters
+        ----------
+        event
+            An event that `matches` accepts.
+        context
+            As for `BaseEventHandler.handle`.
+
+        """
         super().handle(event, context)
         if isinstance(event, SignalProcess):
             self._supervisor.send_signal(event.signal)

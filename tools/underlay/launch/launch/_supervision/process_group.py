@@ -15,8 +15,16 @@ def send_signal(pid: int, number: signal.Signals) -> None:
     """
     Send a signal to a process that leads its group.
 
-    Signals that end, stop or continue go to the whole group, because the process may be a
-    wrapper around what is meant; others would surprise whoever does not expect them.
+    Signals that end, stop or continue go to the whole group, because the process may be a wrapper
+    around what is meant; others would surprise whoever does not expect them.
+
+    Parameters
+    ----------
+    pid
+        The id of the process, which is also that of the group; nothing is done if it has ended.
+    number
+        The signal.
+
     """
     try:
         if number in _TO_THE_GROUP:
@@ -28,7 +36,15 @@ def send_signal(pid: int, number: signal.Signals) -> None:
 
 
 def is_empty(group: int) -> bool:
-    """Return whether no process of the group is left, apart from dead ones."""
+    """
+    Whether no process of a group is left, apart from dead ones.
+
+    Parameters
+    ----------
+    group
+        The id of the group.
+
+    """
     try:
         os.killpg(group, 0)
     except ProcessLookupError:
@@ -39,7 +55,15 @@ def is_empty(group: int) -> bool:
 
 
 def living_members(group: int) -> list[int]:
-    """Return the ids of the processes of a group that are not dead."""
+    """
+    List the ids of the processes of a group that are not dead.
+
+    Parameters
+    ----------
+    group
+        The id of the group.
+
+    """
     pids = [int(name) for name in os.listdir('/proc') if name.isdigit()]
     return [pid for pid in pids if _is_living_member(pid, group)]
 

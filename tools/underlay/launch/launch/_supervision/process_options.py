@@ -37,13 +37,25 @@ class ProcessOptions:
 
     def perform(self, context: LaunchContext, label: str) -> PerformedOptions:
         """
-        Perform all substitutions, in the scope that is open now.
+        Perform all substitutions in the options, in the scope that is open now.
 
-        To be called once, when the action is executed: the process may start, end and start
-        again when this scope has long been closed.
+        To be called once, when the action is executed: the process may start, end and start again
+        when this scope has long been closed.
 
-        :param label: the name of the process in errors
-        :raises ValueError: if an option becomes nothing that can be used
+        Parameters
+        ----------
+        context
+            The state of the launch; its configuration `emulate_tty` overrides the option.
+        label
+            The label of the process, for errors.
+
+        Raises
+        ------
+        ValueError
+            A timeout is not a number, or a switch is not a boolean.
+        InvalidConditionExpressionError
+            The launch configuration `emulate_tty` is not a boolean.
+
         """
         return PerformedOptions(
             shell=self.shell,
@@ -97,7 +109,15 @@ class PerformedOptions:
     respawn_max_retries: int
 
     def may_respawn(self, respawned: int) -> bool:
-        """Whether the process is to be started again after so many times."""
+        """
+        Whether the process is to be started again when it has ended.
+
+        Parameters
+        ----------
+        respawned
+            How many times it has been started again already.
+
+        """
         return self.respawn and (
             self.respawn_max_retries < 0 or respawned < self.respawn_max_retries
         )
@@ -121,10 +141,43 @@ def _timeout(
 
 
 def timeout_substitutions(keyword: str, value: Any) -> list[Substitution]:
-    """Return a timeout, which may be a plain number, as substitutions."""
+    """
+    Normalise a timeout to substitutions.
+
+    Parameters
+    ----------
+    keyword
+        The name of the argument, for the error.
+    value
+        A number of seconds, or anything that `text_like` takes.
+
+    Raises
+    ------
+    TypeError
+        The value is neither.
+
+    """
     return text_like(keyword, str(value) if isinstance(value, (int, float)) else value)
 
 
 def output_substitutions(value: Any) -> Any:
-    """Return an `output`, which may be a dictionary, as substitutions if it is a text."""
+    """
+    Normalise the option `output` of a process.
+
+    Parameters
+    ----------
+    value
+        A dictionary by stream, which is returned as it is, or anything that `text_like` takes.
+
+    Returns
+    -------
+    dict or list of Substitution
+        The dictionary, or what stands for the name of a preset.
+
+    Raises
+    ------
+    TypeError
+        The value is neither.
+
+    """
     return value if isinstance(value, dict) else text_like('output', value)

@@ -17,7 +17,26 @@ _LAST_LINES = 20
 
 
 class ProcessOutput:
-    """Logs the lines that a process writes, and keeps the text if that is wanted."""
+    """
+    Logs the lines that a process writes, and keeps the text if that is wanted.
+
+    Parameters
+    ----------
+    label
+        The label of the process, by which its loggers and log files are named.
+    config
+        Where the output goes, as for `normalize_output_config`.
+    line_format
+        How its lines look.
+    keep
+        Whether the text is kept for `kept`.
+
+    Raises
+    ------
+    ValueError
+        The configuration is not valid.
+
+    """
 
     def __init__(
         self,
@@ -27,7 +46,6 @@ class ProcessOutput:
         *,
         keep: bool,
     ) -> None:
-        """Create the output of a process from where it goes and how its lines look."""
         self._loggers = dict(zip(_STREAMS, get_output_loggers(label, config)))
         self._splitters = {stream: LineSplitter() for stream in _STREAMS}
         self._line_format = line_format
@@ -37,7 +55,17 @@ class ProcessOutput:
         self._is_seen = {stream: is_on_screen(self._loggers[stream]) for stream in _STREAMS}
 
     def feed(self, stream: int, data: bytes) -> None:
-        """Take bytes from a stream, 1 or 2."""
+        """
+        Take bytes from an output stream, and log the lines that are complete.
+
+        Parameters
+        ----------
+        stream
+            1 for the standard output, 2 for the standard error.
+        data
+            The next bytes of the stream.
+
+        """
         if self._keep:
             self._kept[stream].append(data)
         self._log(stream, self._splitters[stream].feed(data))
@@ -54,7 +82,15 @@ class ProcessOutput:
         self._unseen.clear()
 
     def kept(self, stream: int) -> str:
-        """Return all the text of a stream."""
+        """
+        Return all the text of an output stream; it is empty if nothing is kept.
+
+        Parameters
+        ----------
+        stream
+            1 for the standard output, 2 for the standard error.
+
+        """
         return b''.join(self._kept[stream]).decode('utf-8', 'replace')
 
     def _log(self, stream: int, lines: list[str]) -> None:

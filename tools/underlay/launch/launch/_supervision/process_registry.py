@@ -20,10 +20,24 @@ if TYPE_CHECKING:
 
 
 class ProcessRegistry:
-    """Knows the running processes and leaves none of them behind, nor what they have started."""
+    """
+    Knows the running processes and leaves none of them behind, nor what they have started.
+
+    Parameters
+    ----------
+    loop
+        The event loop of the launch.
+    forks
+        Whether Python programs may be forked from a template rather than executed.
+
+    Attributes
+    ----------
+    family
+        The processes of this run of the launch.
+
+    """
 
     def __init__(self, loop: asyncio.AbstractEventLoop, *, forks: bool = True) -> None:
-        """Create an empty registry; whether it `forks` Python programs is up to the user."""
         self.family = Family.of_new_run()
         self._processes: set[RunningProcess] = set()
         self._guard = OrphanGuard(self.family, loop)
@@ -36,7 +50,22 @@ class ProcessRegistry:
         self._is_finished = False
 
     async def spawn(self, program: Program, stdout: int, stderr: int) -> Child:
-        """Start a program; it is forked if that is faster and makes no difference to it."""
+        """
+        Start a program; it is forked if that is faster and makes no difference to it.
+
+        Parameters
+        ----------
+        program
+            What is started.
+        stdout, stderr
+            The descriptors that its output goes to.
+
+        Raises
+        ------
+        OSError
+            The program cannot be started.
+
+        """
         environment = os.environ if program.env is None else program.env
         if program.detached:
             environment = detached_environment(environment)
@@ -62,14 +91,33 @@ class ProcessRegistry:
             self._prefork.close()
 
     def add(self, process: RunningProcess, sigterm_s: float, sigkill_s: float) -> None:
-        """Note a process that was started, and how long it may take to end after signals."""
+        """
+        Register a process that was started.
+
+        Parameters
+        ----------
+        process
+            The process, which leads its group.
+        sigterm_s, sigkill_s
+            The seconds from SIGINT to SIGTERM, and from then to SIGKILL; the largest of all
+            processes are used for what is left at the end.
+
+        """
         self._sigterm_s = max(self._sigterm_s, sigterm_s)
         self._sigkill_s = max(self._sigkill_s, sigkill_s)
         self._processes.add(process)
         self._guard.add(process.pid)
 
     def remove(self, process: RunningProcess) -> None:
-        """Forget a process that has ended, with all of its group."""
+        """
+        Forget a process that has ended, with all of its group.
+
+        Parameters
+        ----------
+        process
+            The process.
+
+        """
         self._processes.discard(process)
         self._guard.remove(process.pid)
 

@@ -42,7 +42,27 @@ Spawn = Callable[[Program, int, int], Awaitable[Child]]
 
 
 async def execute(program: Program, stdout: int, stderr: int) -> subprocess.Popen[bytes]:
-    """Start a program whose output goes to two descriptors."""
+    """
+    Start a program in a session of its own.
+
+    Parameters
+    ----------
+    program
+        What is started.
+    stdout, stderr
+        The descriptors that its output goes to.
+
+    Returns
+    -------
+    Popen
+        The process, whose standard input is a pipe unless it is detached.
+
+    Raises
+    ------
+    OSError
+        The program cannot be started.
+
+    """
     with program.marking():
         return subprocess.Popen(
             ' '.join(program.command) if program.shell else list(program.command),

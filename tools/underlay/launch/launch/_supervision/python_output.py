@@ -12,7 +12,17 @@ ROS_ARGUMENTS = '--ros-args'  # what follows is for a node; none of it is a prog
 
 
 def runs_python(command: Sequence[str], *, shell: bool) -> bool:
-    """Return whether one of the words is a Python interpreter, or a script for one."""
+    """
+    Whether one of the words of a command is a Python interpreter, or a script for one.
+
+    Parameters
+    ----------
+    command
+        The words; what follows `--ros-args` is left out.
+    shell
+        Whether a shell reads the command, and so splits the words at blanks.
+
+    """
     words = ' '.join(command).split() if shell else command
     if ROS_ARGUMENTS in words:
         words = words[: words.index(ROS_ARGUMENTS)]

@@ -25,23 +25,50 @@ Find = Callable[[signal.Signals], list[Member]]
 
 
 class Remainder:
-    """Interrupts, terminates and kills the members of a launch that no supervisor looks after."""
+    """
+    Interrupts, terminates and kills the members of a launch that no supervisor looks after.
+
+    Parameters
+    ----------
+    family
+        The processes of the launch.
+    supervised_groups
+        Returns the ids of the process groups that have a supervisor now.
+
+    """
 
     def __init__(self, family: Family, supervised_groups: Callable[[], Collection[int]]) -> None:
-        """Create what ends all of a family but the groups that have a supervisor."""
         self._family = family
         self._supervised_groups = supervised_groups
         self._is_alone = asyncio.Event()
         self._task: Optional[asyncio.Task[None]] = None
 
     def begin(self, sigterm_s: float, sigkill_s: float) -> None:
-        """Send SIGINT to what there is outside of the supervised groups, and plan the rest."""
+        """
+        Send SIGINT to what there is outside of the supervised groups, and schedule the rest.
+
+        Nothing is done while this is under way already.
+
+        Parameters
+        ----------
+        sigterm_s, sigkill_s
+            The seconds from SIGINT to SIGTERM, and from then to SIGKILL.
+
+        """
         if self._task is None or self._task.done():
             ending = end_members(self._left, sigterm_s, sigkill_s, changed=self._is_alone)
             self._task = asyncio.ensure_future(ending)
 
     async def finish(self, sigterm_s: float, sigkill_s: float) -> None:
-        """Leave nothing behind, now that no supervisor is at work any more."""
+        """
+        End all that is left, now that no supervisor is at work any more.
+
+        Parameters
+        ----------
+        sigterm_s, sigkill_s
+            As for `begin`.
+
+        """
         self._is_alone.set()
         if self._task is not None:
             await self._task
@@ -66,13 +93,21 @@ async def end_members(
     changed: Optional[asyncio.Event] = None,
 ) -> None:
     """
-    Send one signal after the other until nothing is left.
+    Send SIGINT, SIGTERM and SIGKILL, one after the other, until nothing is left.
 
-    :param find: returns who is left, and is to get the signal
-    :param sigterm_s: the seconds from SIGINT to SIGTERM
-    :param sigkill_s: the seconds from then to SIGKILL
-    :param interrupted: who has got SIGINT already
-    :param changed: is set when `find` may return others
+    Parameters
+    ----------
+    find
+        Called with the signal; returns who is left and is to get it.
+    sigterm_s
+        The seconds from SIGINT to SIGTERM.
+    sigkill_s
+        The seconds from then to SIGKILL.
+    interrupted
+        Who has got SIGINT already.
+    changed
+        An event that is set when `find` may return others.
+
     """
     steps = (
         (signal.SIGINT, sigterm_s),
@@ -128,7 +163,15 @@ async def _wait(
 
 
 def kill_at_once(family: Family) -> None:
-    """Kill all members, as the launch has no time left to wait for them."""
+    """
+    Kill all members, as the launch has no time left to wait for them.
+
+    Parameters
+    ----------
+    family
+        The processes of the launch.
+
+    """
     end_s = time.monotonic() + _AT_ONCE_S
     while (members := family.members()) and time.monotonic() < end_s:
         for member in members:

@@ -19,7 +19,27 @@ OnOutput = Callable[[int, bytes], None]
 
 
 class RunningProcess:
-    """A process in a session and a group of its own."""
+    """
+    A process in a session and a group of its own, with its streams.
+
+    Parameters
+    ----------
+    child
+        The process that was started.
+    readers
+        The descriptors of its standard output and error, which are owned from now on; none if it
+        writes to a file.
+    loop
+        The event loop that watches them.
+    on_output
+        Called with the number of the stream, 1 or 2, and the bytes.
+
+    Attributes
+    ----------
+    exited
+        Future of the exit status, negative for a signal.
+
+    """
 
     def __init__(
         self,
@@ -29,7 +49,6 @@ class RunningProcess:
         loop: asyncio.AbstractEventLoop,
         on_output: OnOutput,
     ) -> None:
-        """Take over a child; what it writes goes to `on_output` with the stream, 1 or 2."""
         self._child = child
         self._streams = [
             OutputStream(loop, reader, partial(on_output, number))
@@ -43,12 +62,28 @@ class RunningProcess:
         return self._child.pid
 
     def send_signal(self, number: signal.Signals) -> None:
-        """Send a signal while the process runs."""
+        """
+        Send a signal while the process runs, to its group if the signal ends, stops or continues.
+
+        Parameters
+        ----------
+        number
+            The signal.
+
+        """
         if not self.exited.done():
             send_signal(self.pid, number)
 
     def write(self, data: bytes) -> None:
-        """Write to the standard input of the process, if it still reads."""
+        """
+        Write to the standard input of the process, if it still reads.
+
+        Parameters
+        ----------
+        data
+            The bytes.
+
+        """
         try:
             os.write(self._child.stdin.fileno(), data)  # type: ignore[union-attr]
         except OSError:
@@ -90,7 +125,26 @@ async def start_process(
     """
     Start a program in a session and a group of its own.
 
-    :param output_path: the file that the process writes to; without, `on_output` gets all
+    Parameters
+    ----------
+    program
+        What is started.
+    spawn
+        Starts it, given the two descriptors that its output goes to.
+    emulate_tty
+        Whether the output is a pseudo terminal rather than a pipe.
+    loop
+        The event loop that watches the process and its output.
+    on_output
+        Called with the number of the stream, 1 or 2, and the bytes.
+    output_path
+        The file that the process appends to; without, `on_output` gets all.
+
+    Raises
+    ------
+    OSError
+        The program cannot be started, or the file cannot be opened.
+
     """
     readers, writers = _channels(emulate_tty) if output_path is None else _file(output_path)
     try:

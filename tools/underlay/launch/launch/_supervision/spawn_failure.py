@@ -10,7 +10,22 @@ from typing import Any
 
 
 def explain_spawn_failure(details: Mapping[str, Any], error: Exception) -> str:
-    """Return a sentence about the process and what to do."""
+    """
+    Explain why a process could not be started, and what to do.
+
+    Parameters
+    ----------
+    details
+        `cmd` and `cwd` of the process.
+    error
+        What was raised when it was to be started.
+
+    Returns
+    -------
+    str
+        The message for the log.
+
+    """
     return f'exception occurred while executing process: {_reason(details, error)}'
 
 

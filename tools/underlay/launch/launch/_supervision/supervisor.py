@@ -31,7 +31,30 @@ if TYPE_CHECKING:
 
 
 class Supervisor:
-    """Starts a process, reports on it, starts it again if wanted, and ends it on shutdown."""
+    """
+    Starts a process, reports on it, starts it again if wanted, and ends it on shutdown.
+
+    Parameters
+    ----------
+    action
+        The action that runs the process; it is prepared.
+    options
+        How the process is to be run.
+    context
+        The state of the launch, to which events are emitted.
+    loop
+        The event loop, which starts the process when it gets to it.
+
+    Attributes
+    ----------
+    output
+        What becomes of the output.
+    return_code
+        How the process has ended, None before that; negative for a signal.
+    task
+        Done when the process has ended for good.
+
+    """
 
     def __init__(
         self,
@@ -40,7 +63,6 @@ class Supervisor:
         context: LaunchContext,
         loop: asyncio.AbstractEventLoop,
     ) -> None:
-        """Create the supervisor of an action that is prepared."""
         self._action = action
         self._options = options
         self._context = context
@@ -87,7 +109,20 @@ class Supervisor:
             self.stop()
 
     def send_signal(self, number: signal.Signals) -> None:
-        """Send a signal to the process; one that has ended needs none."""
+        """
+        Send a signal to the process; one that has ended needs none.
+
+        Parameters
+        ----------
+        number
+            The signal.
+
+        Raises
+        ------
+        RuntimeError
+            The process has not been started yet.
+
+        """
         if self._process is None:
             if self.return_code is not None:
                 self._logger.debug("signal '%s' not sent: it has ended already", number.name)
@@ -100,7 +135,15 @@ class Supervisor:
         self._process.send_signal(number)
 
     def write(self, data: bytes) -> None:
-        """Write to the standard input of the process."""
+        """
+        Write to the standard input of the process, if it runs.
+
+        Parameters
+        ----------
+        data
+            The bytes.
+
+        """
         if self._process is not None:
             self._process.write(data)
 

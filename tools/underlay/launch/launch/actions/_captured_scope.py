@@ -12,15 +12,32 @@ if TYPE_CHECKING:
 
 
 class EnterScope(LaunchDescriptionEntity):
-    """Opens a scope of launch configurations as they were earlier."""
+    """
+    Entity that opens a scope with the launch configurations of an earlier time.
+
+    Parameters
+    ----------
+    configurations
+        The launch configurations, which replace those of now.
+    local_variables
+        The local variables, which are added to those of now; `event` stays.
+
+    """
 
     def __init__(self, configurations: dict[str, Any], local_variables: dict[str, Any]) -> None:
-        """Create the entity from what was captured."""
         self._configurations = configurations
         self._locals = local_variables
 
     def visit(self, context: LaunchContext) -> None:
-        """Open the scope."""
+        """
+        Replace the launch configurations until `LeaveScope` is visited.
+
+        Parameters
+        ----------
+        context
+            The state of the launch.
+
+        """
         context._push_launch_configurations()
         context.launch_configurations.clear()
         context.launch_configurations.update(self._configurations)
@@ -32,5 +49,13 @@ class LeaveScope(LaunchDescriptionEntity):
     """Closes the scope."""
 
     def visit(self, context: LaunchContext) -> None:
-        """Restore the launch configurations."""
+        """
+        Restore the launch configurations of before the scope.
+
+        Parameters
+        ----------
+        context
+            The state of the launch.
+
+        """
         context._pop_launch_configurations()

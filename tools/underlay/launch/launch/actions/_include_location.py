@@ -18,7 +18,22 @@ _FOLDER = 'current_launch_file_directory'
 
 
 def enter_launch_file(context: LaunchContext, file: OpenFile) -> LeaveLaunchFile:
-    """Make a file the one that is being read; return the entity that ends it."""
+    """
+    Make a launch file the one that is being read.
+
+    Parameters
+    ----------
+    context
+        The state of the launch; its local variables get the path and the folder of the file.
+    file
+        The entry of the include stack.
+
+    Returns
+    -------
+    LeaveLaunchFile
+        The entity that ends this, to be visited after what the file contains.
+
+    """
     known = context.get_locals_as_dict()
     before = {name: known[name] for name in (_PATH, _FOLDER) if name in known}
     leave = LeaveLaunchFile(before, context._open_files)
@@ -32,17 +47,32 @@ class LeaveLaunchFile(LaunchDescriptionEntity):
     """
     Makes the including file the one that is being read again.
 
-    In ROS 2 Jazzy, ThisLaunchFile and ThisLaunchFileDir go on to stand for the included file;
-    they do so here unless the context is told otherwise.
+    In ROS 2 Jazzy, ThisLaunchFile and ThisLaunchFileDir go on to stand for the included file; they
+    do so here unless the context is told otherwise.
+
+    Parameters
+    ----------
+    before
+        The local variables about the including file; empty if there is none.
+    open_files
+        The include stack without the included file.
+
     """
 
     def __init__(self, before: dict[str, str], open_files: tuple[OpenFile, ...]) -> None:
-        """Create the entity from what was known before."""
         self._before = before
         self._open_files = open_files
 
     def visit(self, context: LaunchContext) -> None:
-        """Restore it."""
+        """
+        Restore the include stack, and the location of the launch file if the context scopes it.
+
+        Parameters
+        ----------
+        context
+            The state of the launch.
+
+        """
         context._open_files = self._open_files
         if self._before and context._scopes_location:
             context.extend_locals(self._before)

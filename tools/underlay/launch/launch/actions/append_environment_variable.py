@@ -22,7 +22,23 @@ if TYPE_CHECKING:
 
 
 class AppendEnvironmentVariable(Action):
-    """Adds a value to an environment variable, behind or before what it has."""
+    """
+    Action that adds a value to an environment variable, behind or before what it has.
+
+    Parameters
+    ----------
+    name
+        The name of the variable.
+    value
+        What is added.
+    prepend
+        Whether it comes before the present value.
+    separator
+        What stands between both, by default that of paths (`:`).
+    **kwargs
+        Keyword arguments of `Action`.
+
+    """
 
     def __init__(
         self,
@@ -32,7 +48,6 @@ class AppendEnvironmentVariable(Action):
         separator: SomeSubstitutionsType = os.pathsep,
         **kwargs: Any,
     ) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
         self.__value = normalize_to_list_of_substitutions(value)
@@ -41,7 +56,20 @@ class AppendEnvironmentVariable(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Read `name`, `value`, `prepend` and `separator` of the element `append_env`.
+
+        Parameters
+        ----------
+        entity, parser
+            As for `Action.parse`.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        """
         _, kwargs = super().parse(entity, parser)
         kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
         kwargs['value'] = parser.parse_substitution(entity.get_attr('value'))
@@ -69,7 +97,15 @@ class AppendEnvironmentVariable(Action):
         return self.__separator
 
     def execute(self, context: LaunchContext) -> None:
-        """Add the value; a variable that is not set becomes the value alone."""
+        """
+        Add the value; a variable that is not set becomes the value alone.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which substitutions are performed.
+
+        """
         name = perform_substitutions(context, self.__name)
         values = [perform_substitutions(context, self.__value)]
         if name in context.environment:

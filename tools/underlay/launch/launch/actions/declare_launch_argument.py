@@ -20,7 +20,30 @@ if TYPE_CHECKING:
 
 
 class DeclareLaunchArgument(Action):
-    """Declares a launch configuration that the user of the launch file may set."""
+    """
+    Action that declares a launch argument: a launch configuration that the user may set.
+
+    Parameters
+    ----------
+    name
+        The name of the argument.
+    default_value
+        The value if the user sets none; None if the argument must be given.
+    description
+        What it is for, for people.
+    choices
+        The values that are allowed; None if all are.
+    **kwargs
+        Keyword arguments of `Action`.
+
+    Raises
+    ------
+    TypeError
+        An argument has the wrong type; the error names it.
+    RuntimeError
+        There are no choices in `choices`, or the default is none of them.
+
+    """
 
     def __init__(
         self,
@@ -31,7 +54,6 @@ class DeclareLaunchArgument(Action):
         choices: Optional[Iterable[str]] = None,
         **kwargs: Any,
     ) -> None:
-        """Create the action; an argument without a default must be given."""
         super().__init__(**kwargs)
         self._conditionally_included = False
         of_type('name', name, (str,), 'a text')
@@ -47,7 +69,20 @@ class DeclareLaunchArgument(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Read `name`, `default`, `description` and the children `choice` of the element `arg`.
+
+        Parameters
+        ----------
+        entity, parser
+            As for `Action.parse`.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        """
         from launch.frontend._children import children_named
 
         _, kwargs = super().parse(entity, parser)
@@ -103,7 +138,20 @@ class DeclareLaunchArgument(Action):
         return {'name': self.__name}
 
     def execute(self, context: LaunchContext) -> None:
-        """Set the launch configuration to the default unless it is set; check its value."""
+        """
+        Set the launch configuration to the default unless it is set; check its value.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the default is performed.
+
+        Raises
+        ------
+        RuntimeError
+            There is no value, or it is none of the choices.
+
+        """
         context.launch_configurations.declared.add(self.__name)
         is_given = self.__name in context.launch_configurations
         if not is_given:

@@ -13,10 +13,24 @@ if TYPE_CHECKING:
 
 
 class EmitEvent(Action):
-    """Emits an event, which is handled when all that is being visited is done."""
+    """
+    Action that emits an event, which is handled when all that is being visited is done.
+
+    Parameters
+    ----------
+    event
+        The event.
+    **kwargs
+        Keyword arguments of `Action`.
+
+    Raises
+    ------
+    RuntimeError
+        `event` is not an `Event`.
+
+    """
 
     def __init__(self, *, event: Event, **kwargs: Any) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         if not isinstance(event, Event):
             raise RuntimeError(
@@ -31,7 +45,15 @@ class EmitEvent(Action):
         return self.__event
 
     def execute(self, context: LaunchContext) -> None:
-        """Emit it."""
+        """
+        Queue the event.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, with the queue.
+
+        """
         context.emit_event_sync(self.__event)
         if context._observer is not None:
             context._observer.note(**self._outline())

@@ -29,7 +29,49 @@ _OVERRIDE_OUTPUT = 'OVERRIDE_LAUNCH_PROCESS_OUTPUT'
 
 
 class ExecuteLocal(Action):
-    """Runs the program that a description stands for, and watches over it."""
+    """
+    Action that runs the program that a description stands for, and watches over it.
+
+    Parameters
+    ----------
+    process_description
+        What is executed.
+    shell
+        Whether a shell reads the command line.
+    sigterm_timeout
+        The seconds from SIGINT to SIGTERM when the process is to end.
+    sigkill_timeout
+        The seconds from then to SIGKILL.
+    emulate_tty
+        Whether the output is a terminal for the process.
+    output
+        Where the output goes: screen, log, both, own_log, full, or a dictionary by stream.
+    output_format
+        How a line of the output looks: a brace-style format of `line` and `this`, the action.
+    cached_output
+        Whether the output is kept for get_stdout() and get_stderr().
+    log_cmd
+        Whether the command line is logged.
+    on_exit
+        What is visited, or called, when the process has ended.
+    respawn
+        Whether the process is started again when it has ended.
+    respawn_delay
+        The seconds before that.
+    respawn_max_retries
+        How many times at most; negative stands for always.
+    detached
+        Whether the process goes on when the launch ends; it has no standard input then, and writes
+        to a file in the folder of the log (not in ROS 2 Jazzy).
+    **kwargs
+        Keyword arguments of `Action`.
+
+    Raises
+    ------
+    TypeError
+        An argument has the wrong type; the error names it.
+
+    """
 
     preloader: Optional[str] = None
     """The module that knows what Python programs of this kind import; without, none is forked."""
@@ -57,25 +99,6 @@ class ExecuteLocal(Action):
         detached: Union[bool, SomeSubstitutionsType] = False,
         **kwargs: Any,
     ) -> None:
-        """
-        Create the action.
-
-        :param process_description: what is executed
-        :param shell: whether a shell reads the command line
-        :param sigterm_timeout: the seconds from SIGINT to SIGTERM when the process is to end
-        :param sigkill_timeout: the seconds from then to SIGKILL
-        :param emulate_tty: whether the output is a terminal for the process
-        :param output: where the output goes: screen, log, both, own_log, full, or a dictionary
-        :param output_format: how a line of the output looks
-        :param cached_output: whether the output is kept for get_stdout() and get_stderr()
-        :param log_cmd: whether the command line is logged
-        :param on_exit: what is visited, or called, when the process has ended
-        :param respawn: whether the process is started again when it has ended
-        :param respawn_delay: the seconds before that
-        :param respawn_max_retries: how many times at most; negative stands for always
-        :param detached: whether the process goes on when the launch ends; it has no standard input
-            then, and writes to a file in the folder of the log (not in ROS 2 Jazzy)
-        """
         super().__init__(**kwargs)
         from launch._supervision.process_options import (
             output_substitutions,
@@ -182,7 +205,15 @@ class ExecuteLocal(Action):
         }
 
     def prepare(self, context: LaunchContext) -> None:
-        """Find out the final form of the description."""
+        """
+        Determine the final command, label, folder and environment of the process.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which substitutions are performed.
+
+        """
         self.__process_description.prepare(context, self, shell=self.__shell)
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
@@ -192,7 +223,24 @@ class ExecuteLocal(Action):
         return list(self.__on_exit)
 
     def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
-        """Start the process as soon as all that is being visited is done."""
+        """
+        Start the process as soon as all that is being visited is done.
+
+        Parameters
+        ----------
+        context
+            The state of a running launch, in which substitutions are performed.
+
+        Raises
+        ------
+        RuntimeError
+            The action was executed before, or the launch is not running.
+        ProgramNotFoundError
+            The program is not there, which is checked before the first process starts.
+        ValueError
+            The command is empty, or an option becomes something that cannot be used.
+
+        """
         if self.__executed:
             raise RuntimeError(
                 f"ExecuteProcess action '{self.name}': executed more than once: {self!r}; a "

@@ -16,7 +16,27 @@ if TYPE_CHECKING:
 
 
 class ExecuteProcess(ExecuteLocal):
-    """Runs a command and watches over it."""
+    """
+    Action that runs a command and watches over it.
+
+    Parameters
+    ----------
+    cmd
+        The program and its arguments; each item becomes one argument.
+    prefix
+        What comes before the program, such as `gdb -ex run --args`.
+    name
+        The label in the log; the name of the program if it is left out.
+    cwd
+        The folder in which the process is started.
+    env
+        The whole environment of the process.
+    additional_env
+        What is added to its environment.
+    **kwargs
+        Keyword arguments of `ExecuteLocal`.
+
+    """
 
     def __init__(
         self,
@@ -29,16 +49,6 @@ class ExecuteProcess(ExecuteLocal):
         additional_env: Optional[SomeVariables] = None,
         **kwargs: Any,
     ) -> None:
-        """
-        Create the action; the other arguments are those of ExecuteLocal.
-
-        :param cmd: the program and its arguments; each item becomes one argument
-        :param prefix: what comes before the program, such as `gdb -ex run --args`
-        :param name: the label in the log; the name of the program if it is left out
-        :param cwd: the folder in which the process is started
-        :param env: the whole environment of the process
-        :param additional_env: what is added to its environment
-        """
         description = Executable(
             cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env
         )
@@ -51,7 +61,22 @@ class ExecuteProcess(ExecuteLocal):
         parser: Parser,
         ignore: Optional[Iterable[str]] = None,
     ) -> tuple[Any, dict[str, Any]]:
-        """Return the class and its arguments; attributes to `ignore` are left to the caller."""
+        """
+        Read the attributes and the children of the element `executable`.
+
+        Parameters
+        ----------
+        entity, parser
+            As for `Action.parse`.
+        ignore
+            The names of attributes that are left to the caller.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        """
         from launch.frontend._process_attributes import parse_process
 
         _, kwargs = super().parse(entity, parser)

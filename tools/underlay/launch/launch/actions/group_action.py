@@ -29,7 +29,29 @@ if TYPE_CHECKING:
 
 
 class GroupAction(Action):
-    """Visits actions, by default in a scope of launch configurations and environment."""
+    """
+    Action that visits others, by default in a scope of launch configurations and environment.
+
+    Parameters
+    ----------
+    actions
+        The actions of the group.
+    scoped
+        Whether changes of launch configurations and environment end with the group.
+    forwarding
+        Whether those from outside get into the scope; otherwise it begins with the environment
+        that the launch was started with, and `launch_configurations` alone.
+    launch_configurations
+        Values that are set before the actions, by name.
+    **left_over_kwargs
+        Keyword arguments of `Action`.
+
+    Raises
+    ------
+    TypeError
+        An argument has the wrong type; the error names it.
+
+    """
 
     def __init__(
         self,
@@ -42,7 +64,6 @@ class GroupAction(Action):
         ] = None,
         **left_over_kwargs: Any,
     ) -> None:
-        """Create the group; without `forwarding` only `launch_configurations` get into it."""
         super().__init__(**left_over_kwargs)
         self.__actions = list_like('actions', actions, 'actions')
         self.__scoped = typed('scoped', scoped, bool, 'a bool or a substitution')
@@ -54,7 +75,20 @@ class GroupAction(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Read `scoped`, `forwarding`, the children `keep` and the actions of the element `group`.
+
+        Parameters
+        ----------
+        entity, parser
+            As for `Action.parse`.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        """
         from launch.frontend._children import parse_pairs
 
         _, kwargs = super().parse(entity, parser)
@@ -95,7 +129,15 @@ class GroupAction(Action):
         return {'scoped': self.__scoped, 'forwarding': self.__forwarding}
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Return the actions, which are visited next."""
+        """
+        Return the actions, which are visited next, with those around them that make the scope.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which `scoped` and `forwarding` are performed.
+
+        """
         if context._observer is not None:
             context._observer.note(**self._outline())
         if not is_substitution(self.__scoped) and not is_substitution(self.__forwarding):

@@ -31,7 +31,24 @@ Arguments = Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]]
 
 
 class IncludeLaunchDescription(Action):
-    """Visits the launch description of a file, with some launch arguments."""
+    """
+    Action that includes a launch file, with some launch arguments.
+
+    Parameters
+    ----------
+    launch_description_source
+        The source, or a path, which is read in any format.
+    launch_arguments
+        Pairs of a name and a value, which are set before the file is visited.
+    **kwargs
+        Keyword arguments of `Action`.
+
+    Raises
+    ------
+    TypeError
+        An argument has the wrong type; the error names it.
+
+    """
 
     def __init__(
         self,
@@ -40,7 +57,6 @@ class IncludeLaunchDescription(Action):
         launch_arguments: Optional[Arguments] = None,
         **kwargs: Any,
     ) -> None:
-        """Create the action; a source that is only a path is read in any format."""
         super().__init__(**kwargs)
         if not isinstance(launch_description_source, LaunchDescriptionSource):
             from launch.launch_description_sources.any_launch_description_source import (
@@ -54,7 +70,20 @@ class IncludeLaunchDescription(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Read `file` and the children `arg` and `let` of the element `include`.
+
+        Parameters
+        ----------
+        entity, parser
+            As for `Action.parse`.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        """
         from launch.frontend._children import parse_pairs
 
         _, kwargs = super().parse(entity, parser)
@@ -94,7 +123,30 @@ class IncludeLaunchDescription(Action):
             raise FileNotFoundError(explain_missing_include(path, reading))
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Load the file and return its description, with the arguments before it."""
+        """
+        Load the launch file and make it the one that is being read.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the path is performed.
+
+        Returns
+        -------
+        list of LaunchDescriptionEntity
+            The settings of the arguments, the description, and the end of the include, which are
+            visited next.
+
+        Raises
+        ------
+        FileNotFoundError
+            There is no such file.
+        CircularIncludeError
+            The file includes itself for ever.
+        RuntimeError
+            The file declares an argument that has no default and is not given.
+
+        """
         path = os.path.abspath(self.__launch_description_source._expand_location(context))
         file = open_file(context, path, self.call_site)
         description = self.__launch_description_source.get_launch_description(context)
@@ -111,7 +163,15 @@ class IncludeLaunchDescription(Action):
         return os.path.abspath(source._location_in_advance() or source.location)
 
     def given_names(self, context: Optional[LaunchContext] = None) -> list[str]:
-        """Return the names of the launch arguments that are given here."""
+        """
+        List the names of the launch arguments that are given here.
+
+        Parameters
+        ----------
+        context
+            The context in which names are performed; without one, those not known yet are empty.
+
+        """
         return [_text(name, context) for name, _ in self.__launch_arguments]
 
     def _outline(self) -> dict[str, Any]:

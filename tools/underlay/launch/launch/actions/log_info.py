@@ -20,16 +20,38 @@ if TYPE_CHECKING:
 
 
 class LogInfo(Action):
-    """Logs a text for the user."""
+    """
+    Action that logs a text for the user.
+
+    Parameters
+    ----------
+    msg
+        The text.
+    **kwargs
+        Keyword arguments of `Action`.
+
+    """
 
     def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Any) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         self.__msg = normalize_to_list_of_substitutions(msg)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Read `message` of the element `log`.
+
+        Parameters
+        ----------
+        entity, parser
+            As for `Action.parse`.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        """
         _, kwargs = super().parse(entity, parser)
         kwargs['msg'] = parser.parse_substitution(entity.get_attr('message'))
         return cls, kwargs
@@ -43,7 +65,15 @@ class LogInfo(Action):
         return {'text': ' + '.join(part.describe() for part in self.__msg)}
 
     def execute(self, context: LaunchContext) -> None:
-        """Log the text."""
+        """
+        Log the text with the logger `launch.user`.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the text is performed.
+
+        """
         from launch.logging import get_logger
 
         text = perform_substitutions(context, self.__msg)

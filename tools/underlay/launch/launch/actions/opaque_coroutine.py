@@ -16,7 +16,26 @@ if TYPE_CHECKING:
 
 
 class OpaqueCoroutine(Action):
-    """Runs a coroutine; the launch stays until it is done, and cancels it on shutdown."""
+    """
+    Action that runs a coroutine; the launch stays until it is done, and cancels it on shutdown.
+
+    Parameters
+    ----------
+    coroutine
+        The function, which is called with the context and `args`, and returns the coroutine.
+    args, kwargs
+        Further positional and keyword arguments of the function.
+    ignore_context
+        Whether the function is called without the context.
+    **left_over_kwargs
+        Keyword arguments of `Action`.
+
+    Raises
+    ------
+    TypeError
+        `coroutine` is not callable.
+
+    """
 
     def __init__(
         self,
@@ -27,7 +46,6 @@ class OpaqueCoroutine(Action):
         ignore_context: bool = False,
         **left_over_kwargs: Any,
     ) -> None:
-        """Create the action; the function gets the context (unless ignored) and `args`."""
         super().__init__(**left_over_kwargs)
         if not callable(coroutine):
             raise TypeError(
@@ -40,7 +58,20 @@ class OpaqueCoroutine(Action):
         self.__task: Optional[asyncio.Task[Any]] = None
 
     def execute(self, context: LaunchContext) -> None:
-        """Start the coroutine."""
+        """
+        Start the coroutine as a task of the launch.
+
+        Parameters
+        ----------
+        context
+            The state of a running launch.
+
+        Raises
+        ------
+        RuntimeError
+            The launch is not running.
+
+        """
         args = self.__args if self.__ignore_context else (context, *self.__args)
         loop = context.asyncio_loop
         if loop is None:

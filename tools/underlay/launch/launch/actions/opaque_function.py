@@ -14,7 +14,24 @@ if TYPE_CHECKING:
 
 
 class OpaqueFunction(Action):
-    """Calls a function with the context; the entities it returns are visited next."""
+    """
+    Action that calls a function with the context; the entities it returns are visited next.
+
+    Parameters
+    ----------
+    function
+        The function, which is called with the context and `args`.
+    args, kwargs
+        Further positional and keyword arguments of the function.
+    **left_over_kwargs
+        Keyword arguments of `Action`.
+
+    Raises
+    ------
+    TypeError
+        `function` is not callable.
+
+    """
 
     _runs_code_of_the_user = True
 
@@ -26,7 +43,6 @@ class OpaqueFunction(Action):
         kwargs: Optional[Mapping[str, Any]] = None,
         **left_over_kwargs: Any,
     ) -> None:
-        """Create the action; the function gets the context, `args` and `kwargs`."""
         super().__init__(**left_over_kwargs)
         if not callable(function):
             raise TypeError(
@@ -40,7 +56,25 @@ class OpaqueFunction(Action):
         return {'function': getattr(self.__function, '__name__', repr(self.__function))}
 
     def execute(self, context: LaunchContext) -> Optional[Iterable[LaunchDescriptionEntity]]:
-        """Call the function."""
+        """
+        Call the function.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, which is the first argument.
+
+        Returns
+        -------
+        iterable of LaunchDescriptionEntity or None
+            What the function returns, which is visited next.
+
+        Raises
+        ------
+        TypeError
+            The function returns neither an iterable nor None.
+
+        """
         if context._observer is not None:
             context._observer.note(**self._outline())
         result = self.__function(context, *self.__args, **self.__kwargs)

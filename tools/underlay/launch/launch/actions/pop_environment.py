@@ -15,5 +15,18 @@ class PopEnvironment(Action):
     """Restores the environment that PushEnvironment kept."""
 
     def execute(self, context: LaunchContext) -> None:
-        """Restore it."""
+        """
+        Restore the environment of the last `PushEnvironment`.
+
+        Parameters
+        ----------
+        context
+            The state of the launch.
+
+        Raises
+        ------
+        RuntimeError
+            Nothing has been pushed.
+
+        """
         context._pop_environment()

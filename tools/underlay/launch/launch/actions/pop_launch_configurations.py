@@ -15,5 +15,18 @@ class PopLaunchConfigurations(Action):
     """Restores the launch configurations that PushLaunchConfigurations kept."""
 
     def execute(self, context: LaunchContext) -> None:
-        """Restore them."""
+        """
+        Restore the launch configurations of the last `PushLaunchConfigurations`.
+
+        Parameters
+        ----------
+        context
+            The state of the launch.
+
+        Raises
+        ------
+        RuntimeError
+            Nothing has been pushed.
+
+        """
         context._pop_launch_configurations()

@@ -15,5 +15,13 @@ class PushEnvironment(Action):
     """Keeps the environment until PopEnvironment restores it."""
 
     def execute(self, context: LaunchContext) -> None:
-        """Keep it."""
+        """
+        Keep a copy of the environment.
+
+        Parameters
+        ----------
+        context
+            The state of the launch.
+
+        """
         context._push_environment()

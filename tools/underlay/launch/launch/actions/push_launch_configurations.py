@@ -15,5 +15,13 @@ class PushLaunchConfigurations(Action):
     """Keeps the launch configurations until PopLaunchConfigurations restores them."""
 
     def execute(self, context: LaunchContext) -> None:
-        """Keep them."""
+        """
+        Keep a copy of the launch configurations.
+
+        Parameters
+        ----------
+        context
+            The state of the launch.
+
+        """
         context._push_launch_configurations()

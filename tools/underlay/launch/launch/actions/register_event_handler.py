@@ -15,10 +15,19 @@ if TYPE_CHECKING:
 
 
 class RegisterEventHandler(Action):
-    """Registers an event handler."""
+    """
+    Action that registers an event handler.
+
+    Parameters
+    ----------
+    event_handler
+        The handler.
+    **kwargs
+        Keyword arguments of `Action`.
+
+    """
 
     def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         self.__event_handler = event_handler
 
@@ -28,7 +37,15 @@ class RegisterEventHandler(Action):
         return self.__event_handler
 
     def execute(self, context: LaunchContext) -> None:
-        """Register it."""
+        """
+        Register the handler before all others.
+
+        Parameters
+        ----------
+        context
+            The state of the launch.
+
+        """
         context.register_event_handler(self.__event_handler)
         if context._observer is not None:
             for event, entities in self._outline_of_waiting():

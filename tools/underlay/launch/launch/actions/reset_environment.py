@@ -15,5 +15,13 @@ class ResetEnvironment(Action):
     """Restores the environment that the launch was started with."""
 
     def execute(self, context: LaunchContext) -> None:
-        """Restore it."""
+        """
+        Restore the environment that the launch was started with.
+
+        Parameters
+        ----------
+        context
+            The state of the launch.
+
+        """
         context._reset_environment()

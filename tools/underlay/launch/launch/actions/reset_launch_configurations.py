@@ -20,7 +20,18 @@ if TYPE_CHECKING:
 
 
 class ResetLaunchConfigurations(Action):
-    """Removes all launch configurations but those that are given."""
+    """
+    Action that removes all launch configurations but those that are given.
+
+    Parameters
+    ----------
+    launch_configurations
+        What there is afterwards, values by name; they may refer to configurations that are
+        removed.
+    **kwargs
+        Keyword arguments of `Action`.
+
+    """
 
     def __init__(
         self,
@@ -29,7 +40,6 @@ class ResetLaunchConfigurations(Action):
         ] = None,
         **kwargs: Any,
     ) -> None:
-        """Create the action; values may refer to configurations that are removed."""
         super().__init__(**kwargs)
         self.__kept = [
             (normalize_to_list_of_substitutions(name), normalize_to_list_of_substitutions(value))
@@ -38,7 +48,20 @@ class ResetLaunchConfigurations(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Read the children `keep` of the element `reset`.
+
+        Parameters
+        ----------
+        entity, parser
+            As for `Action.parse`.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        """
         from launch.frontend._children import parse_pairs
 
         _, kwargs = super().parse(entity, parser)
@@ -46,7 +69,15 @@ class ResetLaunchConfigurations(Action):
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """Remove them."""
+        """
+        Replace all launch configurations by those that were given.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which they are performed before.
+
+        """
         kept = {
             perform_substitutions(context, name): perform_substitutions(context, value)
             for name, value in self.__kept

@@ -20,7 +20,19 @@ if TYPE_CHECKING:
 
 
 class SetEnvironmentVariable(Action):
-    """Sets an environment variable of the launch and of the processes it starts later."""
+    """
+    Action that sets an environment variable of the launch and of the processes it starts later.
+
+    Parameters
+    ----------
+    name
+        The name of the variable.
+    value
+        Its value.
+    **kwargs
+        Keyword arguments of `Action`.
+
+    """
 
     def __init__(
         self,
@@ -28,14 +40,26 @@ class SetEnvironmentVariable(Action):
         value: SomeSubstitutionsType,
         **kwargs: Any,
     ) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
         self.__value = normalize_to_list_of_substitutions(value)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Read `name` and `value` of the element `set_env`.
+
+        Parameters
+        ----------
+        entity, parser
+            As for `Action.parse`.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        """
         _, kwargs = super().parse(entity, parser)
         kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
         kwargs['value'] = parser.parse_substitution(entity.get_attr('value'))
@@ -52,7 +76,15 @@ class SetEnvironmentVariable(Action):
         return self.__value
 
     def execute(self, context: LaunchContext) -> None:
-        """Set it."""
+        """
+        Set the environment variable.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which name and value are performed.
+
+        """
         name = perform_substitutions(context, self.__name)
         context.environment[name] = value = perform_substitutions(context, self.__value)
         if context._observer is not None:

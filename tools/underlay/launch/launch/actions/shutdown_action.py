@@ -21,7 +21,17 @@ if TYPE_CHECKING:
 
 
 class Shutdown(Action):
-    """Ends the launch; as the `on_exit` of a process it makes that one a required process."""
+    """
+    Action that ends the launch; as the `on_exit` of a process, it makes that process required.
+
+    Parameters
+    ----------
+    reason
+        Why the launch ends, for people.
+    **kwargs
+        Keyword arguments of `Action`.
+
+    """
 
     def __init__(
         self,
@@ -29,13 +39,25 @@ class Shutdown(Action):
         reason: SomeSubstitutionsType = 'reason not given',
         **kwargs: Any,
     ) -> None:
-        """Create the action, with the reason for people."""
         super().__init__(**kwargs)
         self.__reason = normalize_to_list_of_substitutions(reason)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Read `reason` of the element `shutdown`.
+
+        Parameters
+        ----------
+        entity, parser
+            As for `Action.parse`.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        """
         _, kwargs = super().parse(entity, parser)
         reason = entity.get_attr('reason', optional=True)
         if reason is not None:
@@ -43,7 +65,15 @@ class Shutdown(Action):
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """Emit the event of the shutdown."""
+        """
+        Queue the event of the shutdown.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the reason is performed.
+
+        """
         event = context.get_locals_as_dict().get('event')
         if isinstance(event, ProcessExited):
             from launch.logging import get_logger

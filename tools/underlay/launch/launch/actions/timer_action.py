@@ -32,7 +32,26 @@ class Cancelable(Protocol):
 
 
 class TimerAction(Action):
-    """Visits actions once, when a period is over, in the scope in which it was started."""
+    """
+    Action that visits others once, when a period is over, in the scope in which it was started.
+
+    Parameters
+    ----------
+    period
+        The period in s: a float, or substitutions that stand for one.
+    actions
+        The actions that are visited then.
+    cancel_on_shutdown
+        Whether a shutdown cancels the timer; otherwise the launch waits for it.
+    **kwargs
+        Keyword arguments of `Action`.
+
+    Raises
+    ------
+    TypeError
+        The period is an int, or an argument has another wrong type.
+
+    """
 
     def __init__(
         self,
@@ -42,7 +61,6 @@ class TimerAction(Action):
         cancel_on_shutdown: Union[bool, SomeSubstitutionsType] = True,
         **kwargs: Any,
     ) -> None:
-        """Create the action; the period is a float in seconds, or stands for one."""
         super().__init__(**kwargs)
         self.__period = _checked_period(period)
         self.__actions = list_like('actions', actions, 'actions')
@@ -53,7 +71,20 @@ class TimerAction(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Read `period`, `cancel_on_shutdown` and the actions of the element `timer`.
+
+        Parameters
+        ----------
+        entity, parser
+            As for `Action.parse`.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        """
         _, kwargs = super().parse(entity, parser)
         period = entity.get_attr('period', data_type=float)
         kwargs['period'] = parser.parse_if_substitutions(period)
@@ -90,7 +121,20 @@ class TimerAction(Action):
         return [(f'{period} s to pass', self.__actions)]
 
     def execute(self, context: LaunchContext) -> None:
-        """Start the timer."""
+        """
+        Start the timer, unless it was canceled or the launch is shutting down.
+
+        Parameters
+        ----------
+        context
+            The state of a running launch; its launch configurations are those of the actions.
+
+        Raises
+        ------
+        RuntimeError
+            The launch is not running.
+
+        """
         if self.__canceled or context.is_shutdown:
             return
         if context.asyncio_loop is None:

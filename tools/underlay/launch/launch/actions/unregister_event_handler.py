@@ -13,10 +13,19 @@ if TYPE_CHECKING:
 
 
 class UnregisterEventHandler(Action):
-    """Removes an event handler."""
+    """
+    Action that removes an event handler.
+
+    Parameters
+    ----------
+    event_handler
+        The handler, which must be registered when the action is executed.
+    **kwargs
+        Keyword arguments of `Action`.
+
+    """
 
     def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         self.__event_handler = event_handler
 
@@ -26,5 +35,18 @@ class UnregisterEventHandler(Action):
         return self.__event_handler
 
     def execute(self, context: LaunchContext) -> None:
-        """Remove it; a ValueError says that it was not registered."""
+        """
+        Unregister the handler.
+
+        Parameters
+        ----------
+        context
+            The state of the launch.
+
+        Raises
+        ------
+        ValueError
+            The handler is not registered.
+
+        """
         context.unregister_event_handler(self.__event_handler)

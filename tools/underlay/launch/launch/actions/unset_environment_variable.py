@@ -20,16 +20,38 @@ if TYPE_CHECKING:
 
 
 class UnsetEnvironmentVariable(Action):
-    """Removes an environment variable if it is set."""
+    """
+    Action that removes an environment variable if it is set.
+
+    Parameters
+    ----------
+    name
+        The name of the variable.
+    **kwargs
+        Keyword arguments of `Action`.
+
+    """
 
     def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Read `name` of the element `unset_env`.
+
+        Parameters
+        ----------
+        entity, parser
+            As for `Action.parse`.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        """
         _, kwargs = super().parse(entity, parser)
         kwargs['name'] = parser.parse_substitution(entity.get_attr('name'))
         return cls, kwargs
@@ -40,7 +62,15 @@ class UnsetEnvironmentVariable(Action):
         return self.__name
 
     def execute(self, context: LaunchContext) -> None:
-        """Remove it."""
+        """
+        Remove the environment variable.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the name is performed.
+
+        """
         name = perform_substitutions(context, self.__name)
         context.environment.pop(name, None)
         if context._observer is not None:

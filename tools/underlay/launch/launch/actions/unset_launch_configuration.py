@@ -18,10 +18,19 @@ if TYPE_CHECKING:
 
 
 class UnsetLaunchConfiguration(Action):
-    """Removes a launch configuration if it is set."""
+    """
+    Action that removes a launch configuration if it is set.
+
+    Parameters
+    ----------
+    name
+        The name of the configuration.
+    **kwargs
+        Keyword arguments of `Action`.
+
+    """
 
     def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
 
@@ -31,5 +40,13 @@ class UnsetLaunchConfiguration(Action):
         return self.__name
 
     def execute(self, context: LaunchContext) -> None:
-        """Remove it."""
+        """
+        Remove the launch configuration.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the name is performed.
+
+        """
         context.launch_configurations.pop(perform_substitutions(context, self.__name), None)

@@ -31,7 +31,22 @@ def evaluate_condition_expression(
     context: LaunchContext,
     expression: Iterable[Substitution],
 ) -> bool:
-    """Return the truth value of an expression: true, 1, false or 0, in any case."""
+    """
+    Evaluate an expression as a boolean: true, 1, false or 0, in any case.
+
+    Parameters
+    ----------
+    context
+        The state of the launch, in which the expression is performed.
+    expression
+        The substitutions, whose texts are joined; space around the result is ignored.
+
+    Raises
+    ------
+    InvalidConditionExpressionError
+        The result is none of these words.
+
+    """
     parts = list(expression)
     text = perform_substitutions(context, parts).strip().lower()
     if context._observer is not None:

@@ -18,10 +18,24 @@ if TYPE_CHECKING:
 
 
 class IfCondition(Condition):
-    """Fulfilled if an expression is true or 1, not if it is false or 0; else an error."""
+    """
+    Condition that is fulfilled if an expression is true or 1, and not if it is false or 0.
+
+    To evaluate any other expression is an error.
+
+    Parameters
+    ----------
+    predicate_expression
+        A string, a path, a substitution or an iterable of them.
+
+    Raises
+    ------
+    TypeError
+        The expression is none of these.
+
+    """
 
     def __init__(self, predicate_expression: SomeSubstitutionsType) -> None:
-        """Create the condition from anything like a text."""
         ensure_argument_type(
             predicate_expression,
             SomeSubstitutionsType_types_tuple,

@@ -18,14 +18,25 @@ if TYPE_CHECKING:
 
 
 class LaunchConfigurationEquals(Condition):
-    """Fulfilled if a launch configuration has a value; None stands for being unset."""
+    """
+    Condition that is fulfilled if a launch configuration has a value.
+
+    Deprecated, which it warns of: `IfCondition(EqualsSubstitution(...))` is the newer way.
+
+    Parameters
+    ----------
+    launch_configuration_name
+        The name of the configuration.
+    expected_value
+        The text to compare with, or what stands for it; None for a configuration that is not set.
+
+    """
 
     def __init__(
         self,
         launch_configuration_name: str,
         expected_value: Optional[SomeSubstitutionsType],
     ) -> None:
-        """Create the condition; IfCondition(EqualsSubstitution(...)) is the newer way."""
         self._name = launch_configuration_name
         self._expected = (
             None if expected_value is None else normalize_to_list_of_substitutions(expected_value)

@@ -27,7 +27,33 @@ _numbers = count(1)
 
 
 class Executable:
-    """Describes what is executed; its final form is known when it is prepared."""
+    """
+    Description of what is executed; its final form is known when it is prepared.
+
+    Parameters
+    ----------
+    cmd
+        The program and its arguments; each item becomes one argument.
+    prefix
+        What comes before the program, such as `gdb -ex run --args`; without one, the launch
+        configurations `launch-prefix` and `launch-prefix-filter` decide.
+    name
+        The label in the log, before its number; the file name of the program if it is left out.
+    cwd
+        The folder in which the process is started; that of the launch if it is left out.
+    env
+        The whole environment of the process; without one it inherits that of the launch.
+    additional_env
+        What is added to its environment.
+    arguments
+        More arguments, which come after those of `cmd`.
+
+    Raises
+    ------
+    TypeError
+        An argument has the wrong type; the error names it.
+
+    """
 
     def __init__(
         self,
@@ -40,7 +66,6 @@ class Executable:
         additional_env: Optional[SomeVariables] = None,
         arguments: Optional[Iterable[SomeSubstitutionsType]] = None,
     ) -> None:
-        """Create the description; each item of `cmd` becomes one argument."""
         words = [*list_like('cmd', cmd, 'words'), *(arguments or ())]
         self.__cmd = [text_like('cmd', word) for word in words]
         self.__prefix = optional_text_like('prefix', prefix)
@@ -111,7 +136,26 @@ class Executable:
         extra_arguments: Iterable[str] = (),
         shell: bool = False,
     ) -> None:
-        """Find out the final form; `extra_arguments` come behind those of `cmd`."""
+        """
+        Determine the final command, label, folder and environment.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which substitutions are performed.
+        action
+            The action that runs it, for the error.
+        extra_arguments
+            What comes behind the arguments of `cmd`.
+        shell
+            Whether a shell reads the command line.
+
+        Raises
+        ------
+        ValueError
+            The command is empty.
+
+        """
         command = [perform_substitutions(context, word) for word in self.__cmd]
         if not command:
             raise ValueError(f'the command of {action or self!r} is empty: it needs a program')

@@ -9,5 +9,18 @@ from launch.event import Event
 
 
 def event_named(name: str) -> Callable[[Event], bool]:
-    """Return a matcher of the events with this name, such as `launch.events.Shutdown`."""
+    """
+    Create a matcher of the events that have a name.
+
+    Parameters
+    ----------
+    name
+        The name, such as `launch.events.Shutdown`.
+
+    Returns
+    -------
+    callable
+        Takes an event, and returns whether it has the name.
+
+    """
     return lambda event: event.name == name

@@ -19,7 +19,29 @@ Reaction = Union[SomeEntitiesType, Callable[..., Optional[SomeEntitiesType]]]
 
 
 class OnActionEventBase(BaseEventHandler):
-    """Reacts to one class of events of one action, of some, or of all."""
+    """
+    Base class of handlers of one class of events, of one action, of some, or of all.
+
+    Parameters
+    ----------
+    action_matcher
+        An action, a predicate that accepts actions, or None for all.
+    on_event
+        The entities that are visited, or a function of the event and the context that returns
+        them.
+    target_event_cls
+        The class of the events.
+    target_action_cls
+        The class of the actions that the events belong to.
+    **kwargs
+        Keyword arguments of `BaseEventHandler`, such as `handle_once`.
+
+    Raises
+    ------
+    TypeError
+        The matcher or the reaction has the wrong type.
+
+    """
 
     def __init__(
         self,
@@ -30,7 +52,6 @@ class OnActionEventBase(BaseEventHandler):
         target_action_cls: type[Action],
         **kwargs: Any,
     ) -> None:
-        """Create a handler; `action_matcher` is an action, a predicate, or None for all."""
         if not (
             action_matcher is None
             or isinstance(action_matcher, target_action_cls)
@@ -73,7 +94,15 @@ class OnActionEventBase(BaseEventHandler):
         return bool(self.__action_matcher(event.action))
 
     def handle(self, event: Event, context: LaunchContext) -> Optional[SomeEntitiesType]:
-        """Return the entities of the reaction, which are visited next."""
+        """
+        Return the entities of the reaction, which are visited next.
+
+        Parameters
+        ----------
+        event, context
+            As for `BaseEventHandler.handle`; a function as the reaction is called with both.
+
+        """
         super().handle(event, context)
         if callable(self.__on_event):
             return self.__on_event(event, context)
@@ -81,7 +110,15 @@ class OnActionEventBase(BaseEventHandler):
 
 
 def target_in_words(target: Any) -> str:
-    """Return whose events a handler waits for; None stands for all."""
+    """
+    Describe whose events a handler waits for.
+
+    Parameters
+    ----------
+    target
+        An action, a predicate, or None for all actions.
+
+    """
     if target is None:
         return 'any action'
     name = getattr(target, 'name', None)
@@ -95,7 +132,27 @@ def checked_reaction(
     Optional[Callable[..., Optional[SomeEntitiesType]]],
     list[LaunchDescriptionEntity],
 ]:
-    """Split a reaction into a callable or a list of entities; a TypeError names its owner."""
+    """
+    Split the reaction to an event into a function or a list of entities.
+
+    Parameters
+    ----------
+    reaction
+        An entity, an iterable of entities, or a function that returns such.
+    owner
+        The class that was given the reaction, for the error.
+
+    Returns
+    -------
+    tuple
+        The function and an empty list, or None and the entities.
+
+    Raises
+    ------
+    TypeError
+        The reaction is none of these.
+
+    """
     if isinstance(reaction, LaunchDescriptionEntity):
         return None, [reaction]
     if callable(reaction):

@@ -14,7 +14,25 @@ if TYPE_CHECKING:
 
 
 class OnExecutionComplete(OnActionEventBase):
-    """Reacts when an action is done."""
+    """
+    Event handler that reacts when the execution of an action is complete.
+
+    Parameters
+    ----------
+    target_action
+        An action, a predicate that accepts actions, or None for all.
+    on_completion
+        The entities that are visited, or a function of the event and the context that returns
+        them.
+    **kwargs
+        Keyword arguments of `BaseEventHandler`, such as `handle_once`.
+
+    Raises
+    ------
+    TypeError
+        The target or the reaction has the wrong type.
+
+    """
 
     def __init__(
         self,
@@ -23,7 +41,6 @@ class OnExecutionComplete(OnActionEventBase):
         on_completion: Reaction,
         **kwargs: Any,
     ) -> None:
-        """Create a handler for one action, for those that a predicate accepts, or for all."""
         from launch.action import Action
 
         super().__init__(

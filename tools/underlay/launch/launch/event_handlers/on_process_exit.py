@@ -14,7 +14,25 @@ if TYPE_CHECKING:
 
 
 class OnProcessExit(OnActionEventBase):
-    """Reacts when a process has ended."""
+    """
+    Event handler that reacts when a process has ended.
+
+    Parameters
+    ----------
+    target_action
+        The action of a process, a predicate that accepts such, or None for all.
+    on_exit
+        The entities that are visited, or a function of the event and the context that returns
+        them.
+    **kwargs
+        Keyword arguments of `BaseEventHandler`, such as `handle_once`.
+
+    Raises
+    ------
+    TypeError
+        The target or the reaction has the wrong type.
+
+    """
 
     def __init__(
         self,
@@ -23,7 +41,6 @@ class OnProcessExit(OnActionEventBase):
         on_exit: Reaction,
         **kwargs: Any,
     ) -> None:
-        """Create a handler for one action, for those that a predicate accepts, or for all."""
         from launch.actions.execute_local import ExecuteLocal
 
         super().__init__(

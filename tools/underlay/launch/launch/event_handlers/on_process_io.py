@@ -18,7 +18,25 @@ IOReaction = Callable[[ProcessIO], Optional[SomeEntitiesType]]
 
 
 class OnProcessIO(OnActionEventBase):
-    """Reacts when a process writes something."""
+    """
+    Event handler that reacts to the input and output of a process.
+
+    Parameters
+    ----------
+    target_action
+        The action of a process, a predicate that accepts such, or None for all.
+    on_stdin, on_stdout, on_stderr
+        Called with the event of bytes for or from this stream; may return entities that are
+        visited next.
+    **kwargs
+        Keyword arguments of `BaseEventHandler`, such as `handle_once`.
+
+    Raises
+    ------
+    TypeError
+        A reaction is not callable, or the target has the wrong type.
+
+    """
 
     def __init__(
         self,
@@ -29,7 +47,6 @@ class OnProcessIO(OnActionEventBase):
         on_stderr: Optional[IOReaction] = None,
         **kwargs: Any,
     ) -> None:
-        """Create a handler; each reaction is called with the event."""
         from launch.actions.execute_local import ExecuteLocal
 
         self.__reactions: dict[int, Optional[IOReaction]] = {

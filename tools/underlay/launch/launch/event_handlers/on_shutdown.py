@@ -16,10 +16,25 @@ if TYPE_CHECKING:
 
 
 class OnShutdown(BaseEventHandler):
-    """Reacts when the launch ends, for whatever reason."""
+    """
+    Event handler that reacts when the launch shuts down, for whatever reason.
+
+    Parameters
+    ----------
+    on_shutdown
+        The entities that are visited, or a function of the event and the context that returns
+        them.
+    **kwargs
+        Keyword arguments of `BaseEventHandler`, such as `handle_once`.
+
+    Raises
+    ------
+    TypeError
+        The reaction has the wrong type.
+
+    """
 
     def __init__(self, *, on_shutdown: Reaction, **kwargs: Any) -> None:
-        """Create a handler from entities, or a callable that takes the event and the context."""
         super().__init__(matcher=lambda event: isinstance(event, Shutdown), **kwargs)
         self.__reaction, self.__entities = checked_reaction(on_shutdown, type(self).__name__)
 
@@ -36,7 +51,15 @@ class OnShutdown(BaseEventHandler):
         return super().describe()[0], list(self.__entities)
 
     def handle(self, event: Event, context: LaunchContext) -> Optional[SomeEntitiesType]:
-        """Return the entities of the reaction, which are visited next."""
+        """
+        Return the entities of the reaction, which are visited next.
+
+        Parameters
+        ----------
+        event, context
+            As for `BaseEventHandler.handle`; a function as the reaction is called with both.
+
+        """
         super().handle(event, context)
         if self.__reaction is not None:
             return self.__reaction(event, context)

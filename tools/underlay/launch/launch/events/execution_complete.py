@@ -12,12 +12,19 @@ if TYPE_CHECKING:
 
 
 class ExecutionComplete(Event):
-    """An action is done."""
+    """
+    Event of an action whose execution is complete.
+
+    Parameters
+    ----------
+    action
+        The action that is done.
+
+    """
 
     name = 'launch.events.ExecutionComplete'
 
     def __init__(self, *, action: Action) -> None:
-        """Create the event of an action."""
         self.__action = action
 
     @property

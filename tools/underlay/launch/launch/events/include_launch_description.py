@@ -12,12 +12,19 @@ if TYPE_CHECKING:
 
 
 class IncludeLaunchDescription(Event):
-    """A launch description is to be visited."""
+    """
+    Event that brings in a launch description.
+
+    Parameters
+    ----------
+    launch_description
+        The description that is to be visited.
+
+    """
 
     name = 'launch.events.IncludeLaunchDescription'
 
     def __init__(self, launch_description: LaunchDescription) -> None:
-        """Create the event of a description."""
         self.__launch_description = launch_description
 
     @property

@@ -11,5 +11,18 @@ if TYPE_CHECKING:
 
 
 def matches_action(target_action: ExecuteLocal) -> Callable[[Any], bool]:
-    """Return a matcher of this action."""
+    """
+    Create a matcher of one action.
+
+    Parameters
+    ----------
+    target_action
+        The action that runs a process.
+
+    Returns
+    -------
+    callable
+        Takes an action, and returns whether it is this one.
+
+    """
     return lambda action: action is target_action

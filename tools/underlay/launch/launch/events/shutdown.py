@@ -7,7 +7,17 @@ from launch.event import Event
 
 
 class Shutdown(Event):
-    """The launch is to end."""
+    """
+    Event of the shutdown of the launch.
+
+    Parameters
+    ----------
+    reason
+        Why the launch ends, for people.
+    due_to_sigint
+        Whether the user pressed Ctrl-C.
+
+    """
 
     name = 'launch.events.Shutdown'
 
@@ -17,7 +27,6 @@ class Shutdown(Event):
         reason: str = 'reason not given',
         due_to_sigint: bool = False,
     ) -> None:
-        """Create the event, with the reason for people."""
         self.__reason = reason
         self.__due_to_sigint = due_to_sigint
 

@@ -12,12 +12,19 @@ if TYPE_CHECKING:
 
 
 class TimerEvent(Event):
-    """The period of a timer action is over."""
+    """
+    Event of a timer action whose period is over.
+
+    Parameters
+    ----------
+    timer_action
+        The timer.
+
+    """
 
     name = 'launch.events.TimerEvent'
 
     def __init__(self, *, timer_action: TimerAction) -> None:
-        """Create the event of a timer."""
         self.__timer_action = timer_action
 
     @property

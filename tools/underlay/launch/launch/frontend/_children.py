@@ -15,7 +15,22 @@ Text = tuple[Substitution, ...]
 
 
 def children_named(entity: Entity, *type_names: str) -> list[Entity]:
-    """Return the children with any of some tags in order; there may be none."""
+    """
+    Get the children of an element that have any of some tags.
+
+    Parameters
+    ----------
+    entity
+        The element.
+    *type_names
+        The tags.
+
+    Returns
+    -------
+    list of Entity
+        The children in the order of the file; there may be none.
+
+    """
     found: list[Entity] = []
     for name in type_names:
         found += entity.get_attr(name, data_type=List[Entity], optional=True) or []  # noqa: UP006
@@ -29,7 +44,33 @@ def parse_pairs(
     first: str = 'name',
     second: str = 'value',
 ) -> list[tuple[Text, Text]]:
-    """Return two attributes of each child with any of some tags."""
+    """
+    Read two attributes of each child of an element that has any of some tags.
+
+    Parameters
+    ----------
+    entity
+        The element.
+    parser
+        The parser of the file, which makes substitutions of the attributes.
+    *type_names
+        The tags of the children.
+    first, second
+        The names of the two attributes.
+
+    Returns
+    -------
+    list of tuple
+        The substitutions of both attributes of each child.
+
+    Raises
+    ------
+    AttributeError
+        A child lacks one of the attributes.
+    ValueError
+        A child has something else in it.
+
+    """
     pairs = []
     for child in children_named(entity, *type_names):
         pairs.append(

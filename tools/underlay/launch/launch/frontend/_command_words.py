@@ -14,9 +14,25 @@ _PROTECTED_BY_BACKSLASH = {'': None, "'": '', '"': '"\\'}
 
 def command_words(parts: Iterable[Substitution]) -> list[list[Substitution]]:
     """
-    Split the plain texts in a command line into words, as a shell does.
+    Split a command line into words, as a shell does.
 
-    What a substitution becomes is never split.
+    Plain texts are split. What a substitution becomes is never split.
+
+    Parameters
+    ----------
+    parts
+        The command line as substitutions.
+
+    Returns
+    -------
+    list of list of Substitution
+        The parts of each word.
+
+    Raises
+    ------
+    ValueError
+        A quote is never closed.
+
     """
     splitter = _Splitter()
     for part in parts:

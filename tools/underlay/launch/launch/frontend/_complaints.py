@@ -42,32 +42,88 @@ _ATTRIBUTES = {
 
 
 def missing_attribute(entity: Entity, name: str, data_type: Any, left: list[str]) -> str:
-    """Say that an attribute is missing, and which other one may be meant for it."""
+    """
+    Format the error about a missing attribute, with advice on what may be meant for it.
+
+    Parameters
+    ----------
+    entity
+        The element.
+    name, data_type
+        The attribute that was asked for, and its type.
+    left
+        The names of attributes and children that nobody has asked for.
+
+    """
     text = f"Attribute '{name}' of type '{data_type}' not found in Entity '{entity.type_name}'"
     return _with_advice(text, [_legacy(entity, each) or _instead(each, name) for each in left])
 
 
 def unexpected_names(entity: Entity, kind: str, names: list[str], known: list[str]) -> str:
-    """Say that an element has attributes or children that it cannot have."""
+    """
+    Format the error about attributes or children that an element cannot have.
+
+    Parameters
+    ----------
+    entity
+        The element.
+    kind
+        What they are: `attribute(s)` or `nested tag(s)`.
+    names
+        Their names.
+    known
+        The names that the element can have, one of which may be meant.
+
+    """
     listed = ', '.join(f"'{name}'" for name in sorted(set(names)))
     text = f'Unexpected {kind} found in `{entity.type_name}`: {{{listed}}}'
     return _with_advice(text, [_legacy(entity, each) or _meant(each, known) for each in names])
 
 
 def wrong_value(entity: Entity, name: str, error: Exception) -> str:
-    """Say which attribute of which element has a value that cannot be used."""
+    """
+    Format the error about an attribute whose value cannot be used.
+
+    Parameters
+    ----------
+    entity, name
+        The element, and the attribute.
+    error
+        What is wrong with the value.
+
+    """
     return f"The attribute '{name}' of `{entity.type_name}` cannot be used: {error}"
 
 
 def unknown_tag(name: str, known: Iterable[str]) -> str:
-    """Say that there is no such tag."""
+    """
+    Format the error about a tag that does not exist, with advice on what may be meant.
+
+    Parameters
+    ----------
+    name
+        The tag.
+    known
+        The tags that there are.
+
+    """
     old = f"'{name}' is none of the tags of ROS 2: {_TAGS[name]}." if name in _TAGS else ''
     text = f'Unrecognized entity of the type: {name}'
     return _with_advice(text, [old or did_you_mean(name, known)])
 
 
 def unknown_substitution(name: str, known: Iterable[str]) -> str:
-    """Say that there is no such substitution."""
+    """
+    Format the error about a substitution that does not exist, with advice on what may be meant.
+
+    Parameters
+    ----------
+    name
+        The name of the substitution.
+    known
+        The names that there are.
+
+    """
     new = _SUBSTITUTIONS.get(name)
     old = f"ROS 2 writes '{new}'." if new else ''
     return _with_advice(f'Unknown substitution: {name}', [old or did_you_mean(name, known)])

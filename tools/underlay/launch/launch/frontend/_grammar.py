@@ -28,7 +28,25 @@ Template = list[Union[str, Call]]
 
 
 def read_template(text: str) -> Template:
-    """Return the parts of a text: plain texts, and substitutions."""
+    """
+    Split a text of a launch file into plain texts and substitutions.
+
+    Parameters
+    ----------
+    text
+        The text; backslashes in it protect the characters behind them.
+
+    Returns
+    -------
+    list
+        A `str` for each plain text, and a `Call` for each substitution.
+
+    Raises
+    ------
+    InvalidSubstitutionError
+        A substitution is written wrongly.
+
+    """
     return _Reader(text).template(stop='')
 
 

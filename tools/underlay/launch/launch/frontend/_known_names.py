@@ -71,7 +71,15 @@ def known_substitutions() -> dict[str, str]:
 
 
 def load(place: str) -> type:
-    """Return the class at a place."""
+    """
+    Import the class at a place.
+
+    Parameters
+    ----------
+    place
+        The module and the name of the class, with a colon between them.
+
+    """
     module, _, name = place.partition(':')
     found: type = getattr(import_module(module), name)
     return found

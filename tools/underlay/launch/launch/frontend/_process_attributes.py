@@ -31,7 +31,29 @@ _TYPED = {'emulate_tty': bool, 'respawn_delay': float, 'respawn_max_retries': in
 
 
 def parse_process(entity: Entity, parser: Parser, ignored: frozenset[str]) -> dict[str, Any]:
-    """Return the arguments of ExecuteProcess, but those of attributes that are ignored."""
+    """
+    Read the attributes of an element that stands for a process.
+
+    Parameters
+    ----------
+    entity
+        The element.
+    parser
+        The parser of the file, which makes substitutions of texts.
+    ignored
+        The names of attributes that are left to the caller.
+
+    Returns
+    -------
+    dict
+        Keyword arguments of `ExecuteProcess`.
+
+    Raises
+    ------
+    ValueError
+        The attribute `on_exit` is something else than `shutdown`.
+
+    """
     kwargs = parse_texts(
         entity, parser, {name: kw for name, kw in _TEXTS.items() if name not in ignored}
     )
@@ -52,7 +74,24 @@ def parse_process(entity: Entity, parser: Parser, ignored: frozenset[str]) -> di
 
 
 def parse_texts(entity: Entity, parser: Parser, names: dict[str, str]) -> dict[str, Any]:
-    """Return attributes that need not be there, each under the other name that it gets."""
+    """
+    Read attributes of an element that are texts and need not be there.
+
+    Parameters
+    ----------
+    entity
+        The element.
+    parser
+        The parser of the file, which makes substitutions of texts.
+    names
+        The keyword of each attribute in the result.
+
+    Returns
+    -------
+    dict
+        The substitutions of each attribute that is there, by its keyword.
+
+    """
     kwargs: dict[str, Any] = {}
     for name, keyword in names.items():
         text = entity.get_attr(name, optional=True)
@@ -62,7 +101,27 @@ def parse_texts(entity: Entity, parser: Parser, names: dict[str, str]) -> dict[s
 
 
 def parse_command(text: str, parser: Parser) -> list[Any]:
-    """Return the words of a command line."""
+    """
+    Split a command line of a launch file into words.
+
+    Parameters
+    ----------
+    text
+        The command line.
+    parser
+        The parser of the file, which makes substitutions of texts.
+
+    Returns
+    -------
+    list of list of Substitution
+        The parts of each word.
+
+    Raises
+    ------
+    ValueError
+        A quote is never closed.
+
+    """
     return list(command_words(parser.parse_substitution(text)))
 
 

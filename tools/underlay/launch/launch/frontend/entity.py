@@ -17,10 +17,25 @@ _numbers = count(1)
 
 class Entity:
     """
-    An element with attributes and children, which notes what has been asked for.
+    An element of a launch file with attributes and children, which notes what has been asked for.
 
-    A format derives from this class and says where attributes and children are. The elements
-    of a file are created in the order that they have in it.
+    A format derives from this class and says where attributes and children are. The elements of a
+    file are created in the order that they have in it.
+
+    Parameters
+    ----------
+    type_name
+        The tag of the element.
+    parent
+        The element around it, None for the root.
+    call_site
+        The line of the file at which the element lies, if it is known.
+
+    Attributes
+    ----------
+    order
+        A number that is greater than those of all elements before it in the file.
+
     """
 
     order = 0
@@ -32,7 +47,6 @@ class Entity:
         parent: Optional[Entity] = None,
         call_site: Optional[CallSite] = None,
     ) -> None:
-        """Create the element with this tag, which lies at a line of a file."""
         self.__type_name = type_name
         self.__parent = parent
         self.__asked: list[str] = []
@@ -63,13 +77,27 @@ class Entity:
         can_be_str: bool = True,
     ) -> Any:
         """
-        Return the value of an attribute, or the children with a tag.
+        Get the value of an attribute, or the children with a tag.
 
-        :param name: the attribute, or the tag
-        :param data_type: str, int, float, bool, a list of one of them, None for any of those, or
-            List[Entity] for children
-        :param optional: whether None is returned if there is none, rather than an error raised
-        :param can_be_str: whether a value with substitutions is returned as a text
+        Parameters
+        ----------
+        name
+            The attribute, or the tag.
+        data_type
+            str, int, float, bool, a list of one of them, None for any of those, or List[Entity]
+            for children.
+        optional
+            Whether None is returned if there is none, rather than an error raised.
+        can_be_str
+            Whether a value with substitutions is returned as a text.
+
+        Raises
+        ------
+        AttributeError
+            There is no such attribute or child, and it is not optional.
+        TypeError
+            The value cannot have the type.
+
         """
         self.__asked.append(name)
         if check_is_list_entity(data_type):

@@ -23,17 +23,61 @@ substitution_parse_methods: dict[str, ParseMethod] = {}
 
 
 def expose_action(name: str) -> Callable[[ExposedT], ExposedT]:
-    """Return a decorator for an action, or a parsing function, that has this tag."""
+    """
+    Create a decorator that makes an action available to launch files under a tag.
+
+    Parameters
+    ----------
+    name
+        The tag.
+
+    Returns
+    -------
+    callable
+        Takes a class that has `parse`, or a parsing function, and returns it; a RuntimeError says
+        that the tag is taken, or that nothing can be parsed.
+
+    """
     return _expose(name, action_parse_methods, known_actions)
 
 
 def expose_substitution(name: str) -> Callable[[ExposedT], ExposedT]:
-    """Return a decorator for a substitution, or a parsing function, of this name."""
+    """
+    Create a decorator that makes a substitution available to launch files under a name.
+
+    Parameters
+    ----------
+    name
+        The name.
+
+    Returns
+    -------
+    callable
+        As for `expose_action`.
+
+    """
     return _expose(name, substitution_parse_methods, known_substitutions)
 
 
 def instantiate_action(entity: Entity, parser: Parser) -> Action:
-    """Return the action that an element stands for."""
+    """
+    Create the action that an element stands for.
+
+    Parameters
+    ----------
+    entity
+        The element; nothing may be left in it that was not asked for.
+    parser
+        The parser of the file.
+
+    Raises
+    ------
+    RuntimeError
+        No action has the tag of the element.
+    ValueError
+        The element has attributes or children that it cannot have.
+
+    """
     method = _find(entity.type_name, action_parse_methods, known_actions())
     if method is None:
         names = [*known_actions(), *action_parse_methods]
@@ -45,7 +89,22 @@ def instantiate_action(entity: Entity, parser: Parser) -> Action:
 
 
 def instantiate_substitution(name: str, arguments: Iterable[Any]) -> Substitution:
-    """Return a substitution with these arguments."""
+    """
+    Create the substitution that has a name in launch files.
+
+    Parameters
+    ----------
+    name
+        The name.
+    arguments
+        Its arguments, each as a list of substitutions.
+
+    Raises
+    ------
+    LookupError
+        No substitution has the name.
+
+    """
     method = _find(name, substitution_parse_methods, known_substitutions())
     if method is None:
         names = [*known_substitutions(), *substitution_parse_methods]

@@ -15,12 +15,48 @@ from launch.substitutions.text_substitution import TextSubstitution
 
 
 def parse_substitution(string_value: str) -> list[Substitution]:
-    """Return what a text stands for, each `$(name arguments)` in it as a substitution."""
+    """
+    Parse a text of a launch file with substitutions such as `$(name arguments)`.
+
+    Parameters
+    ----------
+    string_value
+        The text.
+
+    Returns
+    -------
+    list of Substitution
+        Its parts in order, a `TextSubstitution` for each plain text.
+
+    Raises
+    ------
+    InvalidSubstitutionError
+        A substitution is written wrongly, or not known.
+
+    """
     return [part for part, _ in parse_with_positions(string_value)]
 
 
 def parse_if_substitutions(value: Any) -> Any:
-    """Parse a text, or each text of a list; return anything else as it is."""
+    """
+    Parse a text, or each text of a list; return anything else as it is.
+
+    Parameters
+    ----------
+    value
+        The value of an attribute.
+
+    Returns
+    -------
+    Any
+        The substitutions of the text, a list of those of each text, or the value.
+
+    Raises
+    ------
+    InvalidSubstitutionError
+        A substitution is written wrongly, or not known.
+
+    """
     if isinstance(value, str):
         return parse_substitution(value)
     if isinstance(value, list) and value and all(isinstance(item, str) for item in value):
@@ -29,12 +65,39 @@ def parse_if_substitutions(value: Any) -> Any:
 
 
 def replace_escaped_characters(data: str) -> str:
-    """Return a text with each backslash replaced by the character that it protects."""
+    """
+    Replace each backslash in a text by the character that it protects.
+
+    Parameters
+    ----------
+    data
+        The text, in which substitutions are not looked for.
+
+    """
     return re.sub(r'\\(.)', r'\1', data, flags=re.DOTALL)
 
 
 def parse_with_positions(text: str) -> Iterator[tuple[Substitution, int]]:
-    """Yield the parts of a text, each with the position that it begins at, or 0 if plain."""
+    """
+    Parse a text of a launch file, with the positions of its substitutions.
+
+    Parameters
+    ----------
+    text
+        The text.
+
+    Yields
+    ------
+    tuple
+        Each part as a substitution, and the index at which it begins in the text; 0 if it is
+        plain.
+
+    Raises
+    ------
+    InvalidSubstitutionError
+        A substitution is written wrongly, or not known.
+
+    """
     for part in read_template(text):
         position = part.position if isinstance(part, Call) else 0
         yield _make(part, text), position

@@ -30,7 +30,25 @@ class Parser:
 
     @classmethod
     def load(cls, file: SomeFile) -> tuple[Entity, Parser]:
-        """Return the root element of a file, and the parser of its format."""
+        """
+        Load a launch file; those parsers come first that its name suits.
+
+        Parameters
+        ----------
+        file
+            The path of the file, or an open text file, which is read again for each parser.
+
+        Returns
+        -------
+        tuple
+            The root element of the file, and the parser of its format.
+
+        Raises
+        ------
+        InvalidFrontendLaunchFileError
+            No parser can read it; the text has the errors of those that claim files of this name.
+
+        """
         errors: dict[type[Parser], InvalidFrontendLaunchFileError] = {}
         name = os.fspath(getattr(file, 'name', '') if hasattr(file, 'read') else file)
         for parser in cls._in_order(name):
@@ -51,7 +69,15 @@ class Parser:
 
     @classmethod
     def claims(cls, file_name: str) -> bool:
-        """Return whether the name of a file says that it has this format."""
+        """
+        Whether the extension of a file name is one of this format.
+
+        Parameters
+        ----------
+        file_name
+            The name or the path of the file.
+
+        """
         return any(file_name.endswith(f'.{end}') for end in cls.get_file_extensions())
 
     @classmethod
@@ -61,7 +87,15 @@ class Parser:
 
     @classmethod
     def is_extension_valid(cls, extension: str) -> bool:
-        """Return whether files with this end of the name have a known format."""
+        """
+        Whether there is a parser for files with an extension.
+
+        Parameters
+        ----------
+        extension
+            The extension, with or without its dot.
+
+        """
         return extension.lstrip('.') in cls.get_available_extensions()
 
     @classmethod
@@ -78,7 +112,15 @@ class Parser:
         return [*_known_parsers(), *extension_parsers().values()]
 
     def parse_action(self, entity: Entity) -> Action:
-        """Return the action that an element stands for; it knows the line of its element."""
+        """
+        Create the action that an element stands for.
+
+        Parameters
+        ----------
+        entity
+            The element, whose line becomes that of the action.
+
+        """
         try:
             action = instantiate_action(entity, self)
         except Exception as error:
@@ -89,23 +131,83 @@ class Parser:
         return action
 
     def parse_actions(self, entities: Iterable[Entity]) -> list[Action]:
-        """Return the actions that some elements stand for."""
+        """
+        Create the actions that elements stand for.
+
+        Parameters
+        ----------
+        entities
+            The elements, in order.
+
+        """
         return [self.parse_action(entity) for entity in entities]
 
     def parse_substitution(self, value: str) -> list[Substitution]:
-        """Return what a text stands for."""
+        """
+        Parse a text with substitutions.
+
+        Parameters
+        ----------
+        value
+            The text.
+
+        Returns
+        -------
+        list of Substitution
+            Its parts in order.
+
+        Raises
+        ------
+        InvalidSubstitutionError
+            A substitution is written wrongly, or not known.
+
+        """
         return parse_substitution(value)
 
     def escape_characters(self, value: str) -> str:
-        """Return a text that cannot have substitutions, without its backslashes."""
+        """
+        Replace each backslash in a text that cannot have substitutions by what it protects.
+
+        Parameters
+        ----------
+        value
+            The text.
+
+        """
         return replace_escaped_characters(value)
 
     def parse_if_substitutions(self, value: Any) -> Any:
-        """Return what a text, or a list of texts, stands for, and anything else as it is."""
+        """
+        Parse a text, or each text of a list; return anything else as it is.
+
+        Parameters
+        ----------
+        value
+            The value of an attribute.
+
+        Returns
+        -------
+        Any
+            As for `launch.frontend.parse_substitution.parse_if_substitutions`.
+
+        """
         return parse_if_substitutions(value)
 
     def parse_description(self, entity: Entity) -> LaunchDescription:
-        """Return the launch description that the root element stands for."""
+        """
+        Create the launch description that the root element stands for.
+
+        Parameters
+        ----------
+        entity
+            The root element.
+
+        Raises
+        ------
+        RuntimeError
+            Its tag is not `launch`.
+
+        """
         if entity.type_name != 'launch':
             raise RuntimeError("Expected 'launch' as root tag")
         deprecated: Optional[str] = entity.get_attr('deprecated', optional=True)

@@ -25,7 +25,15 @@ _TYPES: dict[str, Any] = {
 
 
 def check_is_list_entity(data_type: Any) -> bool:
-    """Return whether a type is that of a list of entities."""
+    """
+    Whether a type is a list of elements, such as `List[Entity]`.
+
+    Parameters
+    ----------
+    data_type
+        Any type, or None.
+
+    """
     from launch.frontend.entity import Entity
 
     if get_origin(data_type) is not list:
@@ -35,14 +43,49 @@ def check_is_list_entity(data_type: Any) -> bool:
 
 
 def get_data_type_from_identifier(type_name: str) -> Any:
-    """Return the type that a launch file calls by a name; None stands for YAML rules."""
+    """
+    Look up a type by the name that launch files have for it.
+
+    Parameters
+    ----------
+    type_name
+        The name, such as `int` or `list_of_strs`.
+
+    Returns
+    -------
+    Any
+        The type; None stands for YAML rules.
+
+    Raises
+    ------
+    ValueError
+        There is no such name.
+
+    """
     if type_name not in _TYPES:
         raise ValueError(f"unknown type '{type_name}': expected one of {', '.join(_TYPES)}")
     return _TYPES[type_name]
 
 
 def value_of_text(text: str, data_type: Any, can_be_str: bool) -> Any:
-    """Return what a text stands for; one with substitutions stays a text if that is allowed."""
+    """
+    Convert the text of an attribute to a type.
+
+    Parameters
+    ----------
+    text
+        The text.
+    data_type
+        The type, as for `Entity.get_attr`.
+    can_be_str
+        Whether a text with substitutions is returned as it is.
+
+    Raises
+    ------
+    TypeError
+        The text cannot be converted, or has substitutions that are not allowed.
+
+    """
     if data_type is str or (not text and data_type is None):
         return text
     if '$(' in text:
@@ -57,7 +100,26 @@ def value_of_text(text: str, data_type: Any, can_be_str: bool) -> Any:
 
 
 def value_of_texts(texts: list[str], data_type: Any, can_be_str: bool) -> list[Any]:
-    """Return what the texts of a list stand for."""
+    """
+    Convert the texts of a list to the type of its items.
+
+    Parameters
+    ----------
+    texts
+        The texts.
+    data_type
+        The type of the list, such as `list[int]`; for any other, YAML rules decide.
+    can_be_str
+        Whether a list of texts with substitutions is returned as it is.
+
+    Raises
+    ------
+    TypeError
+        A text cannot be converted, or has substitutions that are not allowed.
+    ValueError
+        YAML rules give items of different types.
+
+    """
     item_type = get_args(data_type)[0] if get_origin(data_type) is list else None
     if can_be_str and any('$(' in text for text in texts):
         return list(texts)
@@ -66,7 +128,26 @@ def value_of_texts(texts: list[str], data_type: Any, can_be_str: bool) -> list[A
 
 
 def checked_value(value: Any, data_type: Any, can_be_str: bool) -> Any:
-    """Return a value that has a type already, if it has the right one."""
+    """
+    Check the type of a value that has one already, as in YAML.
+
+    Parameters
+    ----------
+    value
+        The value; a text is converted as by `value_of_text`.
+    data_type
+        The type, as for `Entity.get_attr`.
+    can_be_str
+        Whether texts with substitutions are returned as they are.
+
+    Raises
+    ------
+    TypeError
+        The value has another type.
+    ValueError
+        The value is a list of different types, and no type is asked for.
+
+    """
     if data_type is None and isinstance(value, (bool, int, float, str)):
         return value
     if data_type is None and isinstance(value, list):

@@ -12,12 +12,19 @@ from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class AnyLaunchDescriptionSource(LaunchDescriptionSource):
-    """Loads a launch file in whatever format it is."""
+    """
+    Source that loads a launch file in whatever format it is.
+
+    Parameters
+    ----------
+    launch_file_path
+        The path of the file, or what stands for it.
+
+    """
 
     _loads_file = True
 
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
-        """Create the source of the file at a path."""
         super().__init__(None, launch_file_path, 'any launch file')
 
     def _get_launch_description(self, location: str) -> LaunchDescription:

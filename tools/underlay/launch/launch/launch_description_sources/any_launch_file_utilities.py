@@ -18,7 +18,22 @@ _PYTHON = '.py'
 def get_launch_description_from_any_launch_file(
     launch_file_path: str | os.PathLike[str],
 ) -> LaunchDescription:
-    """Return the launch description of a file, whatever its format."""
+    """
+    Load the launch description of a file, whatever its format.
+
+    Parameters
+    ----------
+    launch_file_path
+        The path of the file, whose extension says what is tried first.
+
+    Raises
+    ------
+    FileNotFoundError
+        There is no such file.
+    InvalidLaunchFileError
+        It could not be loaded in any format; the text says why not.
+
+    """
     path = os.fspath(launch_file_path)
     if not os.path.isfile(path):
         from launch._missing_file import explain_missing_file

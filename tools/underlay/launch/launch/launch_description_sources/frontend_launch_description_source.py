@@ -13,7 +13,19 @@ from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
-    """Loads a launch file in XML, YAML or another format that a parser is installed for."""
+    """
+    Source that loads a launch file in XML, YAML or another format that a parser is installed for.
+
+    Parameters
+    ----------
+    launch_file_path
+        The path of the file, or what stands for it.
+    method
+        How the description is loaded, for people.
+    parser
+        The parser of the format; by default any that can read the file.
+
+    """
 
     _loads_file = True
 
@@ -24,7 +36,6 @@ class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
         method: str = 'interpreted frontend launch file',
         parser: type[Parser] = Parser,
     ) -> None:
-        """Create the source of the file at a path, which only `parser` reads."""
         super().__init__(None, launch_file_path, method)
         self.__parser = parser
 

@@ -14,7 +14,24 @@ def get_launch_description_from_frontend_launch_file(
     *,
     parser: type[Parser] = Parser,
 ) -> LaunchDescription:
-    """Return the launch description of a file in a format that `parser` reads."""
+    """
+    Load the launch description of a file in XML, YAML or another format than Python.
+
+    Parameters
+    ----------
+    frontend_launch_file_path
+        The path of the file.
+    parser
+        The parser of the format; by default any that can read the file.
+
+    Raises
+    ------
+    FileNotFoundError
+        There is no such file.
+    InvalidFrontendLaunchFileError
+        The parser cannot read it.
+
+    """
     path = os.fspath(frontend_launch_file_path)
     if not os.path.isfile(path):
         from launch._missing_file import explain_missing_file

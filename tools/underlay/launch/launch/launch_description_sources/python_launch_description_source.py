@@ -21,12 +21,19 @@ _ADVICE = 'The file is not one in Python: {}, or AnyLaunchDescriptionSource, rea
 
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):
-    """Loads a launch file in Python."""
+    """
+    Source that loads a launch file in Python.
+
+    Parameters
+    ----------
+    launch_file_path
+        The path of the file, or what stands for it.
+
+    """
 
     _loads_file = True
 
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
-        """Create the source of the file at a path."""
         super().__init__(None, launch_file_path, 'interpreted python launch file')
 
     def _get_launch_description(self, location: str) -> LaunchDescription:

@@ -29,7 +29,20 @@ class InvalidPythonLaunchFileError(InvalidLaunchFileError):
 def load_python_launch_file_as_module(
     python_launch_file_path: str | os.PathLike[str],
 ) -> ModuleType:
-    """Return a launch file as a module, run from its source, which is not registered."""
+    """
+    Execute a launch file in Python as a module, which is not registered in `sys.modules`.
+
+    Parameters
+    ----------
+    python_launch_file_path
+        The path of the file, of which no cached bytecode is used.
+
+    Raises
+    ------
+    InvalidPythonLaunchFileError
+        No module can be made of the file.
+
+    """
     path = os.fspath(python_launch_file_path)
     loader = SourceFileLoader(_MODULE_NAME, path)
     spec = spec_from_file_location(_MODULE_NAME, path, loader=loader)
@@ -44,7 +57,24 @@ def load_python_launch_file_as_module(
 def get_launch_description_from_python_launch_file(
     python_launch_file_path: str | os.PathLike[str],
 ) -> LaunchDescription:
-    """Return what the function `generate_launch_description` of a launch file returns."""
+    """
+    Load the launch description that `generate_launch_description` of a file returns.
+
+    Parameters
+    ----------
+    python_launch_file_path
+        The path of the file.
+
+    Raises
+    ------
+    FileNotFoundError
+        There is no such file.
+    InvalidPythonLaunchFileError
+        The file has no such function.
+    AttributeError
+        The function returns no launch description.
+
+    """
     path = os.fspath(python_launch_file_path)
     if not os.path.isfile(path):
         from launch._missing_file import explain_missing_file

@@ -17,10 +17,19 @@ _CLEAR = 64 * 1024
 
 
 class Backlog:
-    """Writes at once as long as the reader keeps up, and else from a thread, in order."""
+    """
+    Writes at once as long as the reader keeps up, and else from a thread, in order.
+
+    Parameters
+    ----------
+    descriptor
+        What is written to.
+    on_error
+        Called with the error if something cannot be written, perhaps from the thread.
+
+    """
 
     def __init__(self, descriptor: int, on_error: Callable[[OSError], None]) -> None:
-        """Write to a descriptor; `on_error` may be called from the thread."""
         self._descriptor = descriptor
         self._on_error = on_error
         self._pieces: deque[memoryview] = deque()
@@ -40,7 +49,15 @@ class Backlog:
         return self._size > _CONGESTED
 
     def when_clear(self, callback: Callable[[], None]) -> None:
-        """Call a function, from the thread, when there is room again; at once if there is."""
+        """
+        Call a function when there is room again; at once if there is.
+
+        Parameters
+        ----------
+        callback
+            The function, which is called from the thread unless at once.
+
+        """
         with self._lock:
             if self._size > _CLEAR:
                 self._waiting.append(callback)
@@ -48,7 +65,15 @@ class Backlog:
         callback()
 
     def write(self, data: bytes) -> None:
-        """Write what can be written now and keep the rest."""
+        """
+        Write what can be written now and keep the rest for the thread.
+
+        Parameters
+        ----------
+        data
+            The bytes.
+
+        """
         with self._lock:
             rest = memoryview(data)
             if not self._size:

@@ -40,6 +40,15 @@ class LaunchConfig:
 
     @level.setter
     def level(self, value: int) -> None:
+        """
+        Set the level from which on something is logged, also of the loggers that there are.
+
+        Parameters
+        ----------
+        value
+            A level of the module `logging`.
+
+        """
         self._level = value
         for name in _known_loggers:
             logging.getLogger(name).setLevel(value)
@@ -53,6 +62,20 @@ class LaunchConfig:
 
     @log_dir.setter
     def log_dir(self, value: str) -> None:
+        """
+        Set the folder of the log files of this run, and make it.
+
+        Parameters
+        ----------
+        value
+            The path of the folder.
+
+        Raises
+        ------
+        RuntimeError
+            Another folder is in use already.
+
+        """
         if self._log_dir not in (None, value):
             raise RuntimeError(
                 f"the folder of the log files is '{self._log_dir}' already and cannot become "
@@ -62,13 +85,29 @@ class LaunchConfig:
         self._log_dir = value
 
     def set_screen_format(self, screen_format: str) -> None:
-        """Set the brace-style format of what is shown on the screen."""
+        """
+        Set the format of what is shown on the screen.
+
+        Parameters
+        ----------
+        screen_format
+            A brace-style format, `default` or `default_with_timestamp`.
+
+        """
         self._screen_formatter = screen_formatter(screen_format)
         if self._screen_handler is not None:
             self._screen_handler.setFormatter(self._screen_formatter)
 
     def set_log_format(self, log_format: str) -> None:
-        """Set the brace-style format of the main log file."""
+        """
+        Set the format of the main log file.
+
+        Parameters
+        ----------
+        log_format
+            A brace-style format, or `default`.
+
+        """
         self._log_formatter = log_formatter(log_format)
         if _MAIN_LOG in self._file_handlers:
             self._file_handlers[_MAIN_LOG].setFormatter(self._log_formatter)
@@ -81,11 +120,27 @@ class LaunchConfig:
         return self._screen_handler
 
     def get_log_file_path(self, file_name: str = _MAIN_LOG) -> str:
-        """Return the path of a log file."""
+        """
+        Return the path of a log file of this run; its folder is made.
+
+        Parameters
+        ----------
+        file_name
+            The name of the file.
+
+        """
         return os.path.join(self.log_dir, file_name)
 
     def get_log_file_handler(self, file_name: str = _MAIN_LOG) -> LogFileHandler:
-        """Return the handler that writes to a log file."""
+        """
+        Get the handler that writes to a log file, which is created on first use.
+
+        Parameters
+        ----------
+        file_name
+            The name of the file.
+
+        """
         if file_name not in self._file_handlers:
             path = self.get_log_file_path if self._keeps_files else _nowhere
             handler = LogFileHandler(lambda: path(file_name), self.lost_files)
@@ -114,7 +169,17 @@ launch_config = LaunchConfig()
 
 
 def logger_at(name: Optional[str], level: int) -> logging.Logger:
-    """Return a logger of a level; for a new one this takes no look at all the others."""
+    """
+    Get a logger and set its level; for a new one this takes no look at all the others.
+
+    Parameters
+    ----------
+    name
+        The name of the logger, None for the root.
+    level
+        The level.
+
+    """
     is_new = name is not None and name not in logging.root.manager.loggerDict
     logger = logging.getLogger(name)
     if is_new:
@@ -125,7 +190,15 @@ def logger_at(name: Optional[str], level: int) -> logging.Logger:
 
 
 def get_logger(name: Optional[str] = None) -> logging.Logger:
-    """Return a logger that writes to the screen and to the main log file."""
+    """
+    Get a logger that writes to the screen and to the main log file.
+
+    Parameters
+    ----------
+    name
+        The name of the logger, None for the root.
+
+    """
     if name in _known_loggers:
         logger = logging.getLogger(name)
     else:
@@ -143,7 +216,15 @@ def get_logger(name: Optional[str] = None) -> logging.Logger:
 
 
 def log_launch_config(*, logger: Optional[logging.Logger] = None) -> None:
-    """Log where the log files are and from which level on something is logged."""
+    """
+    Log where the log files are and from which level on something is logged.
+
+    Parameters
+    ----------
+    logger
+        The logger that gets it, by default `launch`.
+
+    """
     target = get_logger('launch') if logger is None else logger
     target.info('All log files can be found below %s', launch_config.log_dir)
     level = logging.getLevelName(launch_config.level)

@@ -19,12 +19,29 @@ _LOG_FORMATS = {
 
 
 def screen_formatter(text: Optional[str]) -> logging.Formatter:
-    """Return the formatter of the screen, from a format or the name of a known one."""
+    """
+    Create the formatter of the screen.
+
+    Parameters
+    ----------
+    text
+        A brace-style format, or the name of a known one: `default` (also for None) or
+        `default_with_timestamp`.
+
+    """
     return _formatter(_SCREEN_FORMATS.get(text or 'default', text or ''))
 
 
 def log_formatter(text: Optional[str]) -> logging.Formatter:
-    """Return the formatter of the main log file, from a format or the name of a known one."""
+    """
+    Create the formatter of the main log file.
+
+    Parameters
+    ----------
+    text
+        A brace-style format, or the name of a known one: `default` (also for None).
+
+    """
     return _formatter(_LOG_FORMATS.get(text or 'default', text or ''))
 
 
@@ -34,7 +51,15 @@ def bare_formatter() -> logging.Formatter:
 
 
 def label_formatter(label: str) -> logging.Formatter:
-    """Return the formatter of a process's lines on the screen: with a colour on a terminal."""
+    """
+    Create the formatter of a process's lines on the screen, which colours labels on a terminal.
+
+    Parameters
+    ----------
+    label
+        The label of the process, whose number chooses the colour.
+
+    """
     from launch.logging._screen import screen
 
     return _Coloured(label) if screen.has_colours() else bare_formatter()

@@ -15,15 +15,32 @@ class ScreenHandler(logging.Handler):
     """Writes records to the screen."""
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Write a record."""
+        """
+        Write a record to the screen.
+
+        Parameters
+        ----------
+        record
+            The record.
+
+        """
         screen.write_line(self.format(record))
 
 
 class LogFileHandler(logging.Handler):
-    """Writes records to a file, which is opened when the first one comes."""
+    """
+    Handler that writes records to a file, which is opened when the first one comes.
+
+    Parameters
+    ----------
+    path
+        Returns the path of the file when it is to be opened.
+    lost_files
+        Reports the file if it cannot be written.
+
+    """
 
     def __init__(self, path: Callable[[], str], lost_files: LostFiles) -> None:
-        """Create the handler of the file at the path that a function returns."""
         super().__init__()
         self._lost_files = lost_files
         self._path = path
@@ -32,11 +49,27 @@ class LogFileHandler(logging.Handler):
         self._name = ''
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Write a record."""
+        """
+        Write a record to the file.
+
+        Parameters
+        ----------
+        record
+            The record.
+
+        """
         self.write_line(self.format(record))
 
     def write_line(self, text: str) -> None:
-        """Write a line; after a failure nothing is written any more."""
+        """
+        Write a line to the file; after a failure nothing is written any more.
+
+        Parameters
+        ----------
+        text
+            The line, without a line break at its end.
+
+        """
         if self._failed:
             return
         try:

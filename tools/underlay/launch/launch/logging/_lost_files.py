@@ -17,11 +17,20 @@ class LostFiles:
     """Log files that cannot be written: each reason is said once, with the first file."""
 
     def __init__(self) -> None:
-        """Know of none."""
         self._reasons: set[str] = set()
 
     def add(self, path: str, reason: str) -> None:
-        """Take note of a file that cannot be written any more."""
+        """
+        Report a log file that cannot be written any more, unless the reason has been reported.
+
+        Parameters
+        ----------
+        path
+            The path of the file.
+        reason
+            Why it cannot be written.
+
+        """
         if reason not in self._reasons:
             self._reasons.add(reason)
             screen.write_line(
@@ -31,7 +40,20 @@ class LostFiles:
             )
 
     def without_errors(self, lines: list[str]) -> list[str]:
-        """Return the lines of a node but those that say that its log file cannot be written."""
+        """
+        Filter out, and report, a node's messages that its log file cannot be written.
+
+        Parameters
+        ----------
+        lines
+            The lines of the output.
+
+        Returns
+        -------
+        list of str
+            The lines without these messages.
+
+        """
         kept = []
         for line in lines:
             found = _NODE_ERROR.match(line) if line.startswith('[***') else None

@@ -25,7 +25,26 @@ _STREAMS = ('stdout', 'stderr', 'both')
 
 
 def normalize_output_config(config: OutputConfig) -> dict[str, frozenset[str]]:
-    """Return where stdout, stderr and both of them go; a ValueError says what is wrong."""
+    """
+    Resolve where the output streams of a process go.
+
+    Parameters
+    ----------
+    config
+        The name of a preset (screen, log, both, own_log or full), or the destinations (screen, log
+        or own_log) of stdout, stderr and both.
+
+    Returns
+    -------
+    dict of str to frozenset of str
+        The destinations of each of the three.
+
+    Raises
+    ------
+    ValueError
+        There is no such preset, stream or destination.
+
+    """
     if isinstance(config, str):
         if config not in _PRESETS:
             raise ValueError(
@@ -56,7 +75,27 @@ def get_output_loggers(
     process_name: str,
     output_config: OutputConfig,
 ) -> tuple[logging.Logger, logging.Logger]:
-    """Return the loggers of the standard output and the standard error of a process."""
+    """
+    Get the loggers of the standard output and the standard error of a process.
+
+    Parameters
+    ----------
+    process_name
+        The label of the process, by which its loggers and log files are named.
+    output_config
+        Where the output goes, as for `normalize_output_config`.
+
+    Returns
+    -------
+    tuple of Logger
+        That of the standard output, and that of the standard error.
+
+    Raises
+    ------
+    ValueError
+        The configuration is not valid.
+
+    """
     config = normalize_output_config(output_config)
     stdout, stderr = (_logger(process_name, stream, config) for stream in ('stdout', 'stderr'))
     return stdout, stderr
@@ -83,7 +122,15 @@ def _logger(
 
 
 def is_on_screen(logger: logging.Logger) -> bool:
-    """Return whether what a logger gets is shown."""
+    """
+    Whether what a logger gets is shown on the screen.
+
+    Parameters
+    ----------
+    logger
+        One of the loggers of `get_output_loggers`.
+
+    """
     return any(isinstance(handler, ScreenHandler) for handler in logger.handlers)
 
 

@@ -19,7 +19,6 @@ class Screen:
     """
 
     def __init__(self) -> None:
-        """Create the writer."""
         self._on_closed: Optional[Callable[[], None]] = None
         self._is_unread = False
         self._broken_stream: Optional[object] = None
@@ -27,7 +26,15 @@ class Screen:
         self._backlog: Optional[Backlog] = None
 
     def when_closed(self, callback: Optional[Callable[[], None]]) -> None:
-        """Call a function when nobody reads any more, at once if that is so already."""
+        """
+        Set the callback for when nobody reads the standard output any more.
+
+        Parameters
+        ----------
+        callback
+            The function, which is called at once if that is so already; None for nothing.
+
+        """
         self._on_closed = callback
         if callback is not None and self._is_unread and sys.stdout is self._broken_stream:
             callback()
@@ -43,7 +50,15 @@ class Screen:
         return self._backlog is not None and self._backlog.is_congested
 
     def when_clear(self, callback: Callable[[], None]) -> None:
-        """Call a function, perhaps from another thread, when the reader has caught up."""
+        """
+        Call a function when the reader has caught up; at once if it has.
+
+        Parameters
+        ----------
+        callback
+            The function, which may be called from another thread.
+
+        """
         if self._backlog is None:
             callback()
         else:
@@ -58,7 +73,15 @@ class Screen:
             return False
 
     def write_line(self, text: str) -> None:
-        """Write a line, or several; what cannot be encoded is escaped."""
+        """
+        Write a line, or several; what cannot be encoded is escaped.
+
+        Parameters
+        ----------
+        text
+            The lines, without a line break at the end.
+
+        """
         stream = sys.stdout
         if stream is None or stream is self._broken_stream:
             return

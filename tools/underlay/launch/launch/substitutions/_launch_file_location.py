@@ -12,7 +12,26 @@ if TYPE_CHECKING:
 
 
 def launch_file_location(context: LaunchContext, variable: str, name: str) -> str:
-    """Return a local variable about the file for the substitution of a name."""
+    """
+    Look up where the launch file that is being read lies.
+
+    It warns if the location is that of a file that was included before.
+
+    Parameters
+    ----------
+    context
+        The state of the launch, whose local variables are read.
+    variable
+        The local variable, `current_launch_file_path` or `current_launch_file_directory`.
+    name
+        The name of the substitution, for messages.
+
+    Raises
+    ------
+    SubstitutionFailure
+        No launch file is being read.
+
+    """
     known = context.get_locals_as_dict()
     if variable not in known:
         raise SubstitutionFailure(

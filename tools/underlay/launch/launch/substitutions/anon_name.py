@@ -20,12 +20,19 @@ _FORBIDDEN = str.maketrans('.-:', '___')
 
 
 class AnonName(Substitution):
-    """Stands for a name made unique; the same name always gives the same result."""
+    """
+    Substitution of a name made unique; the same name always gives the same result.
+
+    Parameters
+    ----------
+    name
+        The name.
+
+    """
 
     frontend_required = ('name',)
 
     def __init__(self, name: SomeSubstitutionsType) -> None:
-        """Create the substitution of a name."""
         self.__name = normalize_to_list_of_substitutions(name)
 
     @property
@@ -38,7 +45,15 @@ class AnonName(Substitution):
         return f'AnonName({" + ".join(sub.describe() for sub in self.__name)})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the unique name, which a launch configuration remembers."""
+        """
+        Return the unique name, which the launch configuration `anonNAME` remembers.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the name is performed.
+
+        """
         name = perform_substitutions(context, self.__name)
         remembered: str = context.launch_configurations.setdefault(
             'anon' + name, unique_name(name)
@@ -47,6 +62,19 @@ class AnonName(Substitution):
 
 
 def unique_name(name: str) -> str:
-    """Return a name with the host, the process and a random number behind it."""
+    """
+    Make a name unique: put the host, the process and a random number behind it.
+
+    Parameters
+    ----------
+    name
+        The name.
+
+    Returns
+    -------
+    str
+        The unique name, in which `.`, `-` and `:` are replaced by `_`.
+
+    """
     number = int.from_bytes(os.urandom(4), 'little')
     return f'{name}_{os.uname().nodename}_{os.getpid()}_{number}'.translate(_FORBIDDEN)

@@ -48,12 +48,19 @@ class _BooleanSubstitution(Substitution):
 
 
 class NotSubstitution(_BooleanSubstitution):
-    """Stands for `true` if the operand is false, and the other way round."""
+    """
+    Substitution that stands for `true` if the operand is false, and the other way round.
+
+    Parameters
+    ----------
+    value
+        The operand.
+
+    """
 
     frontend_required = ('value',)
 
     def __init__(self, value: SomeSubstitutionsType) -> None:
-        """Create the substitution of an operand."""
         super().__init__(value)
 
     @property

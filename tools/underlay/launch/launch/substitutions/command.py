@@ -24,7 +24,18 @@ _MODES = ('fail', 'ignore', 'warn', 'capture')
 
 
 class Command(Substitution):
-    """Stands for what a command writes to its standard output."""
+    """
+    Substitution of what a command writes to its standard output.
+
+    Parameters
+    ----------
+    command
+        The command line, whose parts are joined as they are and then split as a shell does.
+    on_stderr
+        What is done with the standard error output: `fail`, `ignore`, `warn` or `capture`, which
+        adds it to the text.
+
+    """
 
     frontend_required = ('command',)
     frontend_optional = ('on_stderr',)
@@ -35,7 +46,6 @@ class Command(Substitution):
         *,
         on_stderr: SomeSubstitutionsType = 'fail',
     ) -> None:
-        """Create the substitution; `on_stderr` is fail, ignore, warn or capture."""
         self.__command = normalize_to_list_of_substitutions(command)
         self.__on_stderr = normalize_to_list_of_substitutions(on_stderr)
 
@@ -54,7 +64,21 @@ class Command(Substitution):
         return f'Command({" + ".join(sub.describe() for sub in self.__command)})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Run the command, without a shell, and return what it wrote."""
+        """
+        Run the command, without a shell, and return what it wrote.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the command line is performed.
+
+        Raises
+        ------
+        SubstitutionFailure
+            The command cannot be run, fails, or writes errors in the mode `fail`; or there is no
+            such mode.
+
+        """
         parts = [perform_substitutions(context, [part]) for part in self.__command]
         command = ''.join(parts)
         mode = perform_substitutions(context, self.__on_stderr)

@@ -18,7 +18,17 @@ if TYPE_CHECKING:
 
 
 class EnvironmentVariable(Substitution):
-    """Stands for the value that an environment variable has at run time."""
+    """
+    Substitution of the value that an environment variable has at run time.
+
+    Parameters
+    ----------
+    name
+        The name of the variable.
+    default_value
+        The text if it is not set; without a default this is a failure.
+
+    """
 
     frontend_required = ('name',)
     frontend_optional = ('default_value',)
@@ -29,7 +39,6 @@ class EnvironmentVariable(Substitution):
         *,
         default_value: Optional[SomeSubstitutionsType] = None,
     ) -> None:
-        """Create the substitution; without a default an unset variable is a failure."""
         self.__name = normalize_to_list_of_substitutions(name)
         self.__default_value = (
             None if default_value is None else normalize_to_list_of_substitutions(default_value)
@@ -50,7 +59,20 @@ class EnvironmentVariable(Substitution):
         return f'EnvVar({" + ".join(sub.describe() for sub in self.__name)})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the value, or else the default."""
+        """
+        Return the value of the environment variable, or else the default.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, whose environment is read.
+
+        Raises
+        ------
+        SubstitutionFailure
+            The variable is not set, and there is no default.
+
+        """
         name = perform_substitutions(context, self.__name)
         value = context.environment.get(name)
         if value is not None:

@@ -19,12 +19,19 @@ Comparable = Optional[Union[bool, int, float, SomeSubstitutionsType]]
 
 
 class EqualsSubstitution(Substitution):
-    """Stands for `true` if two values are equal, as truth values, numbers or texts."""
+    """
+    Substitution that stands for `true` if two values are equal, as truth values, numbers or texts.
+
+    Parameters
+    ----------
+    left, right
+        The values, or what stands for their texts; None is an empty text.
+
+    """
 
     frontend_required = ('left', 'right')
 
     def __init__(self, left: Comparable, right: Comparable) -> None:
-        """Create the substitution of two values."""
         self.__left = _normalize(left)
         self.__right = _normalize(right)
 
@@ -46,7 +53,15 @@ class EqualsSubstitution(Substitution):
         return f'{type(self).__name__}({left} {right})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return `true` or `false`."""
+        """
+        Compare the values; return `true` or `false`.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the values are performed.
+
+        """
         return 'true' if self._equal(context) else 'false'
 
     def _equal(self, context: LaunchContext) -> bool:
@@ -56,7 +71,15 @@ class EqualsSubstitution(Substitution):
 
 
 def same_value(left: str, right: str) -> bool:
-    """Compare two texts as truth values if both are, else as numbers if both are."""
+    """
+    Whether two texts are equal: as truth values or numbers if both are such, else as texts.
+
+    Parameters
+    ----------
+    left, right
+        The texts; true, 1, false and 0 are truth values.
+
+    """
     truths = [_truth(left), _truth(right)]
     if None not in truths:
         return truths[0] == truths[1]

@@ -19,12 +19,19 @@ if TYPE_CHECKING:
 
 
 class FileContent(Substitution):
-    """Stands for the text in a file."""
+    """
+    Substitution of the text in a file.
+
+    Parameters
+    ----------
+    path
+        The path of the file, which is read as UTF-8.
+
+    """
 
     frontend_required = ('path',)
 
     def __init__(self, path: SomeSubstitutionsType) -> None:
-        """Create the substitution of the file at a path."""
         self.__path = normalize_to_list_of_substitutions(path)
 
     @property
@@ -37,7 +44,20 @@ class FileContent(Substitution):
         return f'FileContent({" + ".join(sub.describe() for sub in self.__path)})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the whole text."""
+        """
+        Return the whole text of the file.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the path is performed.
+
+        Raises
+        ------
+        SubstitutionFailure
+            There is no such file, or it cannot be read.
+
+        """
         path = perform_substitutions(context, self.__path)
         note_file(context, path)
         try:

@@ -19,13 +19,20 @@ if TYPE_CHECKING:
 
 
 class FindExecutable(Substitution):
-    """Stands for the path of a program that the shell would find."""
+    """
+    Substitution of the path of a program that the shell would find.
+
+    Parameters
+    ----------
+    name
+        The name of the program.
+
+    """
 
     _is_constant = True
     frontend_required = ('name',)
 
     def __init__(self, *, name: SomeSubstitutionsType) -> None:
-        """Create the substitution of the program with this name."""
         self.__name = normalize_to_list_of_substitutions(name)
 
     @property
@@ -38,7 +45,20 @@ class FindExecutable(Substitution):
         return f'FindExec({" + ".join(sub.describe() for sub in self.__name)})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path; a failure names the program."""
+        """
+        Return the path of the program.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the name is performed.
+
+        Raises
+        ------
+        SubstitutionFailure
+            The program is not on the PATH.
+
+        """
         name = perform_substitutions(context, self.__name)
         found = find_program(name)
         if found is None:

@@ -19,7 +19,24 @@ if TYPE_CHECKING:
 
 
 class IfElseSubstitution(Substitution):
-    """Stands for one of two texts; only the one that is chosen is performed."""
+    """
+    Substitution of one of two texts; only the one that is chosen is performed.
+
+    Parameters
+    ----------
+    condition
+        The condition, which must become a boolean.
+    if_value
+        The text if it is true.
+    else_value
+        The text if it is false.
+
+    Raises
+    ------
+    RuntimeError
+        Both texts are empty.
+
+    """
 
     frontend_required = ('condition',)
     frontend_optional = ('if_value', 'else_value')
@@ -30,7 +47,6 @@ class IfElseSubstitution(Substitution):
         if_value: SomeSubstitutionsType = '',
         else_value: SomeSubstitutionsType = '',
     ) -> None:
-        """Create the substitution; at least one of the texts must be given."""
         if if_value == else_value == '':
             raise RuntimeError(
                 'IfElseSubstitution needs an if_value or an else_value, but both are empty'
@@ -63,7 +79,20 @@ class IfElseSubstitution(Substitution):
         return f'IfElseSubstitution({", ".join(parts)})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the text that the condition chooses."""
+        """
+        Return the text that the condition chooses.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which condition and text are performed.
+
+        Raises
+        ------
+        SubstitutionFailure
+            The condition is not a boolean.
+
+        """
         condition = perform_substitutions(context, self.__condition)
         try:
             chosen = self.__if_value if read_boolean(condition) else self.__else_value

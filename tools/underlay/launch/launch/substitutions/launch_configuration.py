@@ -21,7 +21,17 @@ if TYPE_CHECKING:
 
 
 class LaunchConfiguration(Substitution):
-    """Stands for the value that a launch configuration has at run time."""
+    """
+    Substitution of the value that a launch configuration has at run time.
+
+    Parameters
+    ----------
+    variable_name
+        The name of the configuration.
+    default
+        What is used if it is not set, turned into a text; without a default this is a failure.
+
+    """
 
     frontend_required = ('variable_name',)
     frontend_optional = ('default',)
@@ -32,7 +42,6 @@ class LaunchConfiguration(Substitution):
         *,
         default: Optional[Any] = None,
     ) -> None:
-        """Create the substitution; anything but a text as the default is turned into one."""
         self.__variable_name = normalize_to_list_of_substitutions(variable_name)
         self.__default = None if default is None else _normalize_default(default)
 
@@ -51,7 +60,20 @@ class LaunchConfiguration(Substitution):
         return f'LaunchConfig({" + ".join(sub.describe() for sub in self.__variable_name)})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the value, or else the default; a failure says that there is none."""
+        """
+        Return the value of the launch configuration, or else the default.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, whose launch configurations are read.
+
+        Raises
+        ------
+        SubstitutionFailure
+            The configuration is not set, and there is no default.
+
+        """
         name = perform_substitutions(context, self.__variable_name)
         if name in context.launch_configurations:
             return str(context.launch_configurations[name])

@@ -19,7 +19,15 @@ class LaunchLogDir(PathOperator):
         return 'LaunchLogDir()'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the folder."""
+        """
+        Return the folder of the log files, which is made if it is not there.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, which is not used.
+
+        """
         from launch.logging import launch_config
 
         return str(launch_config.log_dir)

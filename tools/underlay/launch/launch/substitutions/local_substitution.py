@@ -13,10 +13,19 @@ if TYPE_CHECKING:
 
 
 class LocalSubstitution(Substitution):
-    """Stands for a local variable or something in it, such as `event.reason`."""
+    """
+    Substitution of a local variable or something in it, such as `event.reason`.
+
+    Parameters
+    ----------
+    expression
+        What is evaluated on the local variables of the context.
+    description
+        What the substitution is called, for people; by default the expression.
+
+    """
 
     def __init__(self, expression: str, description: Optional[str] = None) -> None:
-        """Create the substitution of an expression on the locals of the context."""
         self.__expression = expression
         self.__description = description
 
@@ -30,7 +39,20 @@ class LocalSubstitution(Substitution):
         return f"LocalVar('{self.__description or self.__expression}')"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the value, which must be a text."""
+        """
+        Return the value of the expression, which must be a text.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, whose local variables are read.
+
+        Raises
+        ------
+        SubstitutionFailure
+            The value is not a text.
+
+        """
         value = eval(f'context.locals.{self.__expression}', {}, {'context': context})  # noqa: S307
         if not isinstance(value, str):
             raise SubstitutionFailure(

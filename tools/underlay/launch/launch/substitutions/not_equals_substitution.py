@@ -15,5 +15,13 @@ class NotEqualsSubstitution(EqualsSubstitution):
     """Stands for `true` if two values differ."""
 
     def perform(self, context: LaunchContext) -> str:
-        """Return `true` or `false`."""
+        """
+        Compare the values; return `true` if they differ, else `false`.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the values are performed.
+
+        """
         return 'false' if self._equal(context) else 'true'

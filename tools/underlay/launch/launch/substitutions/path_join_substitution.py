@@ -20,12 +20,19 @@ if TYPE_CHECKING:
 
 
 class PathJoinSubstitution(PathOperator):
-    """Stands for parts of a path joined by the separator of the system."""
+    """
+    Substitution of parts of a path joined by the separator of the system.
+
+    Parameters
+    ----------
+    substitutions
+        The parts; one that is a list is put together to one part.
+
+    """
 
     _is_constant = True
 
     def __init__(self, substitutions: Iterable[SomeSubstitutionsType]) -> None:
-        """Create the substitution; a part that is a list is put together to one part."""
         if isinstance(substitutions, (str, os.PathLike, Substitution)):
             substitutions = [substitutions]
         self.__parts = [normalize_to_list_of_substitutions(part) for part in substitutions]
@@ -41,6 +48,14 @@ class PathJoinSubstitution(PathOperator):
         return f"PathJoin('{' + '.join(parts)}')"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path; an absolute part drops what stands before it."""
+        """
+        Return the joined path; an absolute part drops what stands before it.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the parts are performed.
+
+        """
         parts = [perform_substitutions(context, part) for part in self.__parts]
         return os.path.join(*parts) if parts else ''

@@ -18,12 +18,19 @@ if TYPE_CHECKING:
 
 
 class PathSubstitution(PathOperator):
-    """Stands for a path; `/` joins it with more, as it does for pathlib."""
+    """
+    Substitution of a path; `/` joins it with more, as it does for pathlib.
+
+    Parameters
+    ----------
+    path
+        The path, or what stands for it.
+
+    """
 
     _is_constant = True
 
     def __init__(self, path: SomeSubstitutionsType) -> None:
-        """Create the substitution of a path."""
         self.__path = normalize_to_list_of_substitutions(path)
 
     @property
@@ -36,5 +43,13 @@ class PathSubstitution(PathOperator):
         return f'Path({" + ".join(sub.describe() for sub in self.__path)})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path."""
+        """
+        Return the path.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the path is performed.
+
+        """
         return perform_substitutions(context, self.__path)

@@ -19,7 +19,17 @@ if TYPE_CHECKING:
 
 
 class PythonExpression(Substitution):
-    """Stands for the value of a Python expression, as a text."""
+    """
+    Substitution of the value of a Python expression, as a text.
+
+    Parameters
+    ----------
+    expression
+        The expression, which can use the modules named, and no others.
+    python_modules
+        The names of these modules; what is in `math` can be used by itself.
+
+    """
 
     frontend_required = ('expression',)
     frontend_optional = ('python_modules',)
@@ -29,13 +39,25 @@ class PythonExpression(Substitution):
         expression: SomeSubstitutionsType,
         python_modules: SomeSubstitutionsType = ('math',),
     ) -> None:
-        """Create the substitution; the expression can use the modules named, no others."""
         self.__expression = normalize_to_list_of_substitutions(expression)
         self.__python_modules = normalize_to_list_of_substitutions(python_modules)
 
     @classmethod
     def parse(cls, data: Sequence[Any]) -> tuple[Any, dict[str, Any]]:
-        """Return the class and its arguments; the modules are separated by commas."""
+        """
+        Read the arguments of `eval`; the modules are separated by commas.
+
+        Parameters
+        ----------
+        data
+            The expression and the modules, each as a list of substitutions.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments for its constructor.
+
+        """
         _, kwargs = super().parse(data)
         if 'python_modules' in kwargs:
             from launch.launch_context import LaunchContext
@@ -61,7 +83,22 @@ class PythonExpression(Substitution):
         return f'PythonExpr({expression}, [{modules}])'
 
     def perform(self, context: LaunchContext) -> str:
-        """Evaluate the expression, which comes from the launch file, and return its text."""
+        """
+        Evaluate the expression, which comes from the launch file, and return its text.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, in which the expression is performed.
+
+        Raises
+        ------
+        NameError
+            The expression uses a name that is not known.
+        SyntaxError
+            The expression is not valid Python.
+
+        """
         expression = perform_substitutions(context, self.__expression)
         names = [context.perform_substitution(sub) for sub in self.__python_modules]
         try:

@@ -12,12 +12,24 @@ if TYPE_CHECKING:
 
 
 class TextSubstitution(Substitution):
-    """Stands for a text that is known already."""
+    """
+    Substitution of a text that is known already.
+
+    Parameters
+    ----------
+    text
+        The text.
+
+    Raises
+    ------
+    TypeError
+        The text is not a `str`.
+
+    """
 
     _is_constant = True
 
     def __init__(self, *, text: str) -> None:
-        """Create the substitution of a text."""
         if not isinstance(text, str):
             raise TypeError(
                 f"TextSubstitution expected the text to be a 'str', "
@@ -39,5 +51,13 @@ class TextSubstitution(Substitution):
         return f"'{self.__text}'"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the text."""
+        """
+        Return the text.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, which is not used.
+
+        """
         return self.__text

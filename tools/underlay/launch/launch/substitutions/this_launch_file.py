@@ -20,5 +20,18 @@ class ThisLaunchFile(PathOperator):
         return 'ThisLaunchFile()'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path; a failure says that no file is being read."""
+        """
+        Return the path of the launch file that is being read.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, whose local variables are read.
+
+        Raises
+        ------
+        SubstitutionFailure
+            No launch file is being read.
+
+        """
         return launch_file_location(context, 'current_launch_file_path', 'ThisLaunchFile')

@@ -20,5 +20,18 @@ class ThisLaunchFileDir(PathOperator):
         return 'ThisLaunchFileDir()'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the folder; a failure says that no file is being read."""
+        """
+        Return the folder of the launch file that is being read.
+
+        Parameters
+        ----------
+        context
+            The state of the launch, whose local variables are read.
+
+        Raises
+        ------
+        SubstitutionFailure
+            No launch file is being read.
+
+        """
         return launch_file_location(context, 'current_launch_file_directory', 'ThisLaunchFileDir')

@@ -17,9 +17,23 @@ _PLAIN_WORD = re.compile(r'[A-Za-z/_][A-Za-z0-9/_.-]*')
 
 def read_yaml(text: str) -> Any:
     """
-    Return what a YAML document says; a ValueError says that it is none.
+    Parse a YAML 1.1 document; the common scalars need no YAML parser.
 
-    The common scalars are read here.
+    Parameters
+    ----------
+    text
+        The document.
+
+    Returns
+    -------
+    Any
+        What it says: a scalar, a list, a dictionary or None.
+
+    Raises
+    ------
+    ValueError
+        It is not YAML.
+
     """
     if text in _TRUE:
         return True
@@ -40,12 +54,43 @@ def read_yaml(text: str) -> Any:
 
 
 def read_value(text: str) -> Any:
-    """Return the same, but read `1e3` as a number, as YAML 1.2 and ROS do."""
+    """
+    Parse a YAML document, but read `1e3` as a number, as YAML 1.2 and ROS do.
+
+    Parameters
+    ----------
+    text
+        The document.
+
+    Returns
+    -------
+    Any
+        As for `read_yaml`.
+
+    Raises
+    ------
+    ValueError
+        It is not YAML.
+
+    """
     return float(text) if EXPONENT.fullmatch(text) else read_yaml(text)
 
 
 def read_boolean(text: str) -> bool:
-    """Return the truth value that a text stands for: those of YAML, 1 and 0."""
+    """
+    Parse a boolean: true, false, yes, no, on, off, 1 or 0.
+
+    Parameters
+    ----------
+    text
+        The word, with any space around it; true may be True or TRUE, and the others likewise.
+
+    Raises
+    ------
+    ValueError
+        It is none of these words.
+
+    """
     word = text.strip()
     if word in _TRUE or word == '1':
         return True

@@ -7,12 +7,32 @@ from typing import Any
 
 
 def is_a(entity: Any, of_type: type) -> bool:
-    """Return whether `entity` is an instance of a type."""
+    """
+    Whether an object is an instance of a class.
+
+    Parameters
+    ----------
+    entity
+        The object.
+    of_type
+        The class.
+
+    """
     return isinstance(entity, of_type)
 
 
 def is_a_subclass(entity: Any, of_type: type) -> bool:
-    """Return whether `entity` is a class derived from a type, or an instance of it."""
+    """
+    Whether an object is a class derived from another, or an instance of that.
+
+    Parameters
+    ----------
+    entity
+        The object.
+    of_type
+        The other class.
+
+    """
     if isinstance(entity, type):
         return issubclass(entity, of_type)
     return isinstance(entity, of_type)

@@ -13,7 +13,26 @@ def ensure_argument_type(
     argument_name: str,
     caller: Optional[str] = None,
 ) -> None:
-    """Raise a TypeError unless `argument` is an instance of one of `types`."""
+    """
+    Check the type of an argument.
+
+    Parameters
+    ----------
+    argument
+        The value of the argument.
+    types
+        The class, or the classes, of which it must be an instance.
+    argument_name
+        Its name, for the error.
+    caller
+        Whose argument it is, for the error.
+
+    Raises
+    ------
+    TypeError
+        The argument has another type.
+
+    """
     allowed = (types,) if isinstance(types, type) else tuple(types)
     if isinstance(argument, allowed):
         return

@@ -13,7 +13,20 @@ from launch.some_entities_type import SomeEntitiesType
 def normalize_to_list_of_entities(
     entities: Optional[SomeEntitiesType],
 ) -> list[LaunchDescriptionEntity]:
-    """Return the entities as a list, nested ones flattened and None dropped."""
+    """
+    Normalise entities to a flat list without None.
+
+    Parameters
+    ----------
+    entities
+        An entity, an iterable of entities that may be nested, or None.
+
+    Raises
+    ------
+    RuntimeError
+        There is something else in it.
+
+    """
     flat: list[LaunchDescriptionEntity] = []
     _flatten(entities, flat)
     return flat

@@ -11,7 +11,20 @@ from launch.substitution import Substitution
 
 
 def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Substitution]:
-    """Return the parts of a text that is known later, each as a substitution."""
+    """
+    Normalise a text that is known later to a list of substitutions, its parts.
+
+    Parameters
+    ----------
+    subs
+        A string, a path, a substitution or an iterable of them.
+
+    Raises
+    ------
+    TypeError
+        It is none of these.
+
+    """
     if isinstance(subs, (str, os.PathLike, Substitution)):
         return [_normalize(subs)]
     return [_normalize(item) for item in subs]

@@ -13,5 +13,15 @@ if TYPE_CHECKING:
 
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
-    """Return the texts of all the substitutions, one behind the other."""
+    """
+    Perform substitutions and join their texts.
+
+    Parameters
+    ----------
+    context
+        The state of the launch.
+    subs
+        The substitutions, in the order of their texts.
+
+    """
     return ''.join([context.perform_substitution(sub) for sub in subs])

@@ -21,7 +21,15 @@ _SCALARS = (bool, int, float, str)
 
 
 def is_substitution(value: Any) -> bool:
-    """Return whether a value is a substitution, or a list with at least one in it."""
+    """
+    Whether a value is a substitution, or an iterable with at least one in it.
+
+    Parameters
+    ----------
+    value
+        The value; a text is neither.
+
+    """
     if isinstance(value, Substitution):
         return True
     if isinstance(value, Iterable) and not isinstance(value, (str, bytes)):
@@ -30,7 +38,27 @@ def is_substitution(value: Any) -> bool:
 
 
 def normalize_typed_substitution(value: Any, data_type: Optional[Any]) -> Any:
-    """Return a value of the type as it is, and anything like a text as substitutions."""
+    """
+    Normalise a value that has a type, or stands for one.
+
+    Parameters
+    ----------
+    value
+        The value, a text, substitutions, or a list of lists with substitutions.
+    data_type
+        The type, such as `bool` or `list[int]`; None for any.
+
+    Returns
+    -------
+    Any
+        The value as it is; a list of substitutions for a text; a list of tuples of them for lists.
+
+    Raises
+    ------
+    TypeError
+        The value neither has the type nor stands for one.
+
+    """
     if isinstance(value, (str, os.PathLike)) or is_substitution(value):
         return normalize_to_list_of_substitutions(value)
     if _has_texts_as_items(value):
@@ -45,7 +73,29 @@ def perform_typed_substitution(
     value: Any,
     data_type: Optional[Any],
 ) -> Any:
-    """Perform a value from `normalize_typed_substitution` and give it the type."""
+    """
+    Perform a value from `normalize_typed_substitution` and convert it to a type.
+
+    Parameters
+    ----------
+    context
+        The state of the launch.
+    value
+        The value.
+    data_type
+        The type, such as `bool` or `list[int]`; without one, YAML rules decide.
+
+    Returns
+    -------
+    Any
+        The value in the type; what was no substitution is returned as it is.
+
+    Raises
+    ------
+    ValueError
+        The text cannot be converted.
+
+    """
     if is_substitution(value):
         value = perform_substitutions(context, normalize_to_list_of_substitutions(value))
     elif _has_texts_as_items(value):
@@ -65,7 +115,22 @@ def _has_texts_as_items(value: Any) -> bool:
 
 
 def coerce_to_type(value: str, data_type: Optional[Any] = None) -> Any:
-    """Return the value that a text stands for; without a type YAML rules decide."""
+    """
+    Convert a text to a type.
+
+    Parameters
+    ----------
+    value
+        The text.
+    data_type
+        bool, int, float, str or a list of one of them; without a type, YAML rules decide.
+
+    Raises
+    ------
+    ValueError
+        The text cannot be converted, or there is no such type.
+
+    """
     if data_type is None:
         return _coerce_by_yaml(value)
     if data_type is bool:
@@ -89,7 +154,20 @@ def _coerce_by_yaml(text: str) -> Any:
 
 
 def uniform_or_raise(items: list[Any]) -> list[Any]:
-    """Return a list if its items have one of the scalar types, and all the same."""
+    """
+    Check that the items of a list all have the same scalar type.
+
+    Parameters
+    ----------
+    items
+        The list, which is returned as it is.
+
+    Raises
+    ------
+    ValueError
+        The types of the items differ, or one is neither str, int, float nor bool.
+
+    """
     kinds = {type(item) for item in items}
     if len(kinds) > 1 or not kinds.issubset(_SCALARS):
         raise ValueError(
@@ -107,7 +185,17 @@ def _coerce_to_list(text: str, item_type: Any) -> list[Any]:
 
 
 def has_type(value: Any, data_type: Any) -> bool:
-    """Return whether a value has a type; whole numbers count as floats, too."""
+    """
+    Whether a value has a type; whole numbers count as floats, too.
+
+    Parameters
+    ----------
+    value
+        The value.
+    data_type
+        bool, int, float, str or a list of one of them.
+
+    """
     if get_origin(data_type) is list:
         return isinstance(value, (list, tuple)) and all(
             has_type(item, get_args(data_type)[0]) for item in value
@@ -118,7 +206,15 @@ def has_type(value: Any, data_type: Any) -> bool:
 
 
 def type_name(data_type: Any) -> str:
-    """Return the name of a type for people."""
+    """
+    Return the name of a type for people.
+
+    Parameters
+    ----------
+    data_type
+        The type; None stands for any of those that launch files can give.
+
+    """
     if data_type is None:
         return 'str, int, float, bool or list of one of them'
     return getattr(data_type, '__name__', str(data_type))

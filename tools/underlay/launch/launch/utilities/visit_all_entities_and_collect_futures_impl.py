@@ -19,7 +19,22 @@ def visit_all_entities_and_collect_futures(
     entity: LaunchDescriptionEntity,
     context: LaunchContext,
 ) -> EntityFuturePairs:
-    """Visit an entity and, depth-first, all that it returns; collect their futures."""
+    """
+    Visit an entity and, depth-first, all that it returns; collect their futures.
+
+    Parameters
+    ----------
+    entity
+        The entity.
+    context
+        The state of the launch.
+
+    Returns
+    -------
+    list of tuple
+        Each entity that has a future, with the future.
+
+    """
     futures: EntityFuturePairs = []
     visit_into(entity, context, futures)
     return futures
@@ -30,7 +45,24 @@ def visit_into(
     context: LaunchContext,
     futures: EntityFuturePairs,
 ) -> None:
-    """Visit likewise; what was collected before a failure stays in `futures`."""
+    """
+    Visit an entity and, depth-first, all that it returns; add their futures to a list.
+
+    Parameters
+    ----------
+    entity
+        The entity.
+    context
+        The state of the launch.
+    futures
+        The list; what was collected before a failure stays in it.
+
+    Raises
+    ------
+    AttributeError
+        What is returned is neither an action nor a launch description.
+
+    """
     observer = context._observer
     if observer is not None:
         observer.enter(entity)

@@ -39,7 +39,21 @@ async def until(
     predicate: Callable[[], bool],
     timeout: Optional[float],
 ) -> bool:
-    """Return whether a predicate about a process becomes true in time, or before its end."""
+    """
+    Wait until a predicate about a process holds, and return whether it does.
+
+    Parameters
+    ----------
+    context
+        The context of the launch; after its end nothing is waited for.
+    action
+        The action of the process.
+    predicate
+        Called without arguments after each event of the process.
+    timeout
+        The timeout in s; None waits until the process ends.
+
+    """
     if predicate() or context.asyncio_loop is None:
         return predicate()
     watch = _Watch(action)

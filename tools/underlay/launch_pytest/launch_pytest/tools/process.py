@@ -51,7 +51,19 @@ async def wait_for_start(
     execute_process_action: ExecuteProcess,
     timeout: Optional[float] = None,
 ) -> bool:
-    """Wait until the process was started; return whether it was in time."""
+    """
+    Wait until a process was started, and return whether it was.
+
+    Parameters
+    ----------
+    launch_context
+        The context of the launch.
+    execute_process_action
+        The action of the process.
+    timeout
+        The timeout in s; None waits until the process ends.
+
+    """
 
     def was_started() -> bool:
         return 'pid' in (execute_process_action.process_details or {})
@@ -64,7 +76,19 @@ async def wait_for_exit(
     execute_process_action: ExecuteProcess,
     timeout: Optional[float] = None,
 ) -> bool:
-    """Wait until the process has ended; return whether it has in time."""
+    """
+    Wait until a process has ended, and return whether it has.
+
+    Parameters
+    ----------
+    launch_context
+        The context of the launch.
+    execute_process_action
+        The action of the process.
+    timeout
+        The timeout in s; None waits until the process ends.
+
+    """
 
     def has_ended() -> bool:
         return execute_process_action.return_code is not None
@@ -78,7 +102,26 @@ async def wait_for_stdout(
     validate_output: Validate,
     timeout: Optional[float] = None,
 ) -> bool:
-    """Wait until the standard output is right; return whether it is in time."""
+    """
+    Wait until the standard output of a process is right, and return whether it is.
+
+    Parameters
+    ----------
+    launch_context
+        The context of the launch.
+    execute_process_action
+        The action of the process, created with `cached_output=True`.
+    validate_output
+        Called with all output so far. False or an AssertionError means not yet, None is right.
+    timeout
+        The timeout in s; None waits until the process ends.
+
+    Raises
+    ------
+    RuntimeError
+        The output is not kept.
+
+    """
     check = partial(_is_right, execute_process_action.get_stdout, validate_output)
     return await until(launch_context, execute_process_action, check, timeout)
 
@@ -89,7 +132,20 @@ async def wait_for_stderr(
     validate_output: Validate,
     timeout: Optional[float] = None,
 ) -> bool:
-    """Wait until the standard error output is right; return whether it is in time."""
+    """
+    Wait until the standard error output of a process is right, and return whether it is.
+
+    Parameters
+    ----------
+    launch_context, execute_process_action, validate_output, timeout
+        As for `wait_for_stdout`.
+
+    Raises
+    ------
+    RuntimeError
+        The output is not kept.
+
+    """
     check = partial(_is_right, execute_process_action.get_stderr, validate_output)
     return await until(launch_context, execute_process_action, check, timeout)
 
@@ -100,7 +156,22 @@ async def assert_stdout(
     validate_output: Validate,
     timeout: Optional[float] = None,
 ) -> None:
-    """Wait until the standard output is right, and fail if the time is over."""
+    """
+    Wait until the standard output of a process is right, and fail if it is not.
+
+    Parameters
+    ----------
+    launch_context, execute_process_action, validate_output, timeout
+        As for `wait_for_stdout`.
+
+    Raises
+    ------
+    AssertionError
+        That of the validation, or one that shows the output.
+    RuntimeError
+        The output is not kept.
+
+    """
     if not await wait_for_stdout(launch_context, execute_process_action, validate_output, timeout):
         _fail(
             execute_process_action,
@@ -116,7 +187,22 @@ async def assert_stderr(
     validate_output: Validate,
     timeout: Optional[float] = None,
 ) -> None:
-    """Wait until the standard error output is right, and fail if the time is over."""
+    """
+    Wait until the standard error output of a process is right, and fail if it is not.
+
+    Parameters
+    ----------
+    launch_context, execute_process_action, validate_output, timeout
+        As for `wait_for_stdout`.
+
+    Raises
+    ------
+    AssertionError
+        That of the validation, or one that shows the output.
+    RuntimeError
+        The output is not kept.
+
+    """
     if not await wait_for_stderr(launch_context, execute_process_action, validate_output, timeout):
         _fail(
             execute_process_action,
@@ -135,7 +221,20 @@ def wait_for_start_sync(
     execute_process_action: ExecuteProcess,
     timeout: Optional[float] = None,
 ) -> bool:
-    """Wait until the process was started; return whether it was in time."""
+    """
+    Wait until a process was started, and return whether it was.
+
+    Parameters
+    ----------
+    launch_context, execute_process_action, timeout
+        As for `wait_for_start`.
+
+    Raises
+    ------
+    RuntimeError
+        This is called in the event loop of the launch.
+
+    """
     return _sync(launch_context, wait_for_start(launch_context, execute_process_action, timeout))
 
 
@@ -144,7 +243,20 @@ def wait_for_exit_sync(
     execute_process_action: ExecuteProcess,
     timeout: Optional[float] = None,
 ) -> bool:
-    """Wait until the process has ended; return whether it has in time."""
+    """
+    Wait until a process has ended, and return whether it has.
+
+    Parameters
+    ----------
+    launch_context, execute_process_action, timeout
+        As for `wait_for_exit`.
+
+    Raises
+    ------
+    RuntimeError
+        This is called in the event loop of the launch.
+
+    """
     return _sync(launch_context, wait_for_exit(launch_context, execute_process_action, timeout))
 
 
@@ -154,7 +266,20 @@ def wait_for_stdout_sync(
     validate_output: Validate,
     timeout: Optional[float] = None,
 ) -> bool:
-    """Wait until the standard output is right; return whether it is in time."""
+    """
+    Wait until the standard output of a process is right, and return whether it is.
+
+    Parameters
+    ----------
+    launch_context, execute_process_action, validate_output, timeout
+        As for `wait_for_stdout`.
+
+    Raises
+    ------
+    RuntimeError
+        This is called in the event loop of the launch, or the output is not kept.
+
+    """
     return _sync(
         launch_context,
         wait_for_stdout(launch_context, execute_process_action, validate_output, timeout),
@@ -167,7 +292,20 @@ def wait_for_stderr_sync(
     validate_output: Validate,
     timeout: Optional[float] = None,
 ) -> bool:
-    """Wait until the standard error output is right; return whether it is in time."""
+    """
+    Wait until the standard error output of a process is right, and return whether it is.
+
+    Parameters
+    ----------
+    launch_context, execute_process_action, validate_output, timeout
+        As for `wait_for_stdout`.
+
+    Raises
+    ------
+    RuntimeError
+        This is called in the event loop of the launch, or the output is not kept.
+
+    """
     return _sync(
         launch_context,
         wait_for_stderr(launch_context, execute_process_action, validate_output, timeout),
@@ -180,7 +318,22 @@ def assert_stdout_sync(
     validate_output: Validate,
     timeout: Optional[float] = None,
 ) -> None:
-    """Wait until the standard output is right, and fail if the time is over."""
+    """
+    Wait until the standard output of a process is right, and fail if it is not.
+
+    Parameters
+    ----------
+    launch_context, execute_process_action, validate_output, timeout
+        As for `wait_for_stdout`.
+
+    Raises
+    ------
+    AssertionError
+        That of the validation, or one that shows the output.
+    RuntimeError
+        This is called in the event loop of the launch, or the output is not kept.
+
+    """
     _sync(
         launch_context,
         assert_stdout(launch_context, execute_process_action, validate_output, timeout),
@@ -193,7 +346,22 @@ def assert_stderr_sync(
     validate_output: Validate,
     timeout: Optional[float] = None,
 ) -> None:
-    """Wait until the standard error output is right, and fail if the time is over."""
+    """
+    Wait until the standard error output of a process is right, and fail if it is not.
+
+    Parameters
+    ----------
+    launch_context, execute_process_action, validate_output, timeout
+        As for `wait_for_stdout`.
+
+    Raises
+    ------
+    AssertionError
+        That of the validation, or one that shows the output.
+    RuntimeError
+        This is called in the event loop of the launch, or the output is not kept.
+
+    """
     _sync(
         launch_context,
         assert_stderr(launch_context, execute_process_action, validate_output, timeout),

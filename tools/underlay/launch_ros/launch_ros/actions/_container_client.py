@@ -16,7 +16,19 @@ if TYPE_CHECKING:
 
 
 class ContainerClient:
-    """Loads nodes into one container, in order, and reports on each."""
+    """
+    Loads composable nodes into one container, in order, and logs the result of each.
+
+    Parameters
+    ----------
+    ros_node
+        The launch's own rclpy node.
+    container
+        The full name of the container.
+    process
+        Done when the container has ended for good; None if it is not of this launch.
+
+    """
 
     def __init__(
         self,
@@ -24,7 +36,6 @@ class ContainerClient:
         container: str,
         process: Optional[asyncio.Future[Any]] = None,
     ) -> None:
-        """Create the client; `process` is done when the container has ended for good."""
         self._ros_node = ros_node
         self._container = container
         self._process = process
@@ -37,7 +48,15 @@ class ContainerClient:
         return self._caller is not None and self._caller.has_asked
 
     async def load(self, requests: Iterable[LoadRequest]) -> None:
-        """Load nodes; one that fails does not keep the others from being loaded."""
+        """
+        Load composable nodes; one that fails does not keep the others from being loaded.
+
+        Parameters
+        ----------
+        requests
+            What to load, in this order.
+
+        """
         caller = self._caller = ServiceCaller(
             self._ros_node,
             LoadNode,

@@ -21,7 +21,22 @@ if TYPE_CHECKING:
 
 
 class LifecycleLink:
-    """Makes events of a node's transitions, and asks it for those that events want."""
+    """
+    Connects a launch to a lifecycle node through its topic and service of transitions.
+
+    Each message of `transition_event` becomes a StateTransition event; each ChangeState event for
+    the node becomes a call of its service `change_state`.
+
+    Parameters
+    ----------
+    action
+        The executed action that is about to start the node.
+    context
+        Where events are emitted and handled.
+    adapter
+        The launch's own node, which subscribes and calls.
+
+    """
 
     def __init__(
         self,
@@ -29,7 +44,6 @@ class LifecycleLink:
         context: LaunchContext,
         adapter: ROSAdapter,
     ) -> None:
-        """Follow the node that `action` is about to start."""
         self._action = action
         self._context = context
         self._adapter = adapter
@@ -48,11 +62,29 @@ class LifecycleLink:
         self._context.emit_event_sync(StateTransition(action=self._action, msg=msg))
 
     def is_target(self, event: Any) -> bool:
-        """Return whether an event asks this node for a transition."""
+        """
+        Whether an event asks this node for a transition.
+
+        Parameters
+        ----------
+        event
+            Any event of the launch.
+
+        """
         return isinstance(event, ChangeState) and event.lifecycle_node_matcher(self._action)
 
     def change_state(self, transition_id: int) -> None:
-        """Ask the node for a transition, when those asked for before are done."""
+        """
+        Request a transition of the node, after those requested before are done.
+
+        This returns at once; a failure is logged.
+
+        Parameters
+        ----------
+        transition_id
+            A constant of lifecycle_msgs/Transition, one of `ChangeState.valid_transitions`.
+
+        """
         if self._adapter.is_running and not self._context.is_shutdown:
             task = self._adapter.start_task(self._change_state(transition_id))
             self._context.add_completion_future(task)

@@ -56,7 +56,31 @@ class LoadRequest:
 
 
 def build_load_request(context: LaunchContext, description: ComposableNode) -> LoadRequest:
-    """Return what the description of a node amounts to now."""
+    """
+    Evaluate the description of a composable node into a request to its container.
+
+    Parameters set for all nodes come before those of the description.
+
+    Parameters
+    ----------
+    context
+        Its launch configurations hold the namespace, parameters and remappings set so far.
+    description
+        The node to load.
+
+    Returns
+    -------
+    LoadRequest
+        The request, which no longer depends on the context.
+
+    Raises
+    ------
+    InvalidNameError
+        The name or the namespace is not allowed in ROS.
+    FileNotFoundError
+        A parameter file is missing.
+
+    """
     package = perform_substitutions(context, description.package)
     plugin = perform_substitutions(context, description.node_plugin)
     names = expand_node_names(

@@ -32,9 +32,25 @@ class NodeActionExtension:
         node_action: Node,
     ) -> tuple[list[Any], dict[str, Any]]:
         """
-        Return what is added to the command line of a node, and the arguments for ROS.
+        Extend the command line of a node; subclasses override this.
 
         What is added may refer to `ros_specific_arguments` by a LocalSubstitution.
+
+        Parameters
+        ----------
+        context
+            The launch context.
+        ros_specific_arguments
+            The rules `__node:=...` under `name` and `__ns:=...` under `ns`, each only if it is
+            known.
+        node_action
+            The action that is about to start the node.
+
+        Returns
+        -------
+        tuple
+            The words to add, as texts or substitutions, and the rules to use instead.
+
         """
         return [], ros_specific_arguments
 
@@ -44,7 +60,24 @@ def extend_node(
     ros_specific_arguments: dict[str, Any],
     node: Node,
 ) -> tuple[list[str], dict[str, Any]]:
-    """Return what extensions add to the command line of a node, and the arguments for ROS."""
+    """
+    Apply all installed extensions to the command line of a node.
+
+    Parameters
+    ----------
+    context
+        Gets the local variable `ros_specific_arguments` if any words are added.
+    ros_specific_arguments
+        The rules for the name and the namespace, by `name` and `ns`.
+    node
+        The action that is about to start the node.
+
+    Returns
+    -------
+    tuple
+        The words to add, as texts, and the rules to use.
+
+    """
     added: list[Any] = []
     for extension in extensions():
         more, ros_specific_arguments = extension.prepare_for_execute(

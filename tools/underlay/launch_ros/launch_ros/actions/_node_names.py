@@ -66,7 +66,29 @@ def expand_node_names(
     namespace: Optional[list[Substitution]],
     what: str,
 ) -> NodeNames:
-    """Return the names of a node below the namespace of now; log `what` if they are invalid."""
+    """
+    Expand and validate the name and the namespace of a node.
+
+    Parameters
+    ----------
+    context
+        Its launch configuration `ros_namespace` is what a relative namespace lies below.
+    name, namespace
+        The parts of each, or None if it is not given.
+    what
+        The node as it is described in the log if the names cannot be expanded or are invalid.
+
+    Returns
+    -------
+    NodeNames
+        The name, and the absolute namespace; None for what is not known.
+
+    Raises
+    ------
+    InvalidNameError
+        The name or the namespace is not allowed in ROS.
+
+    """
     try:
         names = NodeNames(
             None if name is None else perform_substitutions(context, name),

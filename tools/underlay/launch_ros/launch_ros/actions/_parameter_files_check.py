@@ -25,7 +25,17 @@ class ParameterFilesCheck:
         self._readers: dict[str, list[NodeNames]] = {}
 
     def add(self, path: str, names: NodeNames) -> None:
-        """Note that a node is given a file."""
+        """
+        Record that a node is given a parameter file.
+
+        Parameters
+        ----------
+        path
+            The file.
+        names
+            The name and the namespace of the node, as far as they are known.
+
+        """
         self._readers.setdefault(path, []).append(names)
 
     def __call__(self, context: LaunchContext) -> None:

@@ -22,7 +22,22 @@ ParameterArgument = tuple[str, bool]
 
 
 def global_arguments(context: LaunchContext, names: NodeNames) -> list[str]:
-    """Return the parameters and files that are set for all nodes, in order."""
+    """
+    Format the parameters and files set for all nodes as ROS arguments, in order.
+
+    Parameters
+    ----------
+    context
+        Its launch configuration `global_params` holds them.
+    names
+        The node that gets the arguments; parameter files are checked against its names.
+
+    Returns
+    -------
+    list of str
+        Pairs of `-p` and a rule, or `--params-file` and a path.
+
+    """
     arguments = []
     for element in global_parameters(context):
         if isinstance(element, dict):
@@ -35,7 +50,20 @@ def global_arguments(context: LaunchContext, names: NodeNames) -> list[str]:
 
 
 def global_parameters(context: LaunchContext) -> list[Union[dict[str, Any], str]]:
-    """Return the parameters and the paths of files that are set for all nodes, in order."""
+    """
+    Return the parameters and the paths of files that are set for all nodes, in order.
+
+    Parameters
+    ----------
+    context
+        Its launch configuration `global_params` holds them.
+
+    Returns
+    -------
+    list
+        A dictionary with one entry for each parameter, and a path for each file.
+
+    """
     return [
         {item[0]: item[1]} if isinstance(item, tuple) else os.fspath(item)
         for item in context.launch_configurations.get('global_params', [])
@@ -52,7 +80,26 @@ def own_parameters(
     parameters: Iterable[NormalizedParameters],
     names: NodeNames,
 ) -> list[ParameterArgument]:
-    """Return the parameters of one node, in order; dictionaries are written to files."""
+    """
+    Evaluate the parameters of one node, in order; dictionaries are written to files.
+
+    A file that is missing is logged and left out.
+
+    Parameters
+    ----------
+    context
+        What substitutions are performed with.
+    parameters : Iterable[NormalizedParameters]
+        What `normalize_parameters` has returned.
+    names
+        The node; written files are for it alone if both its names are known, else for any node.
+
+    Returns
+    -------
+    list of ParameterArgument
+        Paths and rules, for `parameter_arguments`.
+
+    """
     found = (_own(context, each, names) for each in evaluate_parameters(context, parameters))
     return [each for each in found if each is not None]
 
@@ -73,7 +120,20 @@ def _own(
 
 
 def parameter_arguments(parameters: Iterable[ParameterArgument]) -> list[str]:
-    """Return parameters as arguments."""
+    """
+    Format parameters as ROS arguments.
+
+    Parameters
+    ----------
+    parameters : Iterable[ParameterArgument]
+        A path and True, or a rule and False, for each.
+
+    Returns
+    -------
+    list of str
+        Pairs of `--params-file` and a path, or `-p` and a rule.
+
+    """
     return [
         word
         for text, is_file in parameters
@@ -91,16 +151,47 @@ def _note(context: LaunchContext, path: str, names: NodeNames) -> None:
 
 
 def remap_pairs(context: LaunchContext, rules: Iterable[RemapRule]) -> list[tuple[str, str]]:
-    """Return the remappings of all nodes and then those of one, with both sides as texts."""
+    """
+    Evaluate the remappings of all nodes, followed by those of one.
+
+    Parameters
+    ----------
+    context
+        Its launch configuration `ros_remaps` holds those of all nodes.
+    rules
+        Those of the node, with both sides as substitutions.
+
+    Returns
+    -------
+    list of tuple
+        The name that is remapped and what it becomes, both as texts.
+
+    """
     pairs: list[tuple[str, str]] = list(context.launch_configurations.get('ros_remaps', []))
     return pairs + [evaluate_remap_rule(context, rule) for rule in rules]
 
 
 def remap_rules(pairs: Iterable[tuple[str, str]]) -> list[str]:
-    """Return remappings as ROS reads them."""
+    """
+    Format remappings as rules `from:=to`.
+
+    Parameters
+    ----------
+    pairs
+        The name that is remapped and what it becomes, for each.
+
+    """
     return [f'{source}:={target}' for source, target in pairs]
 
 
 def rule_arguments(rules: Iterable[str]) -> list[str]:
-    """Return rules as arguments."""
+    """
+    Format remapping rules as ROS arguments, each behind a `-r`.
+
+    Parameters
+    ----------
+    rules
+        Texts such as `from:=to` or `__node:=name`.
+
+    """
     return [word for rule in rules for word in ('-r', rule)]

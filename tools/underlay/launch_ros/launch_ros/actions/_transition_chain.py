@@ -31,10 +31,24 @@ _STATES_TO_STAY_IN = frozenset(_GOALS.values())
 
 
 class TransitionChain(BaseEventHandler):
-    """Asks for the next transition whenever one has led where it should; ends otherwise."""
+    """
+    Requests the next transition whenever one has reached its goal state; ends otherwise.
+
+    Parameters
+    ----------
+    node_name
+        The full name of the node; a leading slash may be left out.
+    transition_ids
+        Constants of lifecycle_msgs/Transition that lead to a primary state, in order.
+
+    Raises
+    ------
+    ValueError
+        A transition is not among those that can be part of a chain (1 to 7).
+
+    """
 
     def __init__(self, node_name: str, transition_ids: Iterable[int]) -> None:
-        """Create the chain of a node."""
         super().__init__(matcher=self._is_step)
         self._node_name = node_name
         self._is_node = matches_node_name(node_name)
@@ -61,7 +75,22 @@ class TransitionChain(BaseEventHandler):
         )
 
     def handle(self, event: Any, context: LaunchContext) -> Optional[EmitEvent]:
-        """Go on, or end the chain and say why."""
+        """
+        Request the next transition, or end the chain and log a failure.
+
+        Parameters
+        ----------
+        event
+            A StateTransition of the node to a primary state.
+        context
+            Where the handler is registered; it is removed at the end of the chain.
+
+        Returns
+        -------
+        EmitEvent or None
+            The action that requests the next transition; None if the chain has ended.
+
+        """
         super().handle(event, context)
         succeeded = event.goal_state == _GOALS[self._current]
         if succeeded and self._left:

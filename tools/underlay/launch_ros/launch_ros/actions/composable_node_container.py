@@ -18,7 +18,19 @@ if TYPE_CHECKING:
 
 
 class ComposableNodeContainer(Node):
-    """Runs a container and loads nodes into it."""
+    """
+    Runs a component container and loads composable nodes into it.
+
+    Parameters
+    ----------
+    name, namespace
+        Of the container, so that its service `load_node` can be found.
+    composable_node_descriptions
+        The nodes to load, in this order; None for none.
+    **kwargs
+        As for `Node`, such as `package` and `executable` of the container.
+
+    """
 
     def __init__(
         self,
@@ -28,7 +40,6 @@ class ComposableNodeContainer(Node):
         composable_node_descriptions: Optional[Iterable[ComposableNode]] = None,
         **kwargs: Any,
     ) -> None:
-        """Create the action; the other arguments are those of Node."""
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.__composable_node_descriptions = list(composable_node_descriptions or ())
 
@@ -39,7 +50,29 @@ class ComposableNodeContainer(Node):
         parser: Parser,
         ignore: Optional[Iterable[str]] = None,
     ) -> tuple[Any, dict[str, Any]]:
-        """Return the class and its arguments; the container must have a name and a namespace."""
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `node_container` element, with children `composable_node`.
+        parser
+            Parses substitutions in its attributes.
+        ignore
+            Names of attributes that a subclass reads itself.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments to construct it with.
+
+        Raises
+        ------
+        AttributeError
+            The container has no name or no namespace.
+
+        """
         from launch_ros.descriptions.composable_node import parse_composable_nodes
 
         for name in ('name', 'namespace'):
@@ -54,7 +87,20 @@ class ComposableNodeContainer(Node):
         return self.__composable_node_descriptions
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Start the container; loading the nodes comes next."""
+        """
+        Start the container, and load the nodes next.
+
+        Parameters
+        ----------
+        context
+            As for `Node.execute`.
+
+        Returns
+        -------
+        list of LaunchDescriptionEntity
+            The action that loads the nodes, if there are any.
+
+        """
         from launch_ros.actions.load_composable_nodes import LoadComposableNodes
 
         entities: list[LaunchDescriptionEntity] = list(super().execute(context) or ())

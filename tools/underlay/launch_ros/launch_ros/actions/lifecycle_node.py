@@ -17,7 +17,17 @@ if TYPE_CHECKING:
 
 
 class LifecycleNode(Node):
-    """Runs a node whose states can be followed (OnStateTransition) and changed (ChangeState)."""
+    """
+    Runs a node whose states can be followed (OnStateTransition) and changed (ChangeState).
+
+    Parameters
+    ----------
+    name, namespace
+        Of the node, so that its topic and service of transitions can be found.
+    **kwargs
+        As for `Node`.
+
+    """
 
     def __init__(
         self,
@@ -26,7 +36,6 @@ class LifecycleNode(Node):
         namespace: SomeSubstitutionsType,
         **kwargs: Any,
     ) -> None:
-        """Create the action; the other arguments are those of Node."""
         super().__init__(name=name, namespace=namespace, **kwargs)
 
     @classmethod
@@ -36,13 +45,43 @@ class LifecycleNode(Node):
         parser: Parser,
         ignore: Optional[Iterable[str]] = None,
     ) -> tuple[Any, dict[str, Any]]:
-        """Return the class and its arguments; the node must have a name and a namespace."""
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `lifecycle_node` element.
+        parser
+            Parses substitutions in its attributes.
+        ignore
+            Names of attributes that a subclass reads itself.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments to construct it with.
+
+        Raises
+        ------
+        AttributeError
+            The node has no name or no namespace.
+
+        """
         for name in ('name', 'namespace'):
             entity.get_attr(name)
         return super().parse(entity, parser, ignore)
 
     def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
-        """Start the node, and follow its states from the first one on."""
+        """
+        Start the node, and follow its states from the first one on.
+
+        Parameters
+        ----------
+        context
+            As for `Node.execute`.
+
+        """
         entities = super().execute(context)
         if not context.is_shutdown and context._observer is None:
             from launch_ros.actions._lifecycle_link import LifecycleLink

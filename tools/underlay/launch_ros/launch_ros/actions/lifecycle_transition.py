@@ -21,7 +21,24 @@ from launch.utilities.type_utils import normalize_typed_substitution, perform_ty
 
 
 class LifecycleTransition(Action):
-    """Takes each of some lifecycle nodes of this launch through a chain of transitions."""
+    """
+    Takes each of some lifecycle nodes of this launch through a chain of transitions.
+
+    Parameters
+    ----------
+    lifecycle_node_names
+        The full names of the nodes; a leading slash may be left out.
+    transition_ids
+        Constants of lifecycle_msgs.msg.Transition, in order, or substitutions for them.
+    **kwargs
+        As for `Action`: `condition`.
+
+    Raises
+    ------
+    ValueError
+        There are no names or no transitions, or a text stands in place of the list.
+
+    """
 
     def __init__(
         self,
@@ -30,12 +47,6 @@ class LifecycleTransition(Action):
         transition_ids: Iterable[Union[int, SomeSubstitutionsType]],
         **kwargs: Any,
     ) -> None:
-        """
-        Create the action.
-
-        :param lifecycle_node_names: the full names of the nodes
-        :param transition_ids: constants of lifecycle_msgs.msg.Transition, in order
-        """
         super().__init__(**kwargs)
         self.__names = [
             normalize_to_list_of_substitutions(name)
@@ -57,7 +68,26 @@ class LifecycleTransition(Action):
         return self.__transition_ids
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Ask each node for the first transition; what follows depends on how that goes."""
+        """
+        Request the first transition of each node; a chain requests those that follow.
+
+        Parameters
+        ----------
+        context
+            What substitutions are performed with.
+
+        Returns
+        -------
+        list of LaunchDescriptionEntity
+            For each node the action that registers its chain, and the one that emits the first
+            event.
+
+        Raises
+        ------
+        ValueError
+            A transition cannot be part of a chain.
+
+        """
         from launch_ros.actions._transition_chain import TransitionChain
 
         transition_ids = [

@@ -28,7 +28,26 @@ if TYPE_CHECKING:
 
 
 class LoadComposableNodes(Action):
-    """Loads nodes into a container that runs or is about to, one after the other."""
+    """
+    Loads composable nodes into a container that runs or is about to, one after the other.
+
+    They are loaded again whenever a container of this launch has been respawned.
+
+    Parameters
+    ----------
+    composable_node_descriptions
+        The nodes, in this order.
+    target_container
+        The action that runs the container, or its full name.
+    **kwargs
+        As for `Action`: `condition`.
+
+    Raises
+    ------
+    TypeError
+        The container is neither an action nor like a text.
+
+    """
 
     def __init__(
         self,
@@ -37,12 +56,6 @@ class LoadComposableNodes(Action):
         target_container: Union[SomeSubstitutionsType, ComposableNodeContainer],
         **kwargs: Any,
     ) -> None:
-        """
-        Create the action.
-
-        :param composable_node_descriptions: the nodes
-        :param target_container: the action that runs the container, or its full name
-        """
         super().__init__(**kwargs)
         self.__composable_node_descriptions = list(composable_node_descriptions)
         self.__target_container: Any = target_container
@@ -59,7 +72,22 @@ class LoadComposableNodes(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `load_composable_node` element, with the attribute `target`.
+        parser
+            Parses substitutions in its attributes.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments to construct it with.
+
+        """
         from launch_ros.descriptions.composable_node import parse_composable_nodes
 
         _, kwargs = super().parse(entity, parser)
@@ -68,7 +96,25 @@ class LoadComposableNodes(Action):
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """Find out what is loaded and how; the container is asked while the launch goes on."""
+        """
+        Evaluate the descriptions, and start to load the nodes whose conditions hold.
+
+        The container is asked while the launch goes on; `get_asyncio_future` is done when it has
+        answered.
+
+        Parameters
+        ----------
+        context
+            What conditions and substitutions are evaluated with.
+
+        Raises
+        ------
+        InvalidNameError
+            The name or the namespace of a node is not allowed in ROS.
+        FileNotFoundError
+            A parameter file is missing.
+
+        """
         requests = self._requests(context)
         if not requests or context.is_shutdown:
             return

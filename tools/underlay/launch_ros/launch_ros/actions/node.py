@@ -47,7 +47,40 @@ _COMMAND_ATTRIBUTES = {'args': 'arguments', 'ros_args': 'ros_arguments'}
 
 
 class Node(ExecuteProcess):
-    """Runs an executable with the arguments that ROS nodes understand."""
+    """
+    Runs an executable with the arguments that ROS nodes understand.
+
+    Parameters
+    ----------
+    executable
+        The executable of the package, or a path if there is no package.
+    package
+        The package that has installed it.
+    name
+        The node name; if it is left out, the executable itself decides.
+    namespace
+        The namespace, below the one that PushROSNamespace has set unless it is absolute.
+    exec_name
+        The label of the process in the log; the name of the program if it is left out.
+    parameters : Optional[list[Any]]
+        Dictionaries, paths of parameter files, ParameterFile and Parameter.
+    remappings
+        Tuples of a name and what it becomes.
+    ros_arguments
+        More arguments for ROS, such as `--log-level`, `debug`.
+    arguments : Optional[Iterable[SomeSubstitutionsType]]
+        Arguments for the node itself, in front of those for ROS.
+    prefix, cwd, env, additional_env
+        As for `ExecuteProcess`.
+    **kwargs
+        More arguments of `ExecuteProcess`, such as `output` and `respawn`.
+
+    Raises
+    ------
+    TypeError
+        An argument has the wrong type, such as a text in place of a list.
+
+    """
 
     preloader = 'launch_ros._preload'
 
@@ -69,19 +102,6 @@ class Node(ExecuteProcess):
         additional_env: Optional[SomeVariables] = None,
         **kwargs: Any,
     ) -> None:
-        """
-        Create the action; the other arguments are those of ExecuteProcess.
-
-        :param executable: the executable of the package, or a path if there is no package
-        :param package: the package
-        :param name: the name of the node; what the executable itself says if it is left out
-        :param namespace: the namespace, below the one that PushROSNamespace has set
-        :param exec_name: the label in the log; the name of the executable if it is left out
-        :param parameters: dictionaries, paths of files, and single parameters
-        :param remappings: tuples of a name and what it becomes
-        :param ros_arguments: more arguments for ROS, such as `--log-level debug`
-        :param arguments: arguments for the node itself
-        """
         program = text_like('executable', executable)
         if package is not None:
             program = [ExecutableInPackage(program, text_like('package', package))]
@@ -121,7 +141,24 @@ class Node(ExecuteProcess):
         parser: Parser,
         ignore: Optional[Iterable[str]] = None,
     ) -> tuple[Any, dict[str, Any]]:
-        """Return the class and its arguments; attributes to `ignore` are left to the caller."""
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `node` element, with children `param`, `remap` and `env`.
+        parser
+            Parses substitutions in its attributes.
+        ignore
+            Names of process attributes that a subclass reads itself.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments to construct it with.
+
+        """
         from launch.frontend._process_attributes import parse_command, parse_texts
         from launch_ros.utilities.parse_parameters import parse_parameters, parse_remappings
 
@@ -138,7 +175,28 @@ class Node(ExecuteProcess):
 
     @staticmethod
     def parse_nested_parameters(params: list[Entity], parser: Parser) -> list[Any]:
-        """Return a dictionary or a file for each element `param`."""
+        """
+        Parse elements `param` into dictionaries and parameter files.
+
+        Parameters
+        ----------
+        params
+            The elements.
+        parser
+            Parses substitutions in their attributes.
+
+        Returns
+        -------
+        list
+            A dictionary for each element with a name, a ParameterFile for each with `from`.
+
+        Raises
+        ------
+        ValueError
+            An element has neither a value nor nested ones, or both, or an attribute that is
+            unknown.
+
+        """
         from launch_ros.utilities.parse_parameters import parse_nested_parameters
 
         return parse_nested_parameters(params, parser)
@@ -196,7 +254,23 @@ class Node(ExecuteProcess):
         return names
 
     def prepare(self, context: LaunchContext) -> None:
-        """Find out the command line, with all that ROS is told behind the last --ros-args."""
+        """
+        Expand the command line, with all ROS arguments behind its last `--ros-args`.
+
+        They come in this order: name, namespace, parameters of all nodes, own parameters,
+        remappings, and what extensions add.
+
+        Parameters
+        ----------
+        context
+            What substitutions are performed with.
+
+        Raises
+        ------
+        InvalidNameError
+            The name or the namespace is not allowed in ROS.
+
+        """
         names = self._perform_substitutions(context)
         added, known = extend_node(context, names.ros_specific_arguments(), self)
         self.process_description.prepare(
@@ -231,7 +305,24 @@ class Node(ExecuteProcess):
         return {**super()._outline(), 'node_name': name}
 
     def execute(self, context: LaunchContext) -> Optional[list[LaunchDescriptionEntity]]:
-        """Start the node as soon as all that is being visited is done."""
+        """
+        Start the node as soon as all that is being visited is done.
+
+        A warning is logged if another node of this launch has the same full name.
+
+        Parameters
+        ----------
+        context
+            The context of the running launch.
+
+        Raises
+        ------
+        InvalidNameError
+            The name or the namespace is not allowed in ROS.
+        RuntimeError
+            The action has been executed before.
+
+        """
         entities = super().execute(context)
         if self.is_node_name_fully_specified():
             warn_of_same_names(context, self.node_name, self.name)

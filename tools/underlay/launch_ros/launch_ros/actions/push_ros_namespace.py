@@ -22,16 +22,40 @@ if TYPE_CHECKING:
 
 
 class PushROSNamespace(Action):
-    """Puts the nodes that follow below a namespace, to the end of the group that it is in."""
+    """
+    Puts the nodes that follow below a namespace, to the end of the group that it is in.
+
+    Parameters
+    ----------
+    namespace
+        A relative one goes below the current one, an absolute one replaces it.
+    **kwargs
+        As for `Action`: `condition`.
+
+    """
 
     def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         self.__namespace = normalize_to_list_of_substitutions(namespace)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `push_ros_namespace` element, with the attribute `namespace`.
+        parser
+            Parses substitutions in its attributes.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments to construct it with.
+
+        """
         _, kwargs = super().parse(entity, parser)
         kwargs['namespace'] = parser.parse_substitution(entity.get_attr('namespace'))
         return cls, kwargs
@@ -42,7 +66,20 @@ class PushROSNamespace(Action):
         return self.__namespace
 
     def execute(self, context: LaunchContext) -> None:
-        """Combine the namespace with the one of now."""
+        """
+        Combine the namespace with the current one.
+
+        Parameters
+        ----------
+        context
+            Its launch configuration `ros_namespace` holds the namespace.
+
+        Raises
+        ------
+        RuntimeError
+            The resulting namespace is not allowed in ROS.
+
+        """
         pushed = perform_substitutions(context, self.__namespace)
         previous = context.launch_configurations.get('ros_namespace')
         namespace = make_namespace_absolute(prefix_namespace(previous, pushed)) or '/'

@@ -24,7 +24,20 @@ class ROSTimer(TimerAction):
     """
 
     def execute(self, context: LaunchContext) -> None:
-        """Start the timer."""
+        """
+        Start the timer.
+
+        Parameters
+        ----------
+        context
+            The context of the running launch, whose own ROS node has the clock.
+
+        Raises
+        ------
+        RuntimeError
+            The launch is not running.
+
+        """
         super().execute(context)
         context.register_event_handler(
             OnShutdown(on_shutdown=lambda *_: self.cancel(), handle_once=True)
@@ -46,10 +59,21 @@ class ROSTimer(TimerAction):
 
 
 class Alarm:
-    """A timer of a node that goes off once."""
+    """
+    A one-shot timer of a node, which starts at once.
+
+    Parameters
+    ----------
+    node
+        The rclpy node whose clock measures the period.
+    period_s
+        The period in s.
+    callback
+        Called once, without arguments, from the thread that spins the node.
+
+    """
 
     def __init__(self, node: Any, period_s: float, callback: Callable[[], Any]) -> None:
-        """Call back from the thread of the node when the period is over by the node's clock."""
         self._node = node
         self._callback = callback
         self._timer = node.create_timer(period_s, self._go_off, autostart=False)

@@ -17,10 +17,27 @@ if TYPE_CHECKING:
 
 
 class SetParameter(Action):
-    """Sets a parameter of the nodes that follow, to the end of the group that it is in."""
+    """
+    Sets a parameter of the nodes that follow, to the end of the group that it is in.
+
+    Parameters
+    ----------
+    name
+        The name of the parameter.
+    value
+        A scalar, a list, a ParameterValue, or substitutions, whose text gets its type by YAML
+        rules.
+    **kwargs
+        As for `Action`: `condition`.
+
+    Raises
+    ------
+    TypeError
+        A parameter cannot have such a value.
+
+    """
 
     def __init__(self, name: SomeSubstitutionsType, value: Any, **kwargs: Any) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         key: Any = name if isinstance(name, (str, tuple, list)) else (name,)
         key = tuple(key) if isinstance(key, list) else key
@@ -28,7 +45,22 @@ class SetParameter(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `set_parameter` element, with the attributes `name` and `value`.
+        parser
+            Parses substitutions in its attributes.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments to construct it with.
+
+        """
         from launch_ros.utilities.parse_parameters import parse_value
 
         _, kwargs = super().parse(entity, parser)
@@ -37,7 +69,23 @@ class SetParameter(Action):
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """Set it; the list is not changed in place, so that the end of the scope undoes it."""
+        """
+        Set the parameter for the nodes that follow in this scope.
+
+        The list of parameters is replaced, not changed in place, so that the end of the scope
+        undoes it.
+
+        Parameters
+        ----------
+        context
+            Its launch configuration `global_params` holds the parameters of all nodes.
+
+        Raises
+        ------
+        TypeError
+            A parameter cannot have the value that substitutions stand for.
+
+        """
         known = context.launch_configurations.get('global_params', [])
         added = evaluate_parameter_dict(context, self.__parameter)
         context.launch_configurations['global_params'] = [*known, *added.items()]

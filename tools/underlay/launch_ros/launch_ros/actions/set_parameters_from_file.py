@@ -20,16 +20,40 @@ if TYPE_CHECKING:
 
 
 class SetParametersFromFile(Action):
-    """Gives a parameter file to the nodes that follow, to the end of the group that it is in."""
+    """
+    Gives a parameter file to the nodes that follow, to the end of the group that it is in.
+
+    Parameters
+    ----------
+    filename
+        The path; a relative one is taken from the current folder.
+    **kwargs
+        As for `Action`: `condition`.
+
+    """
 
     def __init__(self, filename: SomeSubstitutionsType, **kwargs: Any) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         self.__filename = normalize_to_list_of_substitutions(filename)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `set_parameters_from_file` element, with the attribute `filename`.
+        parser
+            Parses substitutions in its attributes.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments to construct it with.
+
+        """
         _, kwargs = super().parse(entity, parser)
         kwargs['filename'] = parser.parse_substitution(entity.get_attr('filename'))
         return cls, kwargs
@@ -42,7 +66,20 @@ class SetParametersFromFile(Action):
             _require(os.path.abspath(path))
 
     def execute(self, context: LaunchContext) -> None:
-        """Set them."""
+        """
+        Add the file to what the nodes that follow in this scope are given.
+
+        Parameters
+        ----------
+        context
+            Its launch configuration `global_params` holds the files and parameters of all nodes.
+
+        Raises
+        ------
+        FileNotFoundError
+            There is no such file; the text says what may have been meant.
+
+        """
         path = os.path.abspath(perform_substitutions(context, self.__filename))
         _require(path)
         known = context.launch_configurations.get('global_params', [])

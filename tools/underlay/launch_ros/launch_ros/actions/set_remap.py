@@ -20,7 +20,17 @@ if TYPE_CHECKING:
 
 
 class SetRemap(Action):
-    """Remaps a name of the nodes that follow, to the end of the group that it is in."""
+    """
+    Remaps a name of the nodes that follow, to the end of the group that it is in.
+
+    Parameters
+    ----------
+    src, dst
+        The name that is remapped, and the one that it becomes.
+    **kwargs
+        As for `Action`: `condition`.
+
+    """
 
     def __init__(
         self,
@@ -28,14 +38,28 @@ class SetRemap(Action):
         dst: SomeSubstitutionsType,
         **kwargs: Any,
     ) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         self.__src = normalize_to_list_of_substitutions(src)
         self.__dst = normalize_to_list_of_substitutions(dst)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `set_remap` element, with the attributes `from` and `to`.
+        parser
+            Parses substitutions in its attributes.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments to construct it with.
+
+        """
         _, kwargs = super().parse(entity, parser)
         kwargs['src'] = parser.parse_substitution(entity.get_attr('from'))
         kwargs['dst'] = parser.parse_substitution(entity.get_attr('to'))
@@ -52,7 +76,15 @@ class SetRemap(Action):
         return self.__dst
 
     def execute(self, context: LaunchContext) -> None:
-        """Add the rule; those of the nodes themselves come behind it."""
+        """
+        Add the remapping; those of the nodes themselves come behind it.
+
+        Parameters
+        ----------
+        context
+            Its launch configuration `ros_remaps` holds the remappings of all nodes.
+
+        """
         rule = (
             perform_substitutions(context, self.__src),
             perform_substitutions(context, self.__dst),

@@ -21,16 +21,40 @@ if TYPE_CHECKING:
 
 
 class SetROSLogDir(Action):
-    """Sets ROS_LOG_DIR for the nodes that follow; a relative path adds to the one of now."""
+    """
+    Sets ROS_LOG_DIR for the nodes that follow.
+
+    Parameters
+    ----------
+    new_log_dir
+        The folder, in which `~` is expanded. A relative path lies below the current log folder.
+    **kwargs
+        As for `Action`: `condition`.
+
+    """
 
     def __init__(self, new_log_dir: SomeSubstitutionsType, **kwargs: Any) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         self.__log_dir = normalize_to_list_of_substitutions(new_log_dir)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `set_ros_log_dir` element, with the attribute `dir` or `new_log_dir`.
+        parser
+            Parses substitutions in its attributes.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments to construct it with.
+
+        """
         _, kwargs = super().parse(entity, parser)
         path = entity.get_attr('dir', optional=True) or entity.get_attr('new_log_dir')
         kwargs['new_log_dir'] = parser.parse_substitution(path)
@@ -42,7 +66,15 @@ class SetROSLogDir(Action):
         return self.__log_dir
 
     def execute(self, context: LaunchContext) -> None:
-        """Set it."""
+        """
+        Set the environment variable ROS_LOG_DIR.
+
+        Parameters
+        ----------
+        context
+            Its environment is inherited by the processes that follow.
+
+        """
         from launch.logging._directory import base_directory
 
         path = os.path.expanduser(perform_substitutions(context, self.__log_dir))

@@ -17,19 +17,46 @@ if TYPE_CHECKING:
 
 class SetUseSimTime(Action):
     """
-    Chooses whether the launch's own ROS node follows the time of a simulation.
+    Chooses whether the launch's own ROS node follows simulation time.
 
     The nodes that are launched are not affected; SetParameter('use_sim_time', True) does that.
+
+    Parameters
+    ----------
+    value
+        Whether its clock follows `/clock`.
+    **kwargs
+        As for `Action`: `condition`.
+
+    Raises
+    ------
+    TypeError
+        The value is neither a bool nor like a text.
+
     """
 
     def __init__(self, value: Union[bool, SomeSubstitutionsType], **kwargs: Any) -> None:
-        """Create the action."""
         super().__init__(**kwargs)
         self.__value = normalize_typed_substitution(value, bool)
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        entity
+            The `set_use_sim_time` element, with the attribute `value`.
+        parser
+            Parses substitutions in its attributes.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments to construct it with.
+
+        """
         _, kwargs = super().parse(entity, parser)
         value = entity.get_attr('value', data_type=bool)
         kwargs['value'] = parser.parse_if_substitutions(value)
@@ -41,7 +68,20 @@ class SetUseSimTime(Action):
         return self.__value
 
     def execute(self, context: LaunchContext) -> None:
-        """Choose it, also for the node if it is there only later."""
+        """
+        Choose the clock, also of a node that is created only later.
+
+        Parameters
+        ----------
+        context
+            Its global `launch_use_sim_time` keeps the choice.
+
+        Raises
+        ------
+        ValueError
+            What a substitution stands for is not a boolean.
+
+        """
         from launch_ros.ros_adapters import find_ros_adapter
 
         value = perform_typed_substitution(context, self.__value, bool)

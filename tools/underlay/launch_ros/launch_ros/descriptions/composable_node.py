@@ -34,7 +34,34 @@ _TEXT_ATTRIBUTES = {
 
 
 class ComposableNode:
-    """A node that is loaded into a container, as a plugin."""
+    """
+    The description of a node that is loaded into a component container, as a plugin.
+
+    Parameters
+    ----------
+    package
+        The package that has the plugin.
+    plugin
+        The name of the node's class, such as `composition::Talker`.
+    name
+        The node name; if it is left out, the class itself decides.
+    namespace
+        The namespace, below the one that PushROSNamespace has set unless it is absolute.
+    parameters : Optional[list[Any]]
+        Dictionaries, paths of parameter files, ParameterFile and Parameter; later ones override.
+    remappings
+        Tuples of a name and what it becomes.
+    extra_arguments
+        What the container is told, in the same form as parameters.
+    condition
+        The node is loaded if this is None or fulfilled.
+
+    Raises
+    ------
+    TypeError
+        Parameters or remappings do not have this form.
+
+    """
 
     def __init__(
         self,
@@ -48,18 +75,6 @@ class ComposableNode:
         extra_arguments: Optional[list[Any]] = None,
         condition: Optional[Condition] = None,
     ) -> None:
-        """
-        Create the description.
-
-        :param package: the package that has the plugin
-        :param plugin: the name of the node's class, such as `composition::Talker`
-        :param name: the name of the node; what the class itself says if it is left out
-        :param namespace: the namespace, below the one that PushROSNamespace has set
-        :param parameters: dictionaries, paths of files, and single parameters
-        :param remappings: tuples of a name and what it becomes
-        :param extra_arguments: what the container is told, in the same form as parameters
-        :param condition: the node is loaded if this is None or fulfilled
-        """
         self.__package = normalize_to_list_of_substitutions(package)
         self.__node_plugin = normalize_to_list_of_substitutions(plugin)
         self.__node_name = _optional(name)
@@ -71,7 +86,29 @@ class ComposableNode:
 
     @classmethod
     def parse(cls, parser: Parser, entity: Entity) -> tuple[Any, dict[str, Any]]:
-        """Return the class, and what to construct it with, for an element of a launch file."""
+        """
+        Parse an element of a launch file into the class and its keyword arguments.
+
+        Parameters
+        ----------
+        parser
+            Parses substitutions in its attributes.
+        entity
+            The `composable_node` element, with children `param`, `remap` and `extra_arg`.
+
+        Returns
+        -------
+        tuple
+            The class, and the keyword arguments to construct it with.
+
+        Raises
+        ------
+        AttributeError
+            The attribute `pkg`, `plugin` or `name` is missing.
+        ValueError
+            The element has attributes or children that are unknown.
+
+        """
         from launch.action import Action
         from launch.frontend._children import children_named
         from launch.frontend._process_attributes import parse_texts
@@ -133,7 +170,17 @@ class ComposableNode:
 
 
 def parse_composable_nodes(entity: Entity, parser: Parser) -> list[ComposableNode]:
-    """Return the descriptions for the children `composable_node`; there may be none."""
+    """
+    Parse the children `composable_node` of an element, of which there may be none.
+
+    Parameters
+    ----------
+    entity
+        The element around them.
+    parser
+        Parses substitutions in their attributes.
+
+    """
     from launch.frontend._children import children_named
 
     parsed = [ComposableNode.parse(parser, child) for child in children_named(entity, _TAG)]

@@ -30,7 +30,30 @@ _STATES = (
 
 
 class OnStateTransition(EventHandler):
-    """Reacts when a lifecycle node has changed its state."""
+    """
+    Reacts when a lifecycle node has changed its state; criteria left out match anything.
+
+    Parameters
+    ----------
+    entities
+        What is visited.
+    target_lifecycle_node
+        The action that runs the node.
+    transition
+        The label of the transition, such as `configure`.
+    start_state, goal_state
+        The labels of the state before and of the one now, such as `configuring` and `inactive`.
+    matcher
+        Called with each event, and decides alone in place of all the others.
+    **kwargs
+        As for `EventHandler`: `handle_once`.
+
+    Raises
+    ------
+    ValueError
+        A matcher is given together with other criteria.
+
+    """
 
     def __init__(
         self,
@@ -43,16 +66,6 @@ class OnStateTransition(EventHandler):
         matcher: Optional[Callable[[Any], bool]] = None,
         **kwargs: Any,
     ) -> None:
-        """
-        Create a handler; what is left out may be anything.
-
-        :param entities: what is visited
-        :param target_lifecycle_node: the action that runs the node
-        :param transition: the label of the transition, such as `configure`
-        :param start_state: the label of the state before, such as `configuring`
-        :param goal_state: the label of the state now, such as `inactive`
-        :param matcher: decides alone, in place of all the others
-        """
         wanted = {'transition': transition, 'start_state': start_state, 'goal_state': goal_state}
         self.__wanted = {name: value for name, value in wanted.items() if value is not None}
         self.__target = target_lifecycle_node

@@ -11,6 +11,19 @@ if TYPE_CHECKING:
 
 
 def matches_node_name(node_name: str) -> Callable[[Node], bool]:
-    """Return a matcher of the nodes of this full name; a leading slash may be left out."""
+    """
+    Return a matcher of the nodes of a full name.
+
+    Parameters
+    ----------
+    node_name
+        The full name; a leading slash may be left out.
+
+    Returns
+    -------
+    Callable
+        Whether an executed action runs such a node.
+
+    """
     full_name = node_name if node_name.startswith('/') else f'/{node_name}'
     return lambda action: bool(action.node_name == full_name)

@@ -18,7 +18,20 @@ class _ExplainedPackageNotFoundError(PackageNotFoundError):
 
 
 def prefix_of(package_name: str) -> str:
-    """Return the folder that a package is installed to; an error says what is missing."""
+    """
+    Return the install prefix of a package.
+
+    Parameters
+    ----------
+    package_name
+        The package.
+
+    Raises
+    ------
+    PackageNotFoundError
+        It is not installed; the text says why, as far as the workspace tells.
+
+    """
     try:
         return str(get_package_prefix(package_name))
     except PackageNotFoundError as error:

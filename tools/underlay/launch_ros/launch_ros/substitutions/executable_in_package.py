@@ -17,7 +17,17 @@ from launch_ros.substitutions.find_package import FindPackagePrefix
 
 
 class ExecutableInPackage(FindPackagePrefix):
-    """Stands for the path of an executable that a package has installed."""
+    """
+    Stands for the path of an executable that a package has installed.
+
+    Parameters
+    ----------
+    executable
+        The file name of the executable.
+    package
+        The package that has installed it.
+
+    """
 
     frontend_required = ('executable', 'package')
 
@@ -26,7 +36,6 @@ class ExecutableInPackage(FindPackagePrefix):
         executable: SomeSubstitutionsType,
         package: SomeSubstitutionsType,
     ) -> None:
-        """Create the substitution of an executable of a package."""
         super().__init__(package)
         self.__executable = normalize_to_list_of_substitutions(executable)
 
@@ -42,7 +51,22 @@ class ExecutableInPackage(FindPackagePrefix):
         return f'ExecInPkg(pkg={package}, exec={executable})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path; a failure says what is missing."""
+        """
+        Return the path of the executable below `lib/<package>` of the install prefix.
+
+        Parameters
+        ----------
+        context
+            What the names are evaluated with.
+
+        Raises
+        ------
+        PackageNotFoundError
+            The package is not installed.
+        SubstitutionFailure
+            It has no such executable; the text says what is missing.
+
+        """
         executable = perform_substitutions(context, self.__executable)
         package = perform_substitutions(context, self.package)
         prefix = self.find(package)

@@ -17,13 +17,20 @@ from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 
 class FindPackage(PathOperator):
-    """The base of the substitutions that stand for a folder of a package."""
+    """
+    The base of the substitutions that stand for a folder of a package.
+
+    Parameters
+    ----------
+    package
+        The name of the package.
+
+    """
 
     _is_constant = True
     frontend_required: ClassVar[tuple[str, ...]] = ('package',)
 
     def __init__(self, package: SomeSubstitutionsType) -> None:
-        """Create the substitution of a package."""
         super().__init__()
         self.__package = normalize_to_list_of_substitutions(package)
 
@@ -38,11 +45,32 @@ class FindPackage(PathOperator):
         return f'{type(self).__name__}(pkg={package})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the folder; an error says that there is no such package."""
+        """
+        Return the folder of the package.
+
+        Parameters
+        ----------
+        context
+            What the name of the package is evaluated with.
+
+        Raises
+        ------
+        PackageNotFoundError
+            The package is not installed.
+
+        """
         return self.find(perform_substitutions(context, self.__package))
 
     def find(self, package_name: str) -> str:
-        """Return the folder of the package of this name; subclasses override this."""
+        """
+        Return the folder of a package; subclasses override this.
+
+        Parameters
+        ----------
+        package_name
+            The name of the package, as text.
+
+        """
         raise NotImplementedError
 
 
@@ -50,7 +78,20 @@ class FindPackagePrefix(FindPackage):
     """Stands for the folder that a package is installed to."""
 
     def find(self, package_name: str) -> str:
-        """Return the folder."""
+        """
+        Return the install prefix of a package.
+
+        Parameters
+        ----------
+        package_name
+            The name of the package.
+
+        Raises
+        ------
+        PackageNotFoundError
+            The package is not installed.
+
+        """
         from launch_ros.substitutions._installed_package import prefix_of
 
         return prefix_of(package_name)
@@ -60,6 +101,19 @@ class FindPackageShare(FindPackagePrefix):
     """Stands for the folder of the files that a package shares."""
 
     def find(self, package_name: str) -> str:
-        """Return the folder."""
+        """
+        Return the share folder of a package.
+
+        Parameters
+        ----------
+        package_name
+            The name of the package.
+
+        Raises
+        ------
+        PackageNotFoundError
+            The package is not installed.
+
+        """
         prefix: str = super().find(package_name)
         return os.path.join(prefix, 'share', package_name)

@@ -16,7 +16,17 @@ from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 
 class Parameter(Substitution):
-    """Stands for the value of a parameter that SetParameter has set in this scope."""
+    """
+    Stands for the value of a parameter that SetParameter has set in this scope.
+
+    Parameters
+    ----------
+    name
+        The name of the parameter.
+    default
+        What it stands for if the parameter is not set; None makes that a failure.
+
+    """
 
     frontend_required = ('name',)
     frontend_optional = ('default',)
@@ -27,7 +37,6 @@ class Parameter(Substitution):
         *,
         default: Optional[SomeSubstitutionsType] = None,
     ) -> None:
-        """Create the substitution of a parameter."""
         super().__init__()
         self.__name = normalize_to_list_of_substitutions(name)
         self.__default = None if default is None else normalize_to_list_of_substitutions(default)
@@ -42,7 +51,22 @@ class Parameter(Substitution):
         return f'Parameter({" + ".join(sub.describe() for sub in self.__name)})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the value, or else the default."""
+        """
+        Return the value as text, or else the default.
+
+        Of several values that were set for the same name, the first one counts.
+
+        Parameters
+        ----------
+        context
+            Its launch configuration `global_params` holds the parameters of all nodes.
+
+        Raises
+        ------
+        SubstitutionFailure
+            The parameter is not set in this scope, and there is no default.
+
+        """
         name = perform_substitutions(context, self.__name)
         for item in context.launch_configurations.get('global_params', []):
             if isinstance(item, tuple) and item[0] == name:

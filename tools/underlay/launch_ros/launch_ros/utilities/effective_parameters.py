@@ -21,10 +21,20 @@ def effective_parameters(
     namespace: Optional[str],
 ) -> dict[str, Any]:
     """
-    Return the parameters as the node of a name sees them, by their names.
+    Return the parameters that a node gets from its command line, by their names.
 
-    ROS puts together what is for the same key, at the place where the key comes first; of the
-    keys that match the node the later ones win. Single parameters have the key `/**`.
+    ROS puts together what is for the same key, at the place where the key comes first; of the keys
+    that match the node the later ones win. Single parameters have the key `/**`.
+
+    Parameters
+    ----------
+    words
+        The command line, with `-p` and `--params-file`; files that cannot be read are passed over.
+    name
+        The node name; None matches the wildcards `*` and `**` only.
+    namespace
+        The absolute namespace; None stands for the root.
+
     """
     by_key: dict[str, dict[str, Any]] = {}
     for key, parameters in _given(words):
@@ -37,7 +47,15 @@ def effective_parameters(
 
 
 def parameter_files(words: Sequence[str]) -> list[str]:
-    """Return the parameter files that a command line names, without those for dictionaries."""
+    """
+    Return the parameter files that a command line names, without those for dictionaries.
+
+    Parameters
+    ----------
+    words
+        The command line.
+
+    """
     named = [value for option, value in zip(words, words[1:]) if option == _FILE]
     return [path for path in named if not is_written_here(path)]
 

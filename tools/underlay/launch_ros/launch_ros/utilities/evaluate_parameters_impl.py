@@ -19,7 +19,27 @@ def evaluate_parameter_dict(
     context: LaunchContext,
     parameters: Mapping[Any, Any],
 ) -> dict[str, Any]:
-    """Return a normalized dictionary with texts as names and plain values."""
+    """
+    Evaluate a normalized dictionary of parameters.
+
+    Parameters
+    ----------
+    context
+        What substitutions are performed with.
+    parameters : Mapping[Any, Any]
+        What `normalize_parameter_dict` has returned.
+
+    Returns
+    -------
+    dict
+        Plain values, by the names of the parameters.
+
+    Raises
+    ------
+    TypeError
+        A parameter cannot have the value that substitutions stand for.
+
+    """
     evaluated: dict[str, Any] = {}
     for key, value in parameters.items():
         name = perform_substitutions(context, key)
@@ -31,7 +51,27 @@ def evaluate_parameters(
     context: LaunchContext,
     parameters: Iterable[NormalizedParameters],
 ) -> list[EvaluatedParameters]:
-    """Return each element as a plain dictionary, the path of a file, or an evaluated parameter."""
+    """
+    Evaluate the parameters of a node, in order.
+
+    Parameters
+    ----------
+    context
+        What substitutions are performed with.
+    parameters : Iterable[NormalizedParameters]
+        What `normalize_parameters` has returned.
+
+    Returns
+    -------
+    list of EvaluatedParameters
+        A plain dictionary, the path of a file, or an evaluated Parameter for each element.
+
+    Raises
+    ------
+    TypeError
+        A parameter cannot have the value that substitutions stand for.
+
+    """
     return [_evaluate(context, element) for element in parameters]
 
 

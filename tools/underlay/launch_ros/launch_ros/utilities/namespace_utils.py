@@ -7,24 +7,63 @@ from typing import Optional
 
 
 def is_root_namespace(namespace: Optional[str]) -> bool:
-    """Return whether a namespace is the root."""
+    """
+    Whether a namespace is the root.
+
+    Parameters
+    ----------
+    namespace
+        The namespace; None is not the root.
+
+    """
     return namespace == '/'
 
 
 def is_namespace_absolute(namespace: Optional[str]) -> bool:
-    """Return whether a namespace begins at the root."""
+    """
+    Whether a namespace begins with a slash.
+
+    Parameters
+    ----------
+    namespace
+        The namespace; None is not absolute.
+
+    """
     return namespace is not None and namespace.startswith('/')
 
 
 def make_namespace_absolute(namespace: Optional[str]) -> Optional[str]:
-    """Return a namespace from the root on; None stays None."""
+    """
+    Put a slash before a relative namespace.
+
+    Parameters
+    ----------
+    namespace
+        An absolute one, and None, is returned as it is.
+
+    """
     if namespace is None or is_namespace_absolute(namespace):
         return namespace
     return f'/{namespace}'
 
 
 def prefix_namespace(base: Optional[str], namespace: Optional[str]) -> Optional[str]:
-    """Return a namespace below another, without a slash at the end; both may be None."""
+    """
+    Join a namespace to a base, without a slash at the end.
+
+    Parameters
+    ----------
+    base
+        What a relative namespace goes below; None or empty leaves it as it is.
+    namespace
+        An absolute one replaces the base; None stands for the base itself.
+
+    Returns
+    -------
+    str or None
+        The namespace, which is relative if the base is; None if there is neither.
+
+    """
     if namespace is None or is_namespace_absolute(namespace):
         combined = base if namespace is None else namespace
     elif not base:

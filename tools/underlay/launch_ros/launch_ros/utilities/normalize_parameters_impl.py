@@ -19,7 +19,25 @@ NormalizedParameters = Union[dict[Name, Any], ParameterFile, Parameter]
 
 
 def normalize_parameters(parameters: Any) -> list[NormalizedParameters]:
-    """Return each element as a dictionary, a file or a single parameter."""
+    """
+    Normalize the parameters of a node, so that they can be evaluated at run time.
+
+    Parameters
+    ----------
+    parameters : Any
+        A list of dictionaries, paths of parameter files, ParameterFile and Parameter.
+
+    Returns
+    -------
+    list of NormalizedParameters
+        A flat dictionary, a ParameterFile or a Parameter for each element.
+
+    Raises
+    ------
+    TypeError
+        This is not a list, or one of its elements cannot be used.
+
+    """
     if not isinstance(parameters, (list, tuple)):
         raise TypeError(
             'the parameters of a node must be a list of dictionaries and files, but got '
@@ -45,7 +63,27 @@ def normalize_parameter_dict(
     parameters: Mapping[Any, Any],
     prefix: Name = (),
 ) -> dict[Name, Any]:
-    """Return a flat dictionary; the names of nested ones are joined by dots."""
+    """
+    Flatten a dictionary of parameters; the names of nested ones are joined by dots.
+
+    Parameters
+    ----------
+    parameters : Mapping[Any, Any]
+        Values and nested dictionaries, by texts or substitutions.
+    prefix
+        What comes before each name, with the dot.
+
+    Returns
+    -------
+    dict
+        Values as `normalize_value` returns them, by the parts of the whole names.
+
+    Raises
+    ------
+    TypeError
+        A name is not like a text, or a parameter cannot have the value.
+
+    """
     flat: dict[Name, Any] = {}
     for key, value in parameters.items():
         if not isinstance(key, (str, Substitution, list, tuple)):

@@ -19,7 +19,20 @@ RemapRule = tuple[list[Substitution], list[Substitution]]
 
 
 def normalize_remap_rule(remap_rule: Any) -> RemapRule:
-    """Return a rule with both sides as substitutions."""
+    """
+    Turn both sides of a remapping into substitutions.
+
+    Parameters
+    ----------
+    remap_rule
+        A tuple of the name that is remapped and what it becomes.
+
+    Raises
+    ------
+    TypeError
+        This is not such a tuple.
+
+    """
     if not isinstance(remap_rule, tuple) or len(remap_rule) != 2:
         raise TypeError(
             "a remapping must be a tuple such as ('from', 'to'), but got "
@@ -32,10 +45,28 @@ def normalize_remap_rule(remap_rule: Any) -> RemapRule:
 
 
 def normalize_remap_rules(remap_rules: Iterable[Any]) -> list[RemapRule]:
-    """Return the rules with both sides as substitutions."""
+    """
+    Turn both sides of each remapping into substitutions.
+
+    Parameters
+    ----------
+    remap_rules
+        As for `normalize_remap_rule`, which may raise an error.
+
+    """
     return [normalize_remap_rule(rule) for rule in remap_rules]
 
 
 def evaluate_remap_rule(context: LaunchContext, rule: RemapRule) -> tuple[str, str]:
-    """Return a rule with both sides as texts."""
+    """
+    Evaluate both sides of a remapping into texts.
+
+    Parameters
+    ----------
+    context
+        What substitutions are performed with.
+    rule
+        What `normalize_remap_rule` has returned.
+
+    """
     return perform_substitutions(context, rule[0]), perform_substitutions(context, rule[1])

@@ -27,7 +27,25 @@ class ParameterFileContent:
     """The paths of values that lie outside any `ros__parameters` and so have no effect."""
 
     def parameters_of(self, node_name: str) -> list[tuple[str, Any]]:
-        """Return the parameters for the node of this full name, in the order of the file."""
+        """
+        Return the parameters for a node, in the order of the file.
+
+        Parameters
+        ----------
+        node_name
+            The full name of the node, such as `/front/camera`.
+
+        Returns
+        -------
+        list of tuple
+            Names, with those of nested parameters joined by dots, and values.
+
+        Raises
+        ------
+        TypeError
+            A parameter cannot have the value that the file gives it.
+
+        """
         found: list[tuple[str, Any]] = []
         for pattern, parameters in self.sections:
             if matches(pattern, node_name):
@@ -37,10 +55,20 @@ class ParameterFileContent:
 
 def read_parameter_file(path: str) -> ParameterFileContent:
     """
-    Read a file of parameters.
+    Read a YAML file of parameters.
 
-    :raises FileNotFoundError: if there is no such file, with what may have been meant
-    :raises ValueError: if it is not YAML, or parameters are not names with values
+    Parameters
+    ----------
+    path
+        The file.
+
+    Raises
+    ------
+    FileNotFoundError
+        There is no such file; the text says what may have been meant.
+    ValueError
+        The file is not YAML, or does not map names of nodes to parameters.
+
     """
     content = ParameterFileContent(path, [], [])
     tree = _load(path)
@@ -51,7 +79,17 @@ def read_parameter_file(path: str) -> ParameterFileContent:
 
 
 def matches(pattern: str, node_name: str) -> bool:
-    """Return whether a key stands for a node: `*` for one part of a name, `**` for any number."""
+    """
+    Whether a key of a parameter file stands for a node.
+
+    Parameters
+    ----------
+    pattern
+        The key: `*` stands for one part of a name, `**` for any number of them.
+    node_name
+        The full name of the node.
+
+    """
     parts = [part for part in pattern.split('/') if part]
     expression = ''.join(_WILDCARDS.get(part, '/' + re.escape(part)) for part in parts)
     return re.fullmatch(expression, node_name) is not None

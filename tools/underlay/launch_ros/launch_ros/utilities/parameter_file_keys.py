@@ -16,14 +16,28 @@ def parameter_file_keys(path: str) -> list[str]:
     """
     Return the names of nodes in a parameter file, with their wildcards.
 
-    Only the lines are looked at, because reading large files as YAML takes long; a file that
-    is not in block style has no names here.
+    Only the lines are looked at, because reading large files as YAML takes long; a file that is
+    not in block style has no names here.
+
+    Parameters
+    ----------
+    path
+        The file; one that cannot be read has no names.
+
     """
     return _keys(read_lines(path))
 
 
 def read_lines(path: str) -> list[str]:
-    """Return the lines of a file, none if it cannot be read."""
+    """
+    Return the lines of a text file, none if it cannot be read.
+
+    Parameters
+    ----------
+    path
+        The file, in UTF-8.
+
+    """
     try:
         with open(path, encoding='utf-8') as file:
             return file.read().splitlines()
@@ -32,7 +46,20 @@ def read_lines(path: str) -> list[str]:
 
 
 def key_of(line: str) -> Optional[tuple[str, str]]:
-    """Return the spaces before the name that a line begins with, and the name."""
+    """
+    Split the key off a line of YAML in block style.
+
+    Parameters
+    ----------
+    line
+        One line, without its end.
+
+    Returns
+    -------
+    tuple of str or None
+        The spaces before the key, and the key without quotes; None if the line begins with none.
+
+    """
     match = _KEY.match(line)
     if match is None:
         return None
@@ -56,7 +83,19 @@ def _keys(lines: list[str]) -> list[str]:
 
 
 def key_matches(key: str, name: str, namespace: Optional[str]) -> bool:
-    """Return whether a key is for a node; without a namespace it may be in any."""
+    """
+    Whether a key of a parameter file stands for a node.
+
+    Parameters
+    ----------
+    key
+        The name of a node, perhaps with the wildcards `*` and `**`.
+    name
+        The node name.
+    namespace
+        The absolute namespace; None if it is not known, so that the key may be for any.
+
+    """
     if namespace is None:
         last = key.rpartition('/')[2]
         return last in ('*', '**', name)

@@ -17,7 +17,17 @@ class ParameterFileProblem(NamedTuple):
 
 
 def parameter_file_problem(path: str) -> Optional[ParameterFileProblem]:
-    """Return the first problem of a file in block style, None if none is seen."""
+    """
+    Return the first problem of a parameter file in block style, None if none is found.
+
+    That is a tab where YAML allows only spaces, or a node without `ros__parameters`.
+
+    Parameters
+    ----------
+    path
+        The file; one that cannot be read has no problem here.
+
+    """
     lines = read_lines(path)
     return _tab(lines) or _entry_without_parameters(lines)
 

@@ -13,7 +13,15 @@ from launch_ros.utilities.yaml_text import parameter_file_text
 
 
 def is_parameter_file(path: str) -> bool:
-    """Return whether there is a file; if not, log it in the known words and what may help."""
+    """
+    Whether a file exists; if not, warnings with advice are logged.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    """
     if os.path.isfile(path):
         return True
     from launch._missing_file import explain_missing_file
@@ -26,15 +34,41 @@ def is_parameter_file(path: str) -> bool:
 
 
 def write_parameter_file(node_name: str, parameters: Mapping[str, Any]) -> str:
-    """Write the parameters of the nodes of a name to a file, and return its path."""
+    """
+    Write parameters to a temporary parameter file, and return its path.
+
+    Parameters
+    ----------
+    node_name
+        The full name of the nodes that they are for, or `/**` for all.
+    parameters : Mapping[str, Any]
+        Plain values, by the names of the parameters.
+
+    """
     return write_text(parameter_file_text(node_name, parameters))
 
 
 def write_text(text: str) -> str:
-    """Write a file, which is removed when the launch ends, and return its path."""
+    """
+    Write a temporary file, which is removed when the launch ends, and return its path.
+
+    Parameters
+    ----------
+    text
+        The content.
+
+    """
     return write_temporary_file('launch_params_', text)
 
 
 def is_written_here(path: str) -> bool:
-    """Return whether a file is one of those that were written here."""
+    """
+    Whether a file is one of the temporary files of the launch.
+
+    Parameters
+    ----------
+    path
+        The path as it was returned when the file was written.
+
+    """
     return is_temporary_file(path)

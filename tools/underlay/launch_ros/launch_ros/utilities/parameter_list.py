@@ -32,9 +32,33 @@ def named_values(
     node_name: str,
 ) -> list[NamedValue]:
     """
-    Return the parameters for the node of this full name; what comes later counts.
+    Collect the parameters of a node from dictionaries, files and single parameters.
 
-    :raises FileNotFoundError: if a file is missing
+    What has no effect in a file is logged, once for each file.
+
+    Parameters
+    ----------
+    context
+        What single parameters are evaluated with.
+    elements
+        What `evaluate_parameters` has returned.
+    node_name
+        The full name of the node, for which sections of files are chosen.
+
+    Returns
+    -------
+    list of NamedValue
+        Names and values in order; of several with the same name the last one counts.
+
+    Raises
+    ------
+    FileNotFoundError
+        A file is missing.
+    ValueError
+        A file is not a parameter file.
+    TypeError
+        A parameter cannot have the value that a file gives it.
+
     """
     found: list[NamedValue] = []
     for element in elements:
@@ -77,7 +101,19 @@ def to_parameters_list(
     namespace: str,
     evaluated_parameters: Iterable[EvaluatedParameters],
 ) -> list[RosParameter]:
-    """Return rclpy parameters for a node from what `evaluate_parameters` has returned."""
+    """
+    Convert evaluated parameters into rclpy parameters.
+
+    Parameters
+    ----------
+    context
+        As for `named_values`, which may raise an error.
+    node_name, namespace
+        Of the node; an empty namespace stands for the root.
+    evaluated_parameters
+        What `evaluate_parameters` has returned.
+
+    """
     full_name = prefix_namespace(namespace or '/', node_name.lstrip('/')) or ''
     return [
         to_ros_parameter(name, value)
@@ -86,7 +122,17 @@ def to_parameters_list(
 
 
 def to_ros_parameter(name: str, value: Any) -> RosParameter:
-    """Return an rclpy parameter with the type that the value has."""
+    """
+    Convert a value into an rclpy parameter of its type.
+
+    Parameters
+    ----------
+    name
+        The name of the parameter.
+    value
+        A scalar or a list of one type; bytes become a byte array.
+
+    """
     from rclpy.parameter import Parameter as RosParameter
 
     if isinstance(value, bytes):

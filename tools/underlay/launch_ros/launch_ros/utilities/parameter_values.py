@@ -26,19 +26,66 @@ _ADVICE = (
 
 
 class TypedText:
-    """A text that YAML rules give a type when it is known."""
+    """
+    A text that gets its type by YAML rules when it is evaluated.
+
+    Parameters
+    ----------
+    parts
+        Texts and substitutions, which are joined.
+
+    Attributes
+    ----------
+    parts
+        The same, each as a substitution.
+
+    """
 
     def __init__(self, parts: Iterable[Any]) -> None:
-        """Create the value from the parts of the text."""
         self.parts = normalize_to_list_of_substitutions(parts)
 
     def evaluate(self, context: LaunchContext, name: str) -> Any:
-        """Return the value for the parameter of this name."""
+        """
+        Evaluate the text into the value of a parameter.
+
+        Parameters
+        ----------
+        context
+            What substitutions are performed with.
+        name
+            The parameter, for error messages.
+
+        Raises
+        ------
+        TypeError
+            A parameter cannot have the value.
+
+        """
         return type_text(perform_substitutions(context, self.parts), name)
 
 
 def normalize_value(value: Any, name: str) -> Any:
-    """Return a value as it is, or a `TypedText`, or a list of one of them."""
+    """
+    Normalize the value of a parameter, so that it can be evaluated at run time.
+
+    Parameters
+    ----------
+    value
+        A scalar, a path, a substitution, a ParameterValue, or a list.
+    name
+        The parameter, for error messages.
+
+    Returns
+    -------
+    Any
+        A plain value, what has an `evaluate` of its own, a TypedText, or a list of those.
+
+    Raises
+    ------
+    TypeError
+        A parameter cannot have the value.
+
+    """
     if isinstance(value, Substitution):
         return TypedText([value])
     if isinstance(value, os.PathLike):
@@ -62,7 +109,24 @@ def _normalize_list(items: list[Any], name: str) -> Any:
 
 
 def evaluate_value(context: LaunchContext, value: Any, name: str) -> Any:
-    """Return what a normalized value stands for now."""
+    """
+    Evaluate a normalized value.
+
+    Parameters
+    ----------
+    context
+        What substitutions are performed with.
+    value
+        What `normalize_value` has returned.
+    name
+        The parameter, for error messages.
+
+    Raises
+    ------
+    TypeError
+        A parameter cannot have the value.
+
+    """
     if isinstance(value, TypedText):
         return value.evaluate(context, name)
     if isinstance(value, list) and any(isinstance(item, TypedText) for item in value):
@@ -73,7 +137,22 @@ def evaluate_value(context: LaunchContext, value: Any, name: str) -> Any:
 
 
 def type_text(text: str, name: str) -> Any:
-    """Return the value that YAML rules see in a text; an empty one stays a text."""
+    """
+    Convert a text into a value by YAML rules; an empty one stays a text.
+
+    Parameters
+    ----------
+    text
+        The text, with all substitutions performed.
+    name
+        The parameter, for error messages.
+
+    Raises
+    ------
+    TypeError
+        The text is not YAML, or a parameter cannot have the value.
+
+    """
     if not text:
         return text
     try:
@@ -86,7 +165,22 @@ def type_text(text: str, name: str) -> Any:
 
 
 def checked(value: Any, name: str) -> Any:
-    """Return a value if a parameter can have it."""
+    """
+    Return a value if a parameter can have it, with lists made uniform.
+
+    Parameters
+    ----------
+    value
+        Any plain value.
+    name
+        The parameter, for error messages.
+
+    Raises
+    ------
+    TypeError
+        A parameter cannot have the value.
+
+    """
     if isinstance(value, (list, tuple)):
         return uniform(list(value), name)
     if isinstance(value, _SCALARS):
@@ -97,7 +191,22 @@ def checked(value: Any, name: str) -> Any:
 
 
 def uniform(items: list[Any], name: str) -> list[Any]:
-    """Return a list whose items have one type; whole numbers among others become floats."""
+    """
+    Return a list whose items have one type; integers among floats become floats.
+
+    Parameters
+    ----------
+    items
+        The items.
+    name
+        The parameter, for error messages.
+
+    Raises
+    ------
+    TypeError
+        The list is empty, or its items are not all bool, int, float or str.
+
+    """
     kinds = {type(item) for item in items}
     if kinds == {int, float}:
         return [float(item) for item in items]

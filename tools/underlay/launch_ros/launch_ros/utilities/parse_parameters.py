@@ -18,19 +18,69 @@ if TYPE_CHECKING:
 
 
 def parse_parameters(entity: Entity, parser: Parser) -> dict[str, list[Any]]:
-    """Return the argument `parameters` for the children `param`, if there are any."""
+    """
+    Parse the children `param` of an element into a keyword argument.
+
+    Parameters
+    ----------
+    entity
+        The element of a node.
+    parser
+        Parses substitutions in attributes.
+
+    Returns
+    -------
+    dict
+        The list under `parameters`; empty if there are no such children.
+
+    """
     found = parse_nested_parameters(children_named(entity, 'param'), parser)
     return {'parameters': found} if found else {}
 
 
 def parse_remappings(entity: Entity, parser: Parser) -> dict[str, list[Any]]:
-    """Return the argument `remappings` for the children `remap`, if there are any."""
+    """
+    Parse the children `remap` of an element into a keyword argument.
+
+    Parameters
+    ----------
+    entity
+        The element of a node.
+    parser
+        Parses substitutions in attributes.
+
+    Returns
+    -------
+    dict
+        The list of pairs under `remappings`; empty if there are no such children.
+
+    """
     pairs = parse_pairs(entity, parser, 'remap', first='from', second='to')
     return {'remappings': pairs} if pairs else {}
 
 
 def parse_nested_parameters(params: list[Entity], parser: Parser) -> list[Any]:
-    """Return a dictionary or a file for each element `param`."""
+    """
+    Parse elements `param` into dictionaries and parameter files.
+
+    Parameters
+    ----------
+    params
+        The elements.
+    parser
+        Parses substitutions in attributes.
+
+    Returns
+    -------
+    list
+        A dictionary for each element with a name, a ParameterFile for each with `from`.
+
+    Raises
+    ------
+    ValueError
+        An element has neither a value nor nested ones, or both, or an attribute that is unknown.
+
+    """
     return [_parse_element(param, parser) for param in params]
 
 
@@ -41,7 +91,34 @@ def parse_value(
     *,
     optional: bool = False,
 ) -> Any:
-    """Return what the attribute `value` stands for, None if there is none and need not be."""
+    """
+    Parse the attribute `value` of an element.
+
+    Parameters
+    ----------
+    entity
+        The element of a parameter.
+    parser
+        Parses substitutions in attributes.
+    type_identifier
+        The type that the element asks for, such as `str` or `list_of_int`; None for YAML rules.
+    optional
+        Whether the attribute may be missing.
+
+    Returns
+    -------
+    Any
+        The value or its substitutions, as a ParameterValue if it has a type; None if it is
+        missing.
+
+    Raises
+    ------
+    AttributeError
+        The attribute is missing and not optional.
+    ValueError
+        There is no such type.
+
+    """
     data_type = None if type_identifier is None else get_data_type_from_identifier(type_identifier)
     value = entity.get_attr('value', data_type=data_type, optional=optional)
     if value is None:

@@ -10,7 +10,29 @@ from launch_ros.utilities.parameter_files import write_text
 
 
 def substitute_parameter_file(context: LaunchContext, path: str) -> str:
-    """Return the path of a copy of a file with each `$(name arguments)` in it performed."""
+    """
+    Write a temporary copy of a parameter file with its substitutions performed.
+
+    Parameters
+    ----------
+    context
+        What substitutions are performed with.
+    path
+        The file, with texts such as `$(var name)` in it.
+
+    Returns
+    -------
+    str
+        The path of the copy.
+
+    Raises
+    ------
+    InvalidSubstitutionError
+        A substitution is malformed or unknown.
+    ValueError
+        The copy is not valid YAML.
+
+    """
     with open(path, encoding='utf-8') as file:
         text = _substituted(context, file.read(), path)
     _check_yaml(text, path)

@@ -9,7 +9,22 @@ _KEY = 'unique_ros_node_names'
 
 
 def add_node_name(context: LaunchContext, node_name: str) -> int:
-    """Note that a node of this full name is created; return how many there are now."""
+    """
+    Count one more node of a full name.
+
+    Parameters
+    ----------
+    context
+        The context of the launch, which keeps the counts.
+    node_name
+        The full name of the node.
+
+    Returns
+    -------
+    int
+        How many nodes of this name there are now.
+
+    """
     counts: dict[str, int] = context.get_locals_as_dict().get(_KEY) or {}
     context.extend_globals({_KEY: counts})
     counts[node_name] = counts.get(node_name, 0) + 1
@@ -17,13 +32,35 @@ def add_node_name(context: LaunchContext, node_name: str) -> int:
 
 
 def get_node_name_count(context: LaunchContext, node_name: str) -> int:
-    """Return how many nodes of this full name have been created."""
+    """
+    Return how many nodes of a full name have been created.
+
+    Parameters
+    ----------
+    context
+        The context of the launch.
+    node_name
+        The full name.
+
+    """
     counts: dict[str, int] = context.get_locals_as_dict().get(_KEY) or {}
     return counts.get(node_name, 0)
 
 
 def warn_of_same_names(context: LaunchContext, node_name: str, logger_name: str) -> None:
-    """Note that a node of this full name is created; log if it is not the only one."""
+    """
+    Count one more node of a full name, and log a warning if it is not the only one.
+
+    Parameters
+    ----------
+    context
+        The context of the launch.
+    node_name
+        The full name of the node.
+    logger_name
+        The logger of the warning.
+
+    """
     count = add_node_name(context, node_name)
     if count > 1:
         from launch.logging import get_logger
@@ -36,5 +73,13 @@ def warn_of_same_names(context: LaunchContext, node_name: str, logger_name: str)
 
 
 def get_node_names(context: LaunchContext) -> list[str]:
-    """Return the full names of the nodes that have been created."""
+    """
+    Return the full names of the nodes that have been created.
+
+    Parameters
+    ----------
+    context
+        The context of the launch.
+
+    """
     return list(context.get_locals_as_dict().get(_KEY) or {})

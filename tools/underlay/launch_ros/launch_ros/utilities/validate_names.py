@@ -20,7 +20,20 @@ class InvalidNameError(ValueError):
 
 
 def validate_node_name(name: str) -> None:
-    """Raise an error unless this is the name of a node."""
+    """
+    Check that a text is a valid node name.
+
+    Parameters
+    ----------
+    name
+        The name, without a namespace.
+
+    Raises
+    ------
+    InvalidNameError
+        It is not allowed in ROS; the text says why, and where.
+
+    """
     if not _NODE_NAME.fullmatch(name):
         from rclpy.validate_node_name import validate_node_name as judge
 
@@ -28,7 +41,20 @@ def validate_node_name(name: str) -> None:
 
 
 def validate_namespace(namespace: str) -> None:
-    """Raise an error unless this is an absolute namespace."""
+    """
+    Check that a text is a valid absolute namespace.
+
+    Parameters
+    ----------
+    namespace
+        The namespace, with its leading slash.
+
+    Raises
+    ------
+    InvalidNameError
+        It is not allowed in ROS; the text says why, and where.
+
+    """
     if not _NAMESPACE.fullmatch(namespace):
         from rclpy.validate_namespace import validate_namespace as judge
 

@@ -9,7 +9,15 @@ from typing import Any
 
 
 def flow_text(value: Any) -> str:
-    """Return a scalar or a list on one line; texts are always quoted."""
+    """
+    Format a scalar or a list as YAML on one line; texts are always quoted.
+
+    Parameters
+    ----------
+    value
+        A bool, int, float, str or bytes, or a list of those.
+
+    """
     if isinstance(value, bool):
         return 'true' if value else 'false'
     if isinstance(value, int):
@@ -26,7 +34,17 @@ def flow_text(value: Any) -> str:
 
 
 def parameter_file_text(node_name: str, parameters: Mapping[str, Any]) -> str:
-    """Return the text of a parameter file for the nodes of a name."""
+    """
+    Format parameters as the text of a parameter file.
+
+    Parameters
+    ----------
+    node_name
+        The full name of the nodes that they are for, or `/**` for all.
+    parameters : Mapping[str, Any]
+        Plain values, by the names of the parameters.
+
+    """
     lines = [f'{_quoted(node_name)}:', '  ros__parameters:']
     lines += [f'    {_quoted(name)}: {flow_text(parameters[name])}' for name in sorted(parameters)]
     return '\n'.join(lines) + '\n'

@@ -20,5 +20,13 @@ class ReadyToTest(Action):
         return 'ReadyToTest()'
 
     def execute(self, context: LaunchContext) -> None:
-        """Say so to whoever runs the tests."""
+        """
+        Emit the event that lets the tests begin.
+
+        Parameters
+        ----------
+        context
+            The context of the launch under test.
+
+        """
         context.emit_event_sync(TestsMayBegin(self))

@@ -32,9 +32,28 @@ def assertExitCodes(  # noqa: N802
     strict_proc_matching: bool = True,
 ) -> None:
     """
-    Assert that a process, or each one if it is None, ended with one of some exit codes.
+    Assert that a process, or each one, has ended with one of some exit codes.
 
     A process that the signal n has ended counts as -n, and as 128 + n as in a shell.
+
+    Parameters
+    ----------
+    proc_info
+        Knows the processes and how they ended.
+    allowable_exit_codes
+        The exit codes that are right.
+    process, cmd_args, strict_proc_matching
+        As for `resolveProcesses`; without a process, all of them are meant.
+
+    Raises
+    ------
+    AssertionError
+        A process has ended with another exit code, or has not ended.
+    NoMatchingProcessException
+        No process, or more than one, is the one meant.
+    TypeError
+        The exit codes are not a collection.
+
     """
     if isinstance(allowable_exit_codes, (str, int)):
         raise TypeError(f'the allowable exit codes must be a list, not {allowable_exit_codes!r}')

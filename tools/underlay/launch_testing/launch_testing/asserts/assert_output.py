@@ -27,16 +27,32 @@ def assertInStream(  # noqa: N802
     stream: Optional[str] = None,
 ) -> None:
     """
-    Assert that a process, or any if it is None, has written something to a stream.
+    Assert that a process has written some output to a stream.
 
-    :param proc_output: what the processes have written
-    :param expected_output: a text, a regular expression, a function, or a list of lines
-    :param process: an action, a part of the name, or None
-    :param cmd_args: an argument, or several, of the command line, or NO_CMD_ARGS for none
-    :param output_filter: a function through which the output goes before
-    :param strict_proc_matching: whether exactly one process must be meant
-    :param strip_ansi_escape_sequences: whether colours are ignored
-    :param stream: stdout, stderr, or None for any of both
+    Parameters
+    ----------
+    proc_output
+        What the processes have written.
+    expected_output
+        A text, a regular expression, a function of the output, or a list of those for its lines.
+    process, cmd_args
+        As for `resolveProcesses`; without a process, any of them is enough.
+    output_filter
+        A function that the output goes through first.
+    strict_proc_matching
+        Whether exactly one process must be meant.
+    strip_ansi_escape_sequences
+        Whether colours are ignored.
+    stream
+        `stdout` or `stderr`; None accepts each of them, and both together.
+
+    Raises
+    ------
+    AssertionError
+        The output is not there; the text shows the last lines.
+    NoMatchingProcessException
+        No process, or more than one, is the one meant.
+
     """
     chosen = resolveProcesses(
         proc_output, process=process, cmd_args=cmd_args, strict_proc_matching=strict_proc_matching
@@ -62,7 +78,22 @@ def assertInStdout(  # noqa: N802
     cmd_args: Any = None,
     **options: Any,
 ) -> None:
-    """Assert that a process has written something to its standard output."""
+    """
+    Assert that a process has written some output to its standard output.
+
+    Parameters
+    ----------
+    proc_output, expected_output, process, cmd_args
+        As for `assertInStream`.
+    **options
+        Its other arguments, except for `stream`.
+
+    Raises
+    ------
+    AssertionError
+        The output is not there.
+
+    """
     assertInStream(proc_output, expected_output, process, cmd_args, stream='stdout', **options)
 
 
@@ -73,7 +104,22 @@ def assertInStderr(  # noqa: N802
     cmd_args: Any = None,
     **options: Any,
 ) -> None:
-    """Assert that a process has written something to its standard error output."""
+    """
+    Assert that a process has written some output to its standard error output.
+
+    Parameters
+    ----------
+    proc_output, expected_output, process, cmd_args
+        As for `assertInStream`.
+    **options
+        Its other arguments, except for `stream`.
+
+    Raises
+    ------
+    AssertionError
+        The output is not there.
+
+    """
     assertInStream(proc_output, expected_output, process, cmd_args, stream='stderr', **options)
 
 

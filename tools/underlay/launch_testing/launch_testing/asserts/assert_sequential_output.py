@@ -16,10 +16,19 @@ if TYPE_CHECKING:
 
 
 class SequentialTextChecker:
-    """Finds texts one behind the other."""
+    """
+    Asserts that texts occur one after the other.
+
+    Parameters
+    ----------
+    text
+        What a process has written.
+    name
+        The name of the process, for error messages.
+
+    """
 
     def __init__(self, text: str, name: str) -> None:
-        """Create a checker of what a process of some name has written."""
         self._rest = text
         self._name = name
         self._found: list[str] = []
@@ -29,7 +38,22 @@ class SequentialTextChecker:
         expected_output: Union[str, re.Pattern[str]],
         output_filter: Optional[Callable[[str], str]] = None,
     ) -> None:
-        """Assert that a text stands behind all those that were found before."""
+        """
+        Assert that a text occurs after all those that were found before.
+
+        Parameters
+        ----------
+        expected_output
+            The text, or a regular expression.
+        output_filter
+            A function that the rest of the output goes through first.
+
+        Raises
+        ------
+        AssertionError
+            The text does not follow; the message shows what does.
+
+        """
         rest = self._rest if output_filter is None else output_filter(self._rest)
         pattern = (
             re.compile(re.escape(expected_output))
@@ -54,7 +78,27 @@ def assertSequentialStdout(  # noqa: N802
     process: SomeProcess,
     cmd_args: Any = None,
 ) -> Iterator[SequentialTextChecker]:
-    """Return a context with an object that asserts one text behind the other."""
+    """
+    Assert, in a `with` block, that a process has written texts one after the other.
+
+    Parameters
+    ----------
+    proc_output
+        What the processes have written.
+    process, cmd_args
+        As for `resolveProcesses`; exactly one process must be meant.
+
+    Yields
+    ------
+    SequentialTextChecker
+        Asserts one text after the other.
+
+    Raises
+    ------
+    NoMatchingProcessException
+        No process, or more than one, is the one meant.
+
+    """
     (action,) = resolveProcesses(proc_output, process=process, cmd_args=cmd_args)
     text = remove_ansi_escape_sequences(proc_output.text(action, 'stdout'))
     yield SequentialTextChecker(text, (action.process_details or {})['name'])

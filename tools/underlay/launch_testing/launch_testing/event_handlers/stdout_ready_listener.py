@@ -14,7 +14,19 @@ if TYPE_CHECKING:
 
 
 class StdoutReadyListener(OnProcessIO):
-    """Visits actions once, when a process has written a certain text."""
+    """
+    Visits actions once, when a process has written a certain text to its standard output.
+
+    Parameters
+    ----------
+    target_action
+        The action of the process; None for any process.
+    ready_txt
+        The text, which may come in several pieces.
+    actions
+        What is visited then.
+
+    """
 
     def __init__(
         self,
@@ -23,7 +35,6 @@ class StdoutReadyListener(OnProcessIO):
         ready_txt: str,
         actions: SomeEntitiesType,
     ) -> None:
-        """Create a handler of one process, or of all."""
         super().__init__(target_action=target_action, on_stdout=self._on_stdout)
         self._ready_text = ready_txt
         self._actions: Optional[SomeEntitiesType] = actions

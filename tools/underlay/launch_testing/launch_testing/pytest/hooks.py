@@ -16,7 +16,15 @@ _MARKER = 'launch_test'
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Register the marker and the option."""
+    """
+    Register the marker `launch_test`.
+
+    Parameters
+    ----------
+    config
+        The configuration of the pytest run.
+
+    """
     config.addinivalue_line(
         'markers',
         f'{_MARKER}: on generate_test_description(): launches it and runs the tests of the file',
@@ -24,7 +32,15 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the option for the arguments of launch descriptions."""
+    """
+    Add the option `--launch-args` for the arguments of launch descriptions.
+
+    Parameters
+    ----------
+    parser
+        The parser of the command line of pytest.
+
+    """
     parser.addoption(
         '--launch-args',
         nargs='+',
@@ -39,7 +55,22 @@ def pytest_pycollect_makemodule(
     module_path: Path,
     parent: pytest.Collector,
 ) -> Optional[LaunchTestModule]:
-    """Collect a file as a launch test if it looks like one."""
+    """
+    Collect a file as a launch test if it mentions the marker.
+
+    Parameters
+    ----------
+    module_path
+        The file.
+    parent
+        The collector of its folder.
+
+    Returns
+    -------
+    LaunchTestModule or None
+        None leaves the file to others.
+
+    """
     if not mentions(module_path, _MARKER):
         return None
     from launch_testing.pytest.launch_test_module import LaunchTestModule
@@ -49,5 +80,15 @@ def pytest_pycollect_makemodule(
 
 
 def mentions(path: Path, marker: str) -> bool:
-    """Return whether a file might be a launch test with this marker; nothing is imported."""
+    """
+    Whether the text of a file has a marker in it; nothing is imported.
+
+    Parameters
+    ----------
+    path
+        The Python file.
+    marker
+        The name of the marker, which stands behind `mark.` there.
+
+    """
     return re.search(rb'\bmark\.%s\b' % marker.encode(), path.read_bytes()) is not None

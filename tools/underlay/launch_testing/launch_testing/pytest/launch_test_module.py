@@ -19,10 +19,19 @@ class LaunchTestFailure(Exception):
 
 
 class LaunchTestItem(pytest.Item):
-    """The run of all tests of a file on a launch description."""
+    """
+    The run of all tests of a file on a launch description.
+
+    Parameters
+    ----------
+    test_run
+        The launch description and its tests.
+    **kwargs
+        The arguments of pytest.Item.
+
+    """
 
     def __init__(self, *, test_run: TestRun, **kwargs: Any) -> None:
-        """Create the item."""
         super().__init__(**kwargs)
         self.test_run = test_run
 
@@ -51,7 +60,17 @@ class LaunchTestItem(pytest.Item):
             pytest.skip('; '.join(each.message for each in result.outcomes))
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """Return what went wrong, without the frames of the runner."""
+        """
+        Format a failure, without the frames of the runner.
+
+        Parameters
+        ----------
+        excinfo
+            What `runtest` raised.
+        style
+            How pytest shows the traceback of other errors.
+
+        """
         if isinstance(excinfo.value, LaunchTestFailure):
             return str(excinfo.value)
         return super().repr_failure(excinfo, style)

@@ -39,7 +39,17 @@ def basic_output_filter(
     filtered_prefixes: Optional[Iterable[str]] = None,
     filtered_patterns: Optional[Iterable[Union[str, re.Pattern[str]]]] = None,
 ) -> Callable[[str], str]:
-    """Return a function that drops the lines with a prefix, or that match a pattern."""
+    """
+    Return a function that removes lines from an output.
+
+    Parameters
+    ----------
+    filtered_prefixes
+        How the lines begin that are removed; None takes the defaults.
+    filtered_patterns
+        Regular expressions that such lines match from their beginning; None takes the defaults.
+
+    """
     if filtered_prefixes is None:
         filtered_prefixes = get_default_filtered_prefixes()
     if filtered_patterns is None:
@@ -62,15 +72,26 @@ def expect_output(
     strict: bool = False,
 ) -> bool:
     """
-    Return whether an output is as expected.
+    Whether an output is as expected.
 
     Either `expected_text` or `expected_lines` is given, and either `text` or `lines`.
 
-    :param expected_text: a text, a regular expression, or a function
-    :param expected_lines: the same for each line
-    :param text: the output
-    :param lines: the lines of the output
-    :param strict: whether nothing else may be there
+    Parameters
+    ----------
+    expected_text
+        A text, a regular expression, a function of the output, or a list of those for its lines.
+    expected_lines
+        A text, a regular expression or a function for each line.
+    text, lines
+        The output, as a whole or as its lines.
+    strict
+        Whether nothing else may be there.
+
+    Raises
+    ------
+    ValueError
+        Both or none of two alternatives are given.
+
     """
     if (expected_text is None) == (expected_lines is None):
         raise ValueError('expect_output() needs either expected_text or expected_lines')
@@ -84,7 +105,25 @@ def expect_output(
 
 
 def expected_output_from_file(path: Union[str, os.PathLike[str]]) -> list[ExpectedLine]:
-    """Return the lines of the file `path.txt`, or the regular expressions of `path.regex`."""
+    """
+    Read the expected output from a file with the suffix `.txt` or `.regex`.
+
+    Parameters
+    ----------
+    path
+        The file without its suffix.
+
+    Returns
+    -------
+    list of ExpectedLine
+        The lines of `path.txt`, or else those of `path.regex` as regular expressions.
+
+    Raises
+    ------
+    RuntimeError
+        Neither file exists.
+
+    """
     literal, regex = (f'{os.fspath(path)}.{suffix}' for suffix in ('txt', 'regex'))
     if os.path.exists(literal):
         return list(_lines(literal))

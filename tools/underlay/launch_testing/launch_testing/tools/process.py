@@ -24,7 +24,19 @@ _SHUTDOWN_TIMEOUT_S = 30.0
 
 
 class ProcessProxy:
-    """Looks at a process of a launch, and waits for it."""
+    """
+    Observes a process of a launch, and waits for it.
+
+    Parameters
+    ----------
+    process_action
+        The action of the process, which need not run yet.
+    proc_info, proc_output
+        What records the processes of the launch, and their output.
+    output_filter
+        A function that the output goes through first.
+
+    """
 
     def __init__(
         self,
@@ -34,18 +46,33 @@ class ProcessProxy:
         *,
         output_filter: Optional[Callable[[str], str]] = None,
     ) -> None:
-        """Create the proxy of a process, which need not run yet."""
         self._action = process_action
         self._proc_info = proc_info
         self._proc_output = proc_output
         self._output_filter = output_filter
 
     def wait_for_startup(self, timeout: float = 10) -> bool:
-        """Wait until the process runs; return whether it does in time."""
+        """
+        Wait until the process runs, and return whether it does.
+
+        Parameters
+        ----------
+        timeout
+            The timeout in s.
+
+        """
         return self._proc_info.wait_until(lambda: self._is_known, timeout)
 
     def wait_for_shutdown(self, timeout: float = 10) -> bool:
-        """Wait until the process has ended; return whether it has in time."""
+        """
+        Wait until the process has ended, and return whether it has.
+
+        Parameters
+        ----------
+        timeout
+            The timeout in s.
+
+        """
         return self._proc_info.wait_until(lambda: self.terminated, timeout)
 
     def wait_for_output(
@@ -53,7 +80,17 @@ class ProcessProxy:
         condition: Optional[Callable[[str], Any]] = None,
         timeout: Optional[float] = None,
     ) -> bool:
-        """Wait until the output fulfils a condition, or there is any; return whether it does."""
+        """
+        Wait until the output fulfils a condition, and return whether it does.
+
+        Parameters
+        ----------
+        condition
+            A function of all output so far; None waits for any output.
+        timeout
+            The timeout in s; None is 10 s.
+
+        """
         wanted = bool if condition is None else condition
         return self._proc_output.wait_until(
             lambda: bool(wanted(self.output)), 10 if timeout is None else timeout
@@ -110,7 +147,31 @@ def launch_process(
     *,
     output_filter: Optional[Callable[[str], str]] = None,
 ) -> Iterator[ProcessProxy]:
-    """Start a process, and end it with the block if it still runs then."""
+    """
+    Run a process in a launch for the length of a `with` block.
+
+    Parameters
+    ----------
+    launch_service
+        The service, which is running in another thread.
+    process_action
+        The action of the process.
+    proc_info, proc_output
+        What records the processes of the launch, and their output.
+    output_filter
+        A function that the output goes through first.
+
+    Yields
+    ------
+    ProcessProxy
+        The process, which has started. It is shut down at the end if it still runs.
+
+    Raises
+    ------
+    RuntimeError
+        The process has not started in time.
+
+    """
     launch_service.include_launch_description(LaunchDescription([process_action]))
     proxy = ProcessProxy(process_action, proc_info, proc_output, output_filter=output_filter)
     if not proxy.wait_for_startup(timeout=_SHUTDOWN_TIMEOUT_S):

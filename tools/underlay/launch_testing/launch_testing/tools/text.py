@@ -20,12 +20,35 @@ _LINES_OR_TEXTS = 'a text, a compiled regular expression, a function, or a list 
 
 
 def remove_ansi_escape_sequences(text: str) -> str:
-    """Return a text without what colours it on a terminal."""
+    """
+    Remove the ANSI escape sequences that colour a text on a terminal.
+
+    Parameters
+    ----------
+    text
+        The text.
+
+    """
     return _ANSI_ESCAPE.sub('', text)
 
 
 def build_line_match(expected_line: ExpectedLine, *, strict: bool = False) -> Match:
-    """Return a function that tells whether a line is as expected, as a whole if `strict`."""
+    """
+    Return a predicate of lines that are as expected.
+
+    Parameters
+    ----------
+    expected_line
+        A text or a regular expression that is in the line, or a predicate.
+    strict
+        Whether the line must be equal to the text, or match the expression from its beginning.
+
+    Raises
+    ------
+    ValueError
+        What is expected has another type.
+
+    """
     if isinstance(expected_line, str):
         if strict:
             return lambda line: line == expected_line
@@ -40,9 +63,20 @@ def build_line_match(expected_line: ExpectedLine, *, strict: bool = False) -> Ma
 
 def build_text_match(expected_text: Expected, *, strict: bool = False) -> Match:
     """
-    Return a function that tells whether a text is as expected.
+    Return a predicate of texts that are as expected.
 
-    A list is expected line by line: in this order, with others between unless `strict`.
+    Parameters
+    ----------
+    expected_text
+        A text, a regular expression or a predicate of the whole, or a list of those for its lines.
+    strict
+        As for `build_line_match`; and whether a list has no other lines in between.
+
+    Raises
+    ------
+    ValueError
+        What is expected has another type.
+
     """
     if isinstance(expected_text, (str, re.Pattern)) or callable(expected_text):
         return build_line_match(expected_text, strict=strict)
@@ -60,7 +94,19 @@ def lines_match(
     *,
     strict: bool,
 ) -> bool:
-    """Return whether lines are as expected; expected ones may be endless if they are strict."""
+    """
+    Whether lines are as expected, in this order.
+
+    Parameters
+    ----------
+    lines
+        The lines.
+    expected_lines
+        A text, a regular expression or a predicate for each; may be endless if `strict`.
+    strict
+        Whether each line must be as expected, with no others in between.
+
+    """
     if strict:
         return _match_one_to_one(lines, expected_lines)
     rest = iter(lines)
@@ -87,7 +133,30 @@ def matching_text(
     output_filter: Optional[Callable[[str], str]] = None,
     strip_ansi_escape_sequences: bool = True,
 ) -> bool:
-    """Return whether a process has written what is expected, without a stream to any of both."""
+    """
+    Whether the output of a process so far is as expected.
+
+    Parameters
+    ----------
+    proc_output
+        What the processes have written.
+    process
+        The action of the process.
+    expected
+        As for `build_text_match`.
+    stream
+        `stdout` or `stderr`; None accepts each of them, and both together.
+    output_filter
+        A function that the output goes through first.
+    strip_ansi_escape_sequences
+        Whether colours are ignored.
+
+    Raises
+    ------
+    ValueError
+        There is no such stream, or what is expected has another type.
+
+    """
     if stream not in ('stdout', 'stderr', None):
         raise ValueError(f"the stream of a process is 'stdout' or 'stderr', not {stream!r}")
     if not isinstance(expected, (str, re.Pattern)) and not callable(expected):

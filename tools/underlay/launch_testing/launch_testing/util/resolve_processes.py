@@ -43,12 +43,31 @@ def resolveProcesses(  # noqa: N802
     strict_proc_matching: bool = True,
 ) -> list[ExecuteLocal]:
     """
-    Return the processes that a test means.
+    Find the processes that a test means.
 
-    :param info_obj: what knows the processes: `proc_info` or `proc_output`
-    :param process: an action, a part of the name, or None for all
-    :param cmd_args: an argument, or several, of the command line, or NO_CMD_ARGS for none
-    :param strict_proc_matching: whether there must be exactly one, unless `process` is None
+    Parameters
+    ----------
+    info_obj
+        What knows the processes: `proc_info` or `proc_output`.
+    process
+        The action of a process, a part of its name, or None for all.
+    cmd_args
+        One or several words that the command line must have; NO_CMD_ARGS for one without any.
+    strict_proc_matching
+        Whether there must be exactly one, unless `process` is None.
+
+    Returns
+    -------
+    list of ExecuteLocal
+        The actions of the processes.
+
+    Raises
+    ------
+    NoMatchingProcessException
+        There is none, or more than one if that is strict.
+    TypeError
+        The process is given by something else.
+
     """
     known = info_obj.processes()
     found = [each for each in known if _is_meant(each, process) and _has(each, cmd_args)]

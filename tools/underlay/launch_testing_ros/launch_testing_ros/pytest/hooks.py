@@ -16,7 +16,15 @@ _MARKER = 'rostest'
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Register the marker."""
+    """
+    Register the marker `rostest`.
+
+    Parameters
+    ----------
+    config
+        The configuration of the pytest run.
+
+    """
     config.addinivalue_line(
         'markers', f'{_MARKER}: like launch_test, but in a ROS domain of its own'
     )
@@ -27,7 +35,22 @@ def pytest_pycollect_makemodule(
     module_path: Path,
     parent: pytest.Collector,
 ) -> Optional[LaunchRosTestModule]:
-    """Collect a file as a launch test if it looks like one."""
+    """
+    Collect a file as a launch test if it mentions the marker.
+
+    Parameters
+    ----------
+    module_path
+        The file.
+    parent
+        The collector of its folder.
+
+    Returns
+    -------
+    LaunchRosTestModule or None
+        None leaves the file to others.
+
+    """
     if not mentions(module_path, _MARKER):
         return None
     from launch_testing_ros.pytest.launch_ros_test_module import LaunchRosTestModule

@@ -30,7 +30,19 @@ def basic_output_filter(
     filtered_patterns: Optional[Iterable[Union[str, re.Pattern[str]]]] = None,
     filtered_rmw_implementation: Optional[str] = None,
 ) -> Callable[[str], str]:
-    """Return a function that drops lines, also those that a middleware is known to write."""
+    """
+    Return a function that removes lines from an output, also those of a middleware.
+
+    Parameters
+    ----------
+    filtered_prefixes
+        How the lines begin that are removed; None or empty takes the defaults.
+    filtered_patterns
+        Regular expressions that such lines match from their beginning; likewise.
+    filtered_rmw_implementation
+        The middleware whose known lines are removed, too, such as `rmw_connextdds`.
+
+    """
     prefixes = [*(filtered_prefixes or get_default_filtered_prefixes())]
     patterns = [*(filtered_patterns or get_default_filtered_patterns())]
     prefixes += _PREFIXES.get(filtered_rmw_implementation or '', [])

@@ -11,8 +11,15 @@ from launch_xml.parser import Parser
 
 
 class XMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
-    """Loads a launch file in XML."""
+    """
+    Loads a launch file in XML.
+
+    Parameters
+    ----------
+    launch_file_path
+        The path of the file.
+
+    """
 
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
-        """Create the source of the file at a path."""
         super().__init__(launch_file_path, method='interpreted XML launch file', parser=Parser)

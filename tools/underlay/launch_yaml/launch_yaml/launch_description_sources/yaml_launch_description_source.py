@@ -11,8 +11,15 @@ from launch_yaml.parser import Parser
 
 
 class YAMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
-    """Loads a launch file in YAML."""
+    """
+    Loads a launch file in YAML.
+
+    Parameters
+    ----------
+    launch_file_path
+        The path of the file.
+
+    """
 
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
-        """Create the source of the file at a path."""
         super().__init__(launch_file_path, method='interpreted YAML launch file', parser=Parser)

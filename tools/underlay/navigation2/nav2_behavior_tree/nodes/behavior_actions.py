@@ -76,7 +76,15 @@ class Spin(_Behavior):
     }
 
     def fill(self, goal: Any) -> None:
-        """Write the angle."""
+        """
+        Write the angle to the goal.
+
+        Parameters
+        ----------
+        goal
+            The goal of the action `Spin`, which is changed.
+
+        """
         goal.target_yaw = float(self.input('spin_dist'))
 
 
@@ -95,7 +103,15 @@ class BackUp(_Behavior):
     }
 
     def fill(self, goal: Any) -> None:
-        """Write the way."""
+        """
+        Write the distance and the speed to the goal.
+
+        Parameters
+        ----------
+        goal
+            The goal of the action `BackUp`, which is changed.
+
+        """
         goal.target.x = float(self.input('backup_dist'))
         goal.speed = float(self.input('backup_speed'))
 
@@ -117,7 +133,15 @@ class DriveOnHeading(_Behavior):
     }
 
     def fill(self, goal: Any) -> None:
-        """Write the way."""
+        """
+        Write the distance and the speed to the goal.
+
+        Parameters
+        ----------
+        goal
+            The goal of the action `DriveOnHeading`, which is changed.
+
+        """
         goal.target.x = float(self.input('dist_to_travel'))
         goal.speed = float(self.input('speed'))
 
@@ -148,7 +172,15 @@ class Wait(_Behavior):
     }
 
     def fill(self, goal: Any) -> None:
-        """Write the time."""
+        """
+        Write the duration to the goal.
+
+        Parameters
+        ----------
+        goal
+            The goal of the action `Wait`, which is changed.
+
+        """
         goal.time = _duration(abs(self.input('wait_duration')))
 
 
@@ -184,7 +216,20 @@ class DockRobot(ActionNode):
         return goal
 
     def on_success(self, result: Any) -> NodeStatus:
-        """Write how it went."""
+        """
+        Write whether the robot is docked, and after how many retries, to the output ports.
+
+        Parameters
+        ----------
+        result
+            The result of the action `DockRobot`.
+
+        Returns
+        -------
+        NodeStatus
+            SUCCESS, also if the result says otherwise.
+
+        """
         self.output('success', result.success)
         self.output('num_retries', result.num_retries)
         return NodeStatus.SUCCESS
@@ -211,7 +256,20 @@ class UndockRobot(ActionNode):
         )
 
     def on_success(self, result: Any) -> NodeStatus:
-        """Write how it went."""
+        """
+        Write whether the robot is out of its dock to the output port.
+
+        Parameters
+        ----------
+        result
+            The result of the action `UndockRobot`.
+
+        Returns
+        -------
+        NodeStatus
+            SUCCESS, also if the result says otherwise.
+
+        """
         self.output('success', result.success)
         return NodeStatus.SUCCESS
 

@@ -22,7 +22,15 @@ RUNNING, SUCCESS, FAILURE, SKIPPED = tuple(NodeStatus)[1:]
 
 @register()
 class IfThenElse(Control):
-    """Asks the first child once, then runs the second or the third until it ends."""
+    """
+    Ticks the first child as a condition once, then runs the second or the third until it ends.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     least_children, most_children = 2, 3
 
@@ -79,7 +87,15 @@ class WhileDoElse(Control):
 
 
 class Switch(Control):
-    """Runs the child whose case is the value of a variable; the last child if none is."""
+    """
+    Runs the child whose case is the value of a variable; the last child if none is.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     cases: ClassVar[int]
 

@@ -32,6 +32,12 @@ class PipelineSequence(Control):
 
     A child gets its first tick when the one before it has succeeded once. The node fails with the
     first child that fails, and succeeds with the last one.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
     """
 
     def __init__(self, config: NodeConfig) -> None:
@@ -112,6 +118,12 @@ class RecoveryNode(Control):
 
     Succeeds with the first child. Fails if the first one has failed `number_of_retries` times
     after a recovery, or the second one fails.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
     """
 
     least_children = most_children = 2
@@ -159,7 +171,15 @@ class RecoveryNode(Control):
 
 @register()
 class RoundRobin(Control):
-    """Runs another child each time; the next one if it fails. Fails when all have failed."""
+    """
+    Runs the next child each time, and the one after it if that fails; fails when all have failed.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     def __init__(self, config: NodeConfig) -> None:
         super().__init__(config)

@@ -36,13 +36,29 @@ _GOALS: dict[str, Port] = {
 
 
 def outcome(holds: bool) -> NodeStatus:
-    """Return how a condition ends."""
+    """
+    Convert a truth value to the status of a condition.
+
+    Parameters
+    ----------
+    holds
+        Whether the condition holds: SUCCESS, or FAILURE if not.
+
+    """
     return SUCCESS if holds else FAILURE
 
 
 @register('GloballyUpdatedGoal', 'GlobalUpdatedGoal')
 class GloballyUpdatedGoal(TreeNode):
-    """Succeeds if the goal is another one than when this node was asked last."""
+    """
+    Succeeds if the goal is another one than when this node was asked last.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = _GOALS
 
@@ -88,7 +104,13 @@ class IsPathValid(ServiceNode):
     """
     Succeeds if a path is free of obstacles.
 
-    Asked at each tick it tells the last answer, and asks again; only the first time it waits.
+    Ticked again, it returns the last answer and asks anew; it only waits for the first one.
+
+    Parameters
+    ----------
+    config
+        As for `ServiceNode`.
+
     """
 
     service, default_service = IsPathValidService, 'is_path_valid'
@@ -128,7 +150,20 @@ class IsPathValid(ServiceNode):
         return IsPathValidService.Request(path=self.required('path'))
 
     def on_answer(self, response: Any) -> NodeStatus:
-        """Return what the service said."""
+        """
+        Convert the answer of the service to a status.
+
+        Parameters
+        ----------
+        response
+            The response of `nav2_msgs/IsPathValid`.
+
+        Returns
+        -------
+        NodeStatus
+            SUCCESS if the path is valid, else FAILURE.
+
+        """
         return outcome(response.is_valid)
 
     def on_halt(self) -> None:
@@ -139,7 +174,15 @@ class IsPathValid(ServiceNode):
 
 @register()
 class TimeExpired(TreeNode):
-    """Succeeds each time when some time has passed."""
+    """
+    Succeeds each time some time has passed.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {'seconds': in_port('number', '1.0', 'The time in s.')}
 
@@ -161,7 +204,15 @@ class TimeExpired(TreeNode):
 
 @register()
 class PathExpiringTimer(TreeNode):
-    """Succeeds when a path has got older than some time; a new one begins anew."""
+    """
+    Succeeds when a path is older than some time; a new path restarts the timer.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'seconds': in_port('number', '1.0', 'The time in s.'),

@@ -160,7 +160,15 @@ class ReactiveFallback(_Reactive):
 
 @register()
 class Parallel(Control):
-    """Ticks all children, and ends when enough of them have succeeded or failed."""
+    """
+    Ticks all children, and ends when enough of them have succeeded or failed.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'success_count': in_port('whole', '-1', 'Successes for a success; -1: all, -2: but one.'),

@@ -133,7 +133,15 @@ class RetryUntilSuccessful(_Again):
 
 @register()
 class Delay(Decorator):
-    """Begins its child after a time."""
+    """
+    Starts its child after a time.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'delay_msec': in_port('milliseconds', REQUIRED, 'The time in ms.')
@@ -165,7 +173,15 @@ class Delay(Decorator):
 
 @register()
 class Timeout(Decorator):
-    """Halts its child and fails if that takes longer than a time."""
+    """
+    Halts its child and fails if that takes longer than a time.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'msec': in_port('milliseconds', REQUIRED, 'The time in ms; 0: no limit.')
@@ -199,7 +215,15 @@ class Timeout(Decorator):
 
 @register()
 class RunOnce(Decorator):
-    """Runs its child once; later it is skipped, or tells the same end again."""
+    """
+    Runs its child once; later it is skipped, or returns the same status again.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'then_skip': in_port('boolean', 'true', 'Whether to be skipped later.')
@@ -223,7 +247,20 @@ class RunOnce(Decorator):
 
 @register()
 class Precondition(Decorator):
-    """Runs its child if a script says so when it begins; tells something else otherwise."""
+    """
+    Runs its child if a script is true when it starts; returns another status otherwise.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    Raises
+    ------
+    TreeError
+        The script cannot be read, or `else` is no status.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'if': in_port('text', REQUIRED, 'The script.'),

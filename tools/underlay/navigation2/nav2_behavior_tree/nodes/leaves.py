@@ -36,7 +36,20 @@ class AlwaysFailure(TreeNode):
 
 @register()
 class Script(TreeNode):
-    """Runs a script, and succeeds."""
+    """
+    Runs a script, and succeeds.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    Raises
+    ------
+    TreeError
+        The script cannot be read.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {'code': in_port('text', REQUIRED, 'The script.')}
 
@@ -90,7 +103,15 @@ class UnsetBlackboard(TreeNode):
 
 @register()
 class WasEntryUpdated(TreeNode):
-    """Succeeds if an entry was set since this node was asked last."""
+    """
+    Succeeds if an entry was set since this node was asked last.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {'entry': out_port('any', 'The entry: {key}.', REQUIRED)}
 
@@ -107,7 +128,15 @@ class WasEntryUpdated(TreeNode):
 
 @register()
 class Sleep(TreeNode):
-    """Succeeds after a time."""
+    """
+    Succeeds after a time.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'msec': in_port('milliseconds', REQUIRED, 'The time in ms.')

@@ -134,7 +134,20 @@ class SmoothPath(ActionNode):
         )
 
     def on_success(self, result: Any) -> NodeStatus:
-        """Write the smooth path."""
+        """
+        Write the smoothed path, and how it was made, to the output ports.
+
+        Parameters
+        ----------
+        result
+            The result of the action `SmoothPath`.
+
+        Returns
+        -------
+        NodeStatus
+            SUCCESS, also if smoothing was not completed.
+
+        """
         took = result.smoothing_duration
         self.output('smoothed_path', result.path)
         self.output('smoothing_duration', took.sec + took.nanosec * _SECOND_NS)

@@ -104,7 +104,20 @@ class DistanceController(_Paced):
 
 @register()
 class SpeedController(_Paced):
-    """Runs its child the more often, the faster the robot is; at once for a new goal."""
+    """
+    Runs its child more often the faster the robot is, and at once for a new goal.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`; its context has a `RosInterface`.
+
+    Raises
+    ------
+    TreeError
+        A rate is not greater than 0, or the limits of the speed are not in order.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'min_rate': in_port('number', '0.1', 'The rate at min_speed in Hz.'),
@@ -143,7 +156,15 @@ class SpeedController(_Paced):
 
 @register()
 class GoalUpdatedController(_Paced):
-    """Runs its child at first and for each new goal."""
+    """
+    Runs its child at the start and for each new goal.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = _GOALS
 
@@ -170,7 +191,15 @@ class GoalUpdatedController(_Paced):
 
 @register()
 class SingleTrigger(Decorator):
-    """Runs its child once, and fails from then on."""
+    """
+    Runs its child once, and fails from then on.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     def __init__(self, config: NodeConfig) -> None:
         super().__init__(config)
@@ -190,7 +219,15 @@ class SingleTrigger(Decorator):
 
 @register()
 class PathLongerOnApproach(Decorator):
-    """Runs its child if a new path to the same goal is much longer, and the goal was near."""
+    """
+    Runs its child if a new path to the same goal is much longer, and the goal was near.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'path': in_port('path', '{path}', 'The path.'),

@@ -97,7 +97,15 @@ class TruncatePath(TreeNode):
 
 @register()
 class TruncatePathLocal(TreeNode):
-    """Keeps the part of a path that is near the robot."""
+    """
+    Keeps the part of a path that is near the robot.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`; its context has a `RosInterface`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'input_path': in_port('path', '{path}', 'The path.'),
@@ -171,7 +179,15 @@ class GetPoseFromPath(TreeNode):
 
 @register()
 class GoalUpdater(Decorator):
-    """Lets a topic change the goal while its child runs."""
+    """
+    Lets a topic change the goal while its child runs.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`; its context has a `RosInterface`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'input_goal': in_port('pose', '{goal}', 'The goal.'),

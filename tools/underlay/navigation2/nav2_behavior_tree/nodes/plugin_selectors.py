@@ -16,7 +16,15 @@ __all__ = ['Selector']
 
 
 class Selector(TreeNode):
-    """Writes the name that was published last, or the default; fails if there is neither."""
+    """
+    Writes the name that was published last, or the default; fails if there is neither.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`; its context has a `RosInterface`.
+
+    """
 
     subject: ClassVar[str]
 

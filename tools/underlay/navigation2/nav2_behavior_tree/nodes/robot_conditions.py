@@ -32,7 +32,15 @@ _BRAKE_LIMIT_M_S2 = -10.0
 
 @register()
 class GoalReached(TreeNode):
-    """Succeeds if the robot is near the goal."""
+    """
+    Succeeds if the robot is near the goal.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`; its context has a `RosInterface`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {'goal': in_port('pose', '{goal}', 'The goal.'), **_FRAMES}
 
@@ -52,7 +60,15 @@ class GoalReached(TreeNode):
 
 @register()
 class DistanceTraveled(TreeNode):
-    """Succeeds each time when the robot has gone some way."""
+    """
+    Succeeds each time the robot has travelled some distance.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`; its context has a `RosInterface`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'distance': in_port('number', '1.0', 'The way in m.'),
@@ -79,7 +95,15 @@ class DistanceTraveled(TreeNode):
 
 @register()
 class TransformAvailable(TreeNode):
-    """Succeeds if the transform between two frames is known; once it was, it counts as known."""
+    """
+    Succeeds if the transform between two frames is known; once it was, it counts as known.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`; its context has a `RosInterface`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'parent': in_port('text', REQUIRED, 'The parent frame.'),
@@ -110,7 +134,15 @@ class IsStuck(TreeNode):
 
 @register()
 class IsBatteryLow(TreeNode):
-    """Succeeds if the charge of the battery, or its voltage, is low."""
+    """
+    Succeeds if the charge of the battery, or its voltage, is low.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`; its context has a `RosInterface`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'min_battery': in_port('number', REQUIRED, 'The limit: 0 to 1, or V.'),
@@ -133,7 +165,15 @@ class IsBatteryLow(TreeNode):
 
 @register()
 class IsBatteryCharging(TreeNode):
-    """Succeeds while the battery is being charged."""
+    """
+    Succeeds while the battery is being charged.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`; its context has a `RosInterface`.
+
+    """
 
     ports: ClassVar[dict[str, Port]] = {
         'battery_topic': in_port('text', '/battery_status', 'The topic.')

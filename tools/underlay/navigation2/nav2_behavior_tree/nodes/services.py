@@ -150,7 +150,21 @@ class RemoveInCollisionGoals(ServiceNode):
         )
 
     def on_answer(self, response: Any) -> NodeStatus:
-        """Keep the goal or not, and ask about the next one."""
+        """
+        Keep or drop the goal whose cost was asked for, and go on with the next one.
+
+        Parameters
+        ----------
+        response
+            The response of `nav2_msgs/GetCost`; a negative cost is outside of the costmap.
+
+        Returns
+        -------
+        NodeStatus
+            RUNNING while goals are left to ask about, then SUCCESS, or FAILURE if all are
+            occupied.
+
+        """
         cost = response.cost
         if cost == _UNKNOWN_COST and not self.input('consider_unknown_as_obstacle'):
             cost = 0.0

@@ -73,7 +73,20 @@ class RewrittenYaml(Substitution):
         return f'RewrittenYaml({" + ".join(sub.describe() for sub in self.__source_file)})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Write the copy, and return its path."""
+        """
+        Write the copy, and return its path.
+
+        Parameters
+        ----------
+        context
+            The context in which the path, names and values are performed.
+
+        Raises
+        ------
+        SubstitutionFailure
+            The file cannot be read, is no YAML, or has something else than names at the top.
+
+        """
         data = _read(perform_substitutions(context, self.__source_file))
         values = {
             name: self._converted(text)
@@ -143,7 +156,22 @@ class ReplaceString(Substitution):
         return f'ReplaceString({" + ".join(sub.describe() for sub in self.__source_file)})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Write the copy, and return its path."""
+        """
+        Write the copy, and return its path.
+
+        If the condition does not hold, it is the path of the file itself.
+
+        Parameters
+        ----------
+        context
+            The context in which the path, the texts and the condition are evaluated.
+
+        Raises
+        ------
+        SubstitutionFailure
+            The file cannot be read.
+
+        """
         path = perform_substitutions(context, self.__source_file)
         if self.__condition is not None and not self.__condition.evaluate(context):
             return path
@@ -183,7 +211,20 @@ class HasNodeParams(Substitution):
         return f'HasNodeParams({" + ".join(sub.describe() for sub in self.__source_file)})'
 
     def perform(self, context: LaunchContext) -> str:
-        """Return whether the file has parameters for the node."""
+        """
+        Return `True` if the file has parameters for the node, else `False`, as a text.
+
+        Parameters
+        ----------
+        context
+            The context in which the path and the name are performed.
+
+        Raises
+        ------
+        SubstitutionFailure
+            The file cannot be read, is no YAML, or has something else than names at the top.
+
+        """
         data = _read(perform_substitutions(context, self.__source_file))
         name = perform_substitutions(context, self.__node_name)
         return str(isinstance(data, dict) and name in data)

@@ -13,11 +13,29 @@ class ListControllerTypesVerb(VerbExtension):
     """List controller types and their base classes."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the controller manager."""
+        """
+        Add the option for the controller manager.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The name of the program, which is not used.
+
+        """
         add_manager_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print a type and its base class a line."""
+        """
+        Print each controller type with its base class.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         answer = ask(args, 'list_controller_types', 'ListControllerTypes')
         width = max(map(len, answer.types), default=0)
         for kind, base_class in zip(answer.types, answer.base_classes):

@@ -24,7 +24,17 @@ class ListControllersVerb(VerbExtension):
     """List controllers, their types and states."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the controller manager, and what is to be listed of each controller."""
+        """
+        Add the options for what is listed of each controller, and for the controller manager.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The name of the program, which is not used.
+
+        """
         for part, text in PARTS.items():
             parser.add_argument(f'--{part.replace("_", "-")}', action='store_true', help=text)
         parser.add_argument(
@@ -33,7 +43,15 @@ class ListControllersVerb(VerbExtension):
         add_manager_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print a controller a line, and below it what is asked for."""
+        """
+        Print each controller with its type and state, and below it what was asked for.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         controllers = ask(args, 'list_controllers', 'ListControllers').controller
         if not controllers:
             print('No controllers are currently loaded!')

@@ -14,14 +14,32 @@ class ListHardwareComponentsVerb(VerbExtension):
     """List hardware components."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the controller manager, and the choice of all interfaces."""
+        """
+        Add the options for state interfaces and for the controller manager.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The name of the program, which is not used.
+
+        """
         parser.add_argument(
             '-v', '--verbose', action='store_true', help='List state interfaces as well'
         )
         add_manager_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the components one below the other."""
+        """
+        Print each hardware component with its state and its interfaces.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         components = ask(args, 'list_hardware_components', 'ListHardwareComponents').component
         for number, each in enumerate(components, start=1):
             print(f'Hardware Component {number}')

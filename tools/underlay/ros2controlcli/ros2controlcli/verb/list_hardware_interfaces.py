@@ -14,11 +14,29 @@ class ListHardwareInterfacesVerb(VerbExtension):
     """List command and state interfaces."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the controller manager."""
+        """
+        Add the option for the controller manager.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The name of the program, which is not used.
+
+        """
         add_manager_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Print the interfaces, sorted."""
+        """
+        Print all command and state interfaces, sorted by name.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        """
         answer = ask(args, 'list_hardware_interfaces', 'ListHardwareInterfaces')
         print_lines('command interfaces', sorted(map(command_line, answer.command_interfaces)))
         print_lines('state interfaces', sorted(each.name for each in answer.state_interfaces))

@@ -16,7 +16,17 @@ class SwitchControllersVerb(VerbExtension):
     """Switch controllers in a controller manager."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
-        """Add the controllers, and how they are switched."""
+        """
+        Add the options for which controllers are switched, and how.
+
+        Parameters
+        ----------
+        parser
+            The parser of the verb.
+        cli_name
+            The name of the program, which is not used.
+
+        """
         for verb in ('deactivate', 'activate'):
             parser.add_argument(
                 f'--{verb}',
@@ -41,7 +51,20 @@ class SwitchControllersVerb(VerbExtension):
         add_manager_arguments(parser)
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
-        """Switch the controllers; the text of an error says what could not be done."""
+        """
+        Activate and deactivate controllers.
+
+        Parameters
+        ----------
+        args : argparse.Namespace
+            The parsed command line.
+
+        Returns
+        -------
+        int, str or None
+            None if they were switched, else the message that says why not.
+
+        """
         if not args.activate and not args.deactivate:
             return 'Name controllers: --activate NAME, --deactivate NAME, or both'
         from builtin_interfaces.msg import Duration

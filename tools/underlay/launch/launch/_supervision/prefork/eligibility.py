@@ -36,7 +36,22 @@ class Kind:
 
 
 def kind_of(program: Program, environment: Mapping[str, str]) -> Optional[Kind]:
-    """Return the kind of a program, None if it cannot be forked."""
+    """
+    Determine the kind of a program; one template serves all programs of a kind.
+
+    Parameters
+    ----------
+    program
+        What is to be started.
+    environment
+        The variables that its process gets.
+
+    Returns
+    -------
+    Kind or None
+        None if the program has to be executed.
+
+    """
     if program.shell or program.preloader is None or not _is_plain(environment):
         return None
     if program.cwd is not None and not os.path.isdir(program.cwd):

@@ -24,10 +24,22 @@ class ForkRequest:
 
     The template writes the id of the process, the process itself `+` when it is complete. It does
     not begin before the launch says so, and ends if the launch gives up.
+
+    Parameters
+    ----------
+    interpreter
+        The Python interpreter that its command line is to name.
+    program
+        What the process is to become.
+
+    Raises
+    ------
+    TemplateFailure
+        The command line and the environment are too long.
+
     """
 
     def __init__(self, interpreter: str, program: Program) -> None:
-        """Write down what the process is to be."""
         self._ours, self._theirs = socket.socketpair()
         self._ours.setblocking(False)
         self._stdin_read, self._stdin_write = os.pipe()
@@ -44,7 +56,17 @@ class ForkRequest:
             raise TemplateFailure('the command line and the environment are too long')
 
     def send(self, control: socket.socket, stdout: int, stderr: int) -> None:
-        """Hand the other end to the template, with the standard streams."""
+        """
+        Hand the other end to the template, with the standard streams.
+
+        Parameters
+        ----------
+        control
+            The connection to the template.
+        stdout, stderr
+            The descriptors that the output of the process goes to.
+
+        """
         streams = [self._stdin_read, stdout, stderr]
         socket.send_fds(control, [b'fork'], [*streams, self._theirs.fileno()])
         self._theirs.close()

@@ -8,10 +8,19 @@ from typing import IO, Optional
 
 
 class ForkedChild:
-    """Waits for a child process as subprocess.Popen does."""
+    """
+    A child process that was forked from the template, to be used as a `subprocess.Popen`.
+
+    Parameters
+    ----------
+    pid
+        The id of the process.
+    stdin
+        The end to write to of its standard input.
+
+    """
 
     def __init__(self, pid: int, stdin: IO[bytes]) -> None:
-        """Take over a child and the end to write to of its standard input."""
         self.pid = pid
         self.stdin = stdin
         self._code: Optional[int] = None

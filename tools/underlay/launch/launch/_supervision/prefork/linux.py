@@ -21,13 +21,48 @@ _libc.syscall.restype = ctypes.c_long
 
 
 def prctl(operation: int, second: object = 0, third: object = 0, fourth: object = 0) -> None:
-    """Read or change a property of this process; numbers are passed as they are."""
+    """
+    Read or change a property of this process, as the system call of this name does.
+
+    Parameters
+    ----------
+    operation
+        The number of the operation, such as `PR_SET_NAME`.
+    second, third, fourth
+        Its other arguments: numbers, or pointers of ctypes.
+
+    Raises
+    ------
+    OSError
+        The system refuses.
+
+    """
     arguments = [_argument(value) for value in (second, third, fourth, 0)]
     _check(_libc.prctl(operation, *arguments))
 
 
 def syscall(number: int, *arguments: int) -> int:
-    """Call the kernel with plain numbers."""
+    """
+    Call the kernel with plain numbers.
+
+    Parameters
+    ----------
+    number
+        The number of the call on this architecture.
+    *arguments
+        The arguments, each of which is passed as an unsigned long.
+
+    Returns
+    -------
+    int
+        What the call returns.
+
+    Raises
+    ------
+    OSError
+        The call has failed.
+
+    """
     return _check(_libc.syscall(ctypes.c_long(number), *(ctypes.c_ulong(a) for a in arguments)))
 
 

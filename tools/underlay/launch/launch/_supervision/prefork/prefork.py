@@ -31,10 +31,17 @@ class _Waiting:
 
 
 class Prefork:
-    """Starts programs, of many that are alike each as a copy of a template."""
+    """
+    Starts programs; of many that are alike, each is forked from a template.
+
+    Parameters
+    ----------
+    guard
+        Sees to it that no template is left behind.
+
+    """
 
     def __init__(self, guard: OrphanGuard) -> None:
-        """Start nothing yet; the guard sees to it that no template is left behind."""
         self._guard = guard
         self._waiting: list[_Waiting] = []
         self._decision: Optional[asyncio.Future[None]] = None
@@ -42,7 +49,22 @@ class Prefork:
         self._kind: Optional[Kind] = None
 
     async def spawn(self, program: Program, stdout: int, stderr: int) -> Child:
-        """Start a program; if it cannot be forked, it is executed."""
+        """
+        Start a program; if it cannot be forked, it is executed.
+
+        Parameters
+        ----------
+        program
+            What is started.
+        stdout, stderr
+            The descriptors that its output goes to.
+
+        Raises
+        ------
+        OSError
+            The program cannot be started.
+
+        """
         environment = os.environ if program.env is None else program.env
         kind = kind_of(program, environment)
         await self._take_turn(program, kind)

@@ -22,7 +22,24 @@ _ADOPTION_S = 5.0
 
 
 def serve(descriptor: int, preloader: str, scripts: Sequence[str]) -> Become:
-    """Import what programs need and wait for requests; this returns in copies only."""
+    """
+    Import what programs need, and copy this process at each request; returns in copies only.
+
+    Parameters
+    ----------
+    descriptor
+        The descriptor of the connection to the launch.
+    preloader
+        The name of the module that knows what the programs import.
+    scripts
+        The paths of the programs.
+
+    Returns
+    -------
+    callable
+        Returns the code of the program and its names, for `exec`.
+
+    """
     control = socket.socket(fileno=descriptor)
     try:
         return _serve(control, preloader, scripts)

@@ -12,7 +12,15 @@ _NAMES = ('stdin', 'stdout', 'stderr')
 
 
 def take_over(descriptors: tuple[int, int, int]) -> None:
-    """Make three descriptors the standard input, output and error of this process."""
+    """
+    Make three descriptors the standard input, output and error of this process.
+
+    Parameters
+    ----------
+    descriptors
+        The descriptors, in this order; they are closed.
+
+    """
     for number, descriptor in enumerate(descriptors):
         os.dup2(descriptor, number)
         os.close(descriptor)

@@ -16,7 +16,20 @@ from launch._supervision.prefork.title import set_title
 
 
 def enter(program: Mapping[str, Any], descriptors: tuple[int, int, int]) -> None:
-    """Lead a session of its own, with the streams, folder and environment of a program."""
+    """
+    Turn this process into what a program is when it starts.
+
+    It leads a session of its own, and gets the streams, the folder, the environment, the arguments
+    and the title of the program.
+
+    Parameters
+    ----------
+    program
+        `interpreter`, `command`, `cwd` and `env`, as `ForkRequest` sends them.
+    descriptors
+        The standard input, output and error; they are closed.
+
+    """
     os.setsid()
     os.chdir(program['cwd'])
     os.environ.clear()
@@ -33,7 +46,20 @@ def enter(program: Mapping[str, Any], descriptors: tuple[int, int, int]) -> None
 
 
 def main_module(script: str) -> tuple[types.CodeType, dict[str, Any]]:
-    """Make the `__main__` of a script; return its code and its names."""
+    """
+    Create the module `__main__` for a script.
+
+    Parameters
+    ----------
+    script
+        The path of the script.
+
+    Returns
+    -------
+    tuple
+        The compiled code, and the names of the module, in which it is to be executed.
+
+    """
     module = types.ModuleType('__main__')
     names = vars(module)
     names.update(
@@ -50,7 +76,15 @@ def main_module(script: str) -> tuple[types.CodeType, dict[str, Any]]:
 
 
 def forget_packages(names: Iterable[str]) -> None:
-    """Remove the modules that only the template has needed."""
+    """
+    Remove packages that only the template has needed from `sys.modules`.
+
+    Parameters
+    ----------
+    names
+        The names of top-level packages, whose modules are removed as well.
+
+    """
     unwanted = set(names)
     for name in [name for name in sys.modules if name.partition('.')[0] in unwanted]:
         del sys.modules[name]

@@ -24,7 +24,31 @@ IDLE_S = 10.0
 
 
 class TemplateHandle:
-    """The launch's end of the connection to a template."""
+    """
+    Starts a template in a process group of its own, and has it fork programs.
+
+    Parameters
+    ----------
+    kind
+        The kind of the programs.
+    environment
+        The variables of the template.
+    scripts
+        The paths of the programs; the template imports what they need.
+    guard
+        Sees to it that the template is not left behind.
+
+    Attributes
+    ----------
+    is_open
+        Whether the template can fork programs, or is getting ready for it.
+
+    Raises
+    ------
+    OSError
+        The template cannot be started.
+
+    """
 
     def __init__(
         self,
@@ -33,7 +57,6 @@ class TemplateHandle:
         scripts: Sequence[str],
         guard: OrphanGuard,
     ) -> None:
-        """Start the template in a group of its own; it imports what the scripts need."""
         self._guard = guard
         self.is_open = True
         self._kind = kind
@@ -81,7 +104,22 @@ class TemplateHandle:
             raise TemplateFailure(message or 'the template has ended')
 
     async def fork(self, program: Program, stdout: int, stderr: int) -> ForkedChild:
-        """Have a process made that runs a program; a TemplateFailure says that there is none."""
+        """
+        Fork a process that runs a program from the template.
+
+        Parameters
+        ----------
+        program
+            What the process is to become.
+        stdout, stderr
+            The descriptors that its output goes to.
+
+        Raises
+        ------
+        TemplateFailure
+            The program could not be forked, and was not started.
+
+        """
         self._asked += 1
         self._stay()
         try:
@@ -117,7 +155,15 @@ class TemplateHandle:
             raise
 
     def close(self, reason: str = 'the template was ended') -> None:
-        """End the template; the programs that it has become go on."""
+        """
+        End the template; the programs that were forked from it go on.
+
+        Parameters
+        ----------
+        reason
+            Why, for those who wait until it is ready.
+
+        """
         if not self.is_open:
             return
         self.is_open = False

@@ -34,7 +34,24 @@ class _MemoryMap(ctypes.Structure):
 
 
 def set_title(name: str, arguments: Sequence[str], environment: Mapping[str, str]) -> None:
-    """Show a name, a command line and an environment."""
+    """
+    Set the name, the command line and the environment that `ps` and /proc show.
+
+    Parameters
+    ----------
+    name
+        The name of the process, of which the system keeps 15 bytes.
+    arguments
+        The words of the command line.
+    environment
+        The variables.
+
+    Raises
+    ------
+    OSError
+        The system refuses.
+
+    """
     prctl(PR_SET_NAME, ctypes.c_char_p(os.fsencode(name)[:15]))
     words = _block(arguments)
     variables = _block(f'{key}={value}' for key, value in environment.items())

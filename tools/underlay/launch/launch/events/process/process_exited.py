@@ -9,12 +9,21 @@ from launch.events.process.running_process_event import RunningProcessEvent
 
 
 class ProcessExited(RunningProcessEvent):
-    """A process has ended."""
+    """
+    Event of a process that has ended.
+
+    Parameters
+    ----------
+    returncode
+        The exit status, or minus the number of the signal that ended the process.
+    **kwargs
+        The facts about the process, as for `RunningProcessEvent`.
+
+    """
 
     name = 'launch.events.process.ProcessExited'
 
     def __init__(self, *, returncode: int, **kwargs: Any) -> None:
-        """Create the event; a negative code is the signal that ended the process."""
         super().__init__(**kwargs)
         self.__returncode = returncode
 

@@ -9,12 +9,23 @@ from launch.events.process.running_process_event import RunningProcessEvent
 
 
 class ProcessIO(RunningProcessEvent):
-    """A process wrote, or is to read, some bytes."""
+    """
+    Event of bytes that a process wrote or is to read.
+
+    Parameters
+    ----------
+    text
+        The bytes as they came, not cut into lines.
+    fd
+        The number of the stream: 0, 1 or 2.
+    **kwargs
+        The facts about the process, as for `RunningProcessEvent`.
+
+    """
 
     name = 'launch.events.process.ProcessIO'
 
     def __init__(self, *, text: bytes, fd: int, **kwargs: Any) -> None:
-        """Create the event from the bytes and the number of the stream (0, 1 or 2)."""
         super().__init__(**kwargs)
         self.__text = text
         self.__fd = fd

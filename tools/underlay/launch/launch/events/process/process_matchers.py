@@ -12,17 +12,56 @@ if TYPE_CHECKING:
 
 
 def matches_pid(pid: int) -> Callable[[ExecuteLocal], bool]:
-    """Return a matcher of the process with this id."""
+    """
+    Create a matcher of the process that has an id.
+
+    Parameters
+    ----------
+    pid
+        The id that the operating system gave the process.
+
+    Returns
+    -------
+    callable
+        Takes an action, and returns whether it has started that process.
+
+    """
     return lambda action: bool((action.process_details or {}).get('pid') == pid)
 
 
 def matches_name(name: str) -> Callable[[ExecuteLocal], bool]:
-    """Return a matcher of the processes with this label."""
+    """
+    Create a matcher of the processes that have a label.
+
+    Parameters
+    ----------
+    name
+        The label with its number, such as `talker-1`.
+
+    Returns
+    -------
+    callable
+        Takes an action, and returns whether its process has the label.
+
+    """
     return lambda action: bool(action.name == name)
 
 
 def matches_executable(executable: str) -> Callable[[ExecuteLocal], bool]:
-    """Return a matcher of the processes whose program has this name."""
+    """
+    Create a matcher of the processes that run a program.
+
+    Parameters
+    ----------
+    executable
+        The file name of the program, without its folder.
+
+    Returns
+    -------
+    callable
+        Takes an action, and returns whether its command begins with the program.
+
+    """
 
     def matches(action: ExecuteLocal) -> bool:
         command = (action.process_details or {}).get('cmd') or ['']

@@ -9,10 +9,19 @@ from launch.events.process.process_io import ProcessIO
 
 
 class ProcessStdin(ProcessIO):
-    """A process is to read some bytes."""
+    """
+    Event of bytes for the standard input of a process.
+
+    Parameters
+    ----------
+    text
+        The bytes that are written to it.
+    **kwargs
+        The facts about the process, as for `RunningProcessEvent`.
+
+    """
 
     name = 'launch.events.process.ProcessStdin'
 
     def __init__(self, *, text: bytes, **kwargs: Any) -> None:
-        """Create the event from the bytes."""
         super().__init__(text=text, fd=0, **kwargs)

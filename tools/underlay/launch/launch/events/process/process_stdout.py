@@ -9,10 +9,19 @@ from launch.events.process.process_io import ProcessIO
 
 
 class ProcessStdout(ProcessIO):
-    """A process wrote to its standard output."""
+    """
+    Event of bytes that a process wrote to its standard output.
+
+    Parameters
+    ----------
+    text
+        The bytes as they came, not cut into lines.
+    **kwargs
+        The facts about the process, as for `RunningProcessEvent`.
+
+    """
 
     name = 'launch.events.process.ProcessStdout'
 
     def __init__(self, *, text: bytes, **kwargs: Any) -> None:
-        """Create the event from the bytes."""
         super().__init__(text=text, fd=1, **kwargs)

@@ -13,12 +13,19 @@ if TYPE_CHECKING:
 
 
 class ProcessTargetedEvent(Event):
-    """Something is to be done to the processes that a matcher accepts."""
+    """
+    Base class of events that ask for something to be done to certain processes.
+
+    Parameters
+    ----------
+    process_matcher
+        Called with the action of a process; returns whether the event is meant for it.
+
+    """
 
     name = 'launch.events.process.ProcessTargetedEvent'
 
     def __init__(self, *, process_matcher: Callable[[ExecuteLocal], bool]) -> None:
-        """Create the event for the processes that `process_matcher` accepts."""
         self.__process_matcher = process_matcher
 
     @property

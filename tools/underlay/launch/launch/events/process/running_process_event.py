@@ -12,7 +12,25 @@ if TYPE_CHECKING:
 
 
 class RunningProcessEvent(Event):
-    """Something happened to a process."""
+    """
+    Base class of events about a process that runs or has run.
+
+    Parameters
+    ----------
+    action
+        The action that started the process.
+    name
+        The label of the process, with its number.
+    cmd
+        The command line, as a list of words.
+    cwd
+        The folder that the process was started in; None is that of the launch.
+    env
+        The environment that the process was started with.
+    pid
+        The id of the process.
+
+    """
 
     name = 'launch.events.process.RunningProcessEvent'
 
@@ -26,7 +44,6 @@ class RunningProcessEvent(Event):
         env: Optional[dict[str, str]],
         pid: int,
     ) -> None:
-        """Create the event from the facts about the process."""
         self.__action = action
         self.__name = name
         self.__cmd = cmd

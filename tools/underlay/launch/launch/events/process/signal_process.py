@@ -14,7 +14,24 @@ if TYPE_CHECKING:
 
 
 class SignalProcess(ProcessTargetedEvent):
-    """The processes that a matcher accepts are to get a signal."""
+    """
+    Event that asks for a signal to be sent to certain processes.
+
+    Parameters
+    ----------
+    signal_number
+        The signal, as its name (`'SIGINT'`) or its number.
+    process_matcher
+        Called with the action of a process; returns whether the event is meant for it.
+
+    Raises
+    ------
+    KeyError
+        There is no signal of the name.
+    ValueError
+        There is no signal of the number.
+
+    """
 
     name = 'launch.events.process.SignalProcess'
 
@@ -24,7 +41,6 @@ class SignalProcess(ProcessTargetedEvent):
         signal_number: Union[str, signal.Signals, int],
         process_matcher: Callable[[ExecuteLocal], bool],
     ) -> None:
-        """Create the event from a signal, given by its name (`'SIGINT'`) or number."""
         super().__init__(process_matcher=process_matcher)
         self.__signal = (
             signal.Signals[signal_number]

@@ -13,7 +13,22 @@ if TYPE_CHECKING:
 
 
 class ChangeState(Event):
-    """The lifecycle nodes that a matcher accepts are to make a transition."""
+    """
+    Requests a transition of the lifecycle nodes that a matcher accepts.
+
+    Parameters
+    ----------
+    lifecycle_node_matcher
+        Called with the action of each lifecycle node; whether that node is meant.
+    transition_id
+        A constant of lifecycle_msgs.msg.Transition.
+
+    Raises
+    ------
+    ValueError
+        The transition is not among `valid_transitions`.
+
+    """
 
     name = 'launch_ros.events.lifecycle.ChangeState'
 
@@ -36,7 +51,6 @@ class ChangeState(Event):
         lifecycle_node_matcher: Callable[[LifecycleNode], bool],
         transition_id: int,
     ) -> None:
-        """Create the event; the ids are constants of lifecycle_msgs.msg.Transition."""
         if transition_id not in self.valid_transitions:
             known = ', '.join(f'{key} ({name})' for key, name in self.valid_transitions.items())
             raise ValueError(

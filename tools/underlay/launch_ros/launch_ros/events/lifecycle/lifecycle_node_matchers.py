@@ -14,7 +14,15 @@ if TYPE_CHECKING:
 
 
 def matches_node_name(node_name: str) -> Callable[[Node], bool]:
-    """Return a matcher of the nodes of this full name (deprecated here)."""
+    """
+    Return a matcher of the nodes of a full name (deprecated here).
+
+    Parameters
+    ----------
+    node_name
+        As for `launch_ros.events.matches_node_name`.
+
+    """
     warnings.warn(
         'launch_ros.events.lifecycle.matches_node_name is deprecated; import matches_node_name '
         'from launch_ros.events instead',

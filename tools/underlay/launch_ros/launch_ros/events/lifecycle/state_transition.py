@@ -12,12 +12,21 @@ if TYPE_CHECKING:
 
 
 class StateTransition(Event):
-    """A lifecycle node has gone from one state to another."""
+    """
+    A lifecycle node has gone from one state to another.
+
+    Parameters
+    ----------
+    action
+        The action that runs the node.
+    msg
+        The message of the node (lifecycle_msgs/TransitionEvent).
+
+    """
 
     name = 'launch_ros.events.lifecycle.StateTransition'
 
     def __init__(self, *, action: LifecycleNode, msg: Any) -> None:
-        """Create the event from the node's message (lifecycle_msgs/TransitionEvent)."""
         self.__action = action
         self.__msg = msg
 
