@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict
 from typing import Any, Generic, TypeVar
 
 from humanoid_common.descriptors import descriptor_of
@@ -13,6 +12,7 @@ from humanoid_common.parameters import (
     ParameterError,
     specs_of,
     unknown_parameter_warnings,
+    values_of,
     widened,
 )
 from rcl_interfaces.msg import SetParametersResult
@@ -74,7 +74,7 @@ class NodeParameters(Generic[T]):
         given = _given_values(self._node)
         known = {name: value for name, value in given.items() if name in self._specs}
         snapshot = self._build_at_start(known)
-        for name, value in _values(snapshot).items():
+        for name, value in values_of(snapshot).items():
             self._node.declare_parameter(
                 name, value, descriptor_of(self._specs[name]), ignore_override=True
             )
@@ -133,12 +133,7 @@ class NodeParameters(Generic[T]):
     def _changed(self, changes: list[Parameter]) -> T:
         """Build the snapshot that the changes lead to."""
         new = {change.name: change.value for change in changes if change.name in self._specs}
-        return build(self._kind, {**_values(self._current), **new})
-
-
-def _values(snapshot: Any) -> dict[str, Any]:
-    """Return the values of a dataclass by name."""
-    return asdict(snapshot)
+        return build(self._kind, {**values_of(self._current), **new})
 
 
 def _given_values(node: Node) -> dict[str, Any]:

@@ -6,7 +6,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from humanoid_common.naming import did_you_mean, shortened
-from humanoid_common.parameters import parameter, specs_of, unknown_parameter_warnings
+from humanoid_common.parameters import (
+    build,
+    parameter,
+    ParameterError,
+    specs_of,
+    unknown_parameter_warnings,
+    values_of,
+)
 import pytest
 
 
@@ -16,6 +23,14 @@ class Sample:
 
     rate_hz: float = parameter(50.0, 'The rate.', at_least=1.0)
     joints: tuple[str, ...] = parameter(('a', 'b'), 'The joints.', read_only=True)
+
+
+@dataclass(frozen=True)
+class Grouped:
+    """A parameter, and a group of others."""
+
+    name: str = parameter('x', 'The name.')
+    inside: Sample = Sample()
 
 
 @dataclass(frozen=True)
@@ -30,6 +45,22 @@ class PlainField:
     """A field that is not a parameter."""
 
     rate_hz: float = 1.0
+
+
+def test_groups_have_their_names_before_those_of_their_parameters() -> None:
+    """They are checked, built and listed as others are."""
+    specs = specs_of(Grouped)
+    assert list(specs) == ['name', 'inside.rate_hz', 'inside.joints']
+    assert specs['inside.rate_hz'].name == 'inside.rate_hz'
+    built = build(Grouped, {'inside.rate_hz': 3, 'name': 'y'})
+    assert built == Grouped('y', Sample(3.0))
+    assert values_of(built) == {
+        'name': 'y',
+        'inside.rate_hz': 3.0,
+        'inside.joints': ('a', 'b'),
+    }
+    with pytest.raises(ParameterError, match=r"'inside.rate_hz' is 0.0, but must be at least 1"):
+        build(Grouped, {'inside.rate_hz': 0.0})
 
 
 def test_specs() -> None:

@@ -80,8 +80,9 @@ class MockRobot(Node):
             load_drives(scale, prefix, hands=hands),
             Refusals(self.get_logger().error).add,
         )
+        walk = parameters.walk.scaled(scale)
         controls = {
-            name: WalkingRobotControl.of(model, drives, scale, time.monotonic, say, self._able)
+            name: WalkingRobotControl.of(model, drives, walk, time.monotonic, say, self._able)
             for name in parameters.robots
         }
         return controls, MockBackend(

@@ -19,8 +19,8 @@ P = WalkParameters()
     ('wanted', 'can'),
     [
         (BodyPose(0.3, -0.1), BodyPose(0.3, -0.1)),
-        (BodyPose(3.0, -9.0), BodyPose(P.bend_rad, -P.lower_m)),
-        (BodyPose(-3.0, 9.0), BodyPose(-P.bend_back_rad, 0.0)),
+        (BodyPose(3.0, -9.0), BodyPose(P.body_pose.bend_rad, -P.body_pose.lower_m)),
+        (BodyPose(-3.0, 9.0), BodyPose(-P.body_pose.bend_back_rad, 0.0)),
     ],
 )
 def test_it_bends_as_far_as_it_can(wanted: BodyPose, can: BodyPose) -> None:
@@ -40,9 +40,9 @@ def test_it_follows_at_a_rate() -> None:
     follower = BodyPoseFollower(P)
     assert follower.is_upright
     follower.update(BodyPose(0.4, -0.05), 0.5)
-    assert follower.pose.pitch_rad == pytest.approx(0.5 * P.bend_rad_s)
+    assert follower.pose.pitch_rad == pytest.approx(0.5 * P.body_pose.bend_rad_s)
     assert follower.pose.height_m == pytest.approx(-0.05)
-    assert follower.pitch_rate_rad_s == pytest.approx(P.bend_rad_s)
+    assert follower.pitch_rate_rad_s == pytest.approx(P.body_pose.bend_rad_s)
     assert not follower.is_upright
     follower.update(BodyPose(0.4, -0.05), 5.0)
     assert follower.pose == BodyPose(0.4, -0.05)

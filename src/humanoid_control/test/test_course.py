@@ -22,7 +22,7 @@ def walked(steps: int, stray: complex, stray_rad: float, slow: float = 1.0) -> P
     for _ in range(steps):
         goal = PLANNER.next_middle(course.corrected(middle), side, FORWARD)
         middle = PlanarPose(goal.position_m + stray, goal.yaw_rad + stray_rad)
-        course.advance(side, FORWARD, slow * P.step_s)
+        course.advance(side, FORWARD, slow * P.timing.step_s)
         side = other(side)
     return middle
 
@@ -30,21 +30,21 @@ def walked(steps: int, stray: complex, stray_rad: float, slow: float = 1.0) -> P
 def test_perfect_steps_need_no_correction() -> None:
     """A robot that lands where planned is on its course."""
     end = walked(20, 0j, 0.0)
-    assert end.position_m == pytest.approx(20 * P.step_s * 0.3)
+    assert end.position_m == pytest.approx(20 * P.timing.step_s * 0.3)
     assert end.yaw_rad == 0.0
 
 
 def test_straying_does_not_add_up() -> None:
     """Forty steps of which each strays stay as near to the line as a few."""
     end = walked(40, 0.002 - 0.004j, 0.01)
-    assert abs(end.position_m - 40 * P.step_s * 0.3) < 0.03
+    assert abs(end.position_m - 40 * P.timing.step_s * 0.3) < 0.03
     assert abs(end.yaw_rad) < 0.03
 
 
 def test_slow_steps_go_farther() -> None:
     """A step that takes longer than planned goes as far as the velocity asks in that time."""
     far_m = walked(40, 0j, 0.0, slow=1.03).position_m.real
-    assert far_m == pytest.approx(40 * 1.03 * P.step_s * 0.3, rel=0.01)
+    assert far_m == pytest.approx(40 * 1.03 * P.timing.step_s * 0.3, rel=0.01)
 
 
 def test_a_push_is_not_made_up_for() -> None:
@@ -53,9 +53,11 @@ def test_a_push_is_not_made_up_for() -> None:
     course.corrected(PlanarPose())
     pushed = PlanarPose(0.3 + 0.4j, 1.0)
     start = course.corrected(pushed)
-    back_m = P.course_gain * P.course_distance_m
+    back_m = P.footsteps.course_gain * P.footsteps.course_distance_m
     assert abs(start.position_m - pushed.position_m) == pytest.approx(back_m)
-    assert pushed.yaw_rad - start.yaw_rad == pytest.approx(P.course_gain * P.course_turn_rad)
+    assert pushed.yaw_rad - start.yaw_rad == pytest.approx(
+        P.footsteps.course_gain * P.footsteps.course_turn_rad
+    )
     again = course.corrected(pushed)
     assert again.position_m == pytest.approx(start.position_m)
 
@@ -65,7 +67,7 @@ def test_a_restart_forgets_the_way() -> None:
     course, here = Course(PLANNER), PlanarPose(1 + 2j, 0.5)
     course.corrected(PlanarPose())
     course.restart()
-    course.advance(LEFT, FORWARD, P.step_s)
+    course.advance(LEFT, FORWARD, P.timing.step_s)
     assert course.corrected(here) == here
-    course.advance(LEFT, STANDING, P.step_s)
+    course.advance(LEFT, STANDING, P.timing.step_s)
     assert course.corrected(here).position_m == pytest.approx(here.position_m)

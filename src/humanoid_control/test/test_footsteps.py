@@ -18,7 +18,7 @@ P = WalkParameters()
 PLANNER = FootstepPlanner(P)
 RANDOM = np.random.default_rng(2)
 COMMANDS = [
-    P.velocity_limits.applied(
+    P.velocity.limits.applied(
         VelocityCommand(*(RANDOM.uniform(-1, 1, 3) * (0.5, 0.3, 1.5)).tolist())
     )
     for _ in range(60)
@@ -37,7 +37,7 @@ def test_feet_never_cross(command: VelocityCommand) -> None:
     for before, after in pairwise(steps(command, 12)):
         place = before.pose.local(after.pose.position_m)
         assert after.side == other(before.side)
-        assert outwards(after.side) * place.imag > P.least_width_m - 1e-9
+        assert outwards(after.side) * place.imag > P.footsteps.least_width_m - 1e-9
 
 
 @pytest.mark.parametrize('command', COMMANDS)
@@ -45,8 +45,8 @@ def test_steps_are_within_reach(command: VelocityCommand) -> None:
     """No planned step is longer or wider than one that may catch the robot."""
     for before, after in pairwise(steps(command, 12)):
         place = before.pose.local(after.pose.position_m)
-        assert abs(place.real) < P.most_length_m
-        assert abs(place.imag) < P.most_width_m
+        assert abs(place.real) < P.footsteps.most_length_m
+        assert abs(place.imag) < P.footsteps.most_width_m
 
 
 @pytest.mark.parametrize('support', [LEFT, RIGHT])
@@ -54,7 +54,7 @@ def test_steps_are_within_reach(command: VelocityCommand) -> None:
 def test_two_steps_go_the_commanded_way(command: VelocityCommand, support: int) -> None:
     """In two steps the robot turns and moves as it does at the velocity in their time."""
     start, _, end = steps(command, 3, support)
-    time_s = 2 * P.step_s
+    time_s = 2 * P.timing.step_s
     turn_rad = command.turn_rad_s * time_s
     assert end.pose.yaw_rad - start.pose.yaw_rad == pytest.approx(turn_rad)
     if not command.turn_rad_s:
@@ -68,7 +68,7 @@ def test_velocity_without_turn(linear: complex) -> None:
     command = VelocityCommand(linear.real, linear.imag)
     start, *_, end = steps(command, 11)
     way = start.pose.local(end.pose.position_m)
-    assert way == pytest.approx(linear * 10 * P.step_s)
+    assert way == pytest.approx(linear * 10 * P.timing.step_s)
 
 
 @pytest.mark.parametrize('command', COMMANDS)
@@ -78,13 +78,13 @@ def test_plan_ends_parallel(command: VelocityCommand) -> None:
     stop = PLANNER.next_foot(last.pose, last.side, STANDING)
     assert PLANNER.is_parallel(last.pose, last.side, stop)
     assert stop.yaw_rad == last.pose.yaw_rad
-    assert abs(last.pose.local(stop.position_m)) == pytest.approx(P.step_width_m)
+    assert abs(last.pose.local(stop.position_m)) == pytest.approx(P.footsteps.width_m)
 
 
 def test_turning_on_the_spot_stays() -> None:
     """A full turn ends where it began."""
-    turns = math.ceil(2 * math.pi / (0.5 * 2 * P.step_s))
-    command = VelocityCommand(turn_rad_s=2 * math.pi / turns / (2 * P.step_s))
+    turns = math.ceil(2 * math.pi / (0.5 * 2 * P.timing.step_s))
+    command = VelocityCommand(turn_rad_s=2 * math.pi / turns / (2 * P.timing.step_s))
     start, *_, end = steps(command, 2 * turns + 1)
     assert end.pose.position_m == pytest.approx(start.pose.position_m, abs=1e-9)
 

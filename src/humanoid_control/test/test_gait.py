@@ -109,7 +109,7 @@ def test_walk_and_stop(command: VelocityCommand) -> None:
     """The robot reaches the velocity, keeps balance and stands at the end."""
     robot = IdealRobot()
     robot.go(command, 4.0)
-    time_s = 8 * P.step_s
+    time_s = 8 * P.timing.step_s
     way = robot.go(command, time_s)
     assert way.yaw_rad == pytest.approx(command.turn_rad_s * time_s, rel=0.2, abs=0.02)
     straight_m = abs(command.linear_m_s) * time_s

@@ -30,11 +30,11 @@ def test_feet_are_flat_below_the_centre_of_mass(robot: Robot, scale: float) -> N
     )
     for side in SIDES:
         sole = state.pose(body.legs[side].sole)
-        left_m = outwards(side) * parameters.step_width_m / 2
+        left_m = outwards(side) * parameters.footsteps.width_m / 2
         expected = [home.sole_forward_m, left_m, -home.base_height_m]
         assert sole[:3, 3] == pytest.approx(expected, abs=1e-9)
         assert sole[:3, :3] == pytest.approx(np.eye(3), abs=1e-9)
-        forward_m = sole[0, 3] + parameters.zmp_forward_m
+        forward_m = sole[0, 3] + parameters.posture.zmp_forward_m
         assert forward_m == pytest.approx(state.com_m[0], abs=1e-6)
     assert state.com_m[2] + home.base_height_m == pytest.approx(home.com_height_m)
 

@@ -70,12 +70,12 @@ def test_it_steps_back_and_goes_no_further() -> None:
     """A wall ahead: it retreats by what is set, then stands for as long as somebody insists."""
     walk = Walk()
     back = walk.feel(-60.0 + 0j, 0.5)
-    assert back.forward_m_s == pytest.approx(-P.retreat_m_s)
+    assert back.forward_m_s == pytest.approx(-P.obstacles.retreat_m_s)
     assert back.left_m_s == pytest.approx(0.0, abs=1e-9)
     assert walk.guard.blockage is not None
     met_m = walk.guard.blockage.place_m
     assert walk.feel(0j, 5.0).is_zero
-    assert P.retreat_m / 2 <= (met_m - walk.body.position_m).real < P.retreat_m
+    assert P.obstacles.retreat_m / 2 <= (met_m - walk.body.position_m).real < P.obstacles.retreat_m
     assert walk.feel(0j, 10.0).is_zero
 
 
@@ -109,7 +109,7 @@ def test_who_lets_go_may_try_again() -> None:
     walk = Walk()
     walk.feel(-60.0 + 0j, 0.5)
     walk.feel(0j, 3.0)
-    walk.feel(0j, P.let_go_s + 0.1, STANDING)
+    walk.feel(0j, P.obstacles.let_go_s + 0.1, STANDING)
     assert walk.feel(0j, 0.1) == AHEAD
 
 
@@ -121,7 +121,7 @@ def leg(push_nm: Point, side: int = LEFT) -> Contact:
 def test_a_leg_that_is_stopped_is_enough() -> None:
     """It tells of an obstacle before that has stopped the robot."""
     walk = Walk()
-    assert walk.meet(leg(-1.1 * P.leg_touch_nm + 0j))
+    assert walk.meet(leg(-1.1 * P.obstacles.leg_touch_nm + 0j))
     assert walk.feel(0j, 0.1).forward_m_s < 0.0
 
 
@@ -129,20 +129,20 @@ def test_a_leg_that_is_stopped_is_enough() -> None:
 def test_a_leg_that_is_pushed_elsewhere_is_not_stopped(push_nm: Point) -> None:
     """Forward, aside, or hardly at all: nothing is in the way of the robot."""
     walk = Walk()
-    assert not walk.meet(leg(push_nm * P.leg_touch_nm))
+    assert not walk.meet(leg(push_nm * P.obstacles.leg_touch_nm))
     assert walk.guard.blockage is None
 
 
 def test_less_stops_a_step_to_the_side() -> None:
     """Legs swing less to the side, and so their touch is known better."""
-    push_nm = -1.1 * P.leg_touch_aside_nm
+    push_nm = -1.1 * P.obstacles.leg_touch_aside_nm
     assert not Walk().meet(leg(push_nm + 0j))
     assert Walk().meet(leg(1j * push_nm), VelocityCommand(0.0, 0.15))
 
 
 def test_a_leg_is_stopped_once() -> None:
     """What the same leg feels on its way back changes nothing; the other leg is another one."""
-    walk, push_nm = Walk(), -2.0 * P.leg_touch_nm + 0j
+    walk, push_nm = Walk(), -2.0 * P.obstacles.leg_touch_nm + 0j
     assert walk.meet(leg(push_nm), AHEAD, LEANING)
     assert not walk.meet(leg(push_nm), AHEAD, LEANING)
     assert walk.meet(leg(push_nm, RIGHT), AHEAD, LEANING)
@@ -150,7 +150,7 @@ def test_a_leg_is_stopped_once() -> None:
 
 def test_an_arm_feels_a_thing_in_the_way() -> None:
     """One that is pushed back is enough; one that is pushed forward or hardly is not."""
-    arm_nm = 1.1 * P.arm_touch_nm
+    arm_nm = 1.1 * P.obstacles.arm_touch_nm
     for contact in (Contact(arms_nm=(0j, arm_nm + 0j)), Contact(arms_nm=(-0.5 * arm_nm + 0j,))):
         assert not Walk().meet(contact)
     walk, touch = Walk(), Contact(arms_nm=(0j, -arm_nm + 0j))
@@ -162,7 +162,7 @@ def test_an_arm_feels_a_thing_in_the_way() -> None:
 def test_friction_does_not_lead_it_astray() -> None:
     """What pushes aside as much as back is still rather ahead: there the robot went."""
     walk = Walk()
-    walk.meet(leg((-1.0 + 1.0j) * 2.0 * P.leg_touch_nm))
+    walk.meet(leg((-1.0 + 1.0j) * 2.0 * P.obstacles.leg_touch_nm))
     assert walk.guard.blockage is not None
     assert walk.guard.blockage.towards == pytest.approx(cmath.rect(1.0, -math.pi / 8))
 
@@ -171,12 +171,14 @@ def test_feet_stay_off_what_a_leg_has_met() -> None:
     """A landing beyond the obstacle is moved before it, any other one stays."""
     walk = Walk()
     assert walk.guard.kept_off(2.0 + 2.1j) == 2.0 + 2.1j
-    walk.meet(leg(-1.1 * P.leg_touch_nm + 0j))
-    assert walk.guard.kept_off(2.0 + 2.1j) == pytest.approx(1.1 - P.keep_off_m + 2.1j)
+    walk.meet(leg(-1.1 * P.obstacles.leg_touch_nm + 0j))
+    assert walk.guard.kept_off(2.0 + 2.1j) == pytest.approx(1.1 - P.obstacles.keep_off_m + 2.1j)
     assert walk.guard.kept_off(0.9 + 2.1j) == 0.9 + 2.1j
     # Which way it faces is not known that well.
-    aside_m = P.keep_off_slope * 0.2
-    assert walk.guard.kept_off(2.0 + 1.9j) == pytest.approx(1.1 - P.keep_off_m + aside_m + 1.9j)
+    aside_m = P.obstacles.keep_off_slope * 0.2
+    assert walk.guard.kept_off(2.0 + 1.9j) == pytest.approx(
+        1.1 - P.obstacles.keep_off_m + aside_m + 1.9j
+    )
 
 
 def test_between_two_obstacles_it_stands() -> None:

@@ -148,7 +148,7 @@ def test_the_way_to_standing_is_smooth() -> None:
     """It begins and ends at rest, and its velocity is the derivative of its position."""
     start, home = np.array([0.0, 1.0]), np.array([1.0, -1.0])
     rising = Rising(start, home, WalkParameters(), 5.0)
-    end_s = 5.0 + WalkParameters().stand_up_s
+    end_s = 5.0 + WalkParameters().fall.stand_up_s
     assert rising.targets(5.0).positions_rad == pytest.approx(start)
     assert rising.targets(end_s).positions_rad == pytest.approx(home)
     assert rising.targets(end_s + 9.0).velocities_rad_s == pytest.approx(0.0)

@@ -32,7 +32,7 @@ def adjusted(error: complex, yaw_rad: float = 0.0, rate: float = 1.0) -> Adjustm
     residual = Residual.of(
         BalanceReference(dcm, zmp),
         dcm + error * turn,
-        P.dcm_gain,
+        P.balance.dcm_gain,
         SupportPolygon(corners),
         support,
     )
@@ -58,7 +58,7 @@ def test_landing_is_where_the_error_will_be() -> None:
     error, growth = 0.09, math.exp(PENDULUM.rate_1_s * REMAINING_S)
     can_do_m = 0.12 - 0.015
     left_m = error * growth - can_do_m * (growth - 1.0)
-    expected_m = left_m - P.adjust_dead_band_m
+    expected_m = left_m - P.step_adjustment.dead_band_m
     assert 0.02 < expected_m < 0.3
     assert shift(adjusted(error + 0j)) == pytest.approx(expected_m, abs=1e-12)
 
@@ -71,7 +71,7 @@ def test_landing_catches_the_pendulum() -> None:
     end = PENDULUM.dcm(PENDULUM.after(start, zmp_m + 0j, REMAINING_S))
     growth = math.exp(PENDULUM.rate_1_s * REMAINING_S)
     planned = 0.015 + lean * growth
-    moved_m = shift(adjusted(error + 0j)).real + P.adjust_dead_band_m
+    moved_m = shift(adjusted(error + 0j)).real + P.step_adjustment.dead_band_m
     assert end.real - planned == pytest.approx(moved_m, abs=1e-9)
 
 
@@ -87,12 +87,12 @@ def test_heading_does_not_matter(yaw_rad: float) -> None:
 def test_landings_stay_within_reach(error: complex) -> None:
     """However hard the push, the foot lands where it can and never across the other one."""
     place = shift(adjusted(error)) + 0.1 - 0.18j
-    assert abs(place.real) <= P.most_length_m + 1e-12
-    assert P.least_width_m - 1e-12 <= -place.imag <= P.most_width_m + 1e-12
+    assert abs(place.real) <= P.footsteps.most_length_m + 1e-12
+    assert P.footsteps.least_width_m - 1e-12 <= -place.imag <= P.footsteps.most_width_m + 1e-12
 
 
 def test_what_is_out_of_reach_is_hurried() -> None:
     """A step that cannot reach far enough goes faster, and never slower again."""
     assert adjusted(0.18 + 0j).rate > 1.0
-    assert adjusted(0.5 + 0j).rate == P.hurry_rates[-1]
+    assert adjusted(0.5 + 0j).rate == P.step_adjustment.hurry_rates[-1]
     assert adjusted(0j, rate=1.6).rate == 1.6

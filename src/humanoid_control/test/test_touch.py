@@ -96,7 +96,7 @@ def test_an_arm_feels_which_way_it_is_pushed(mover: Mover, force_n: Point) -> No
     """The moment about its shoulder points as the force does; no other limb feels it."""
     touch = mover.move(0.3, ELBOW, force_n)
     arm_nm = touch.arms_nm[LEFT]
-    assert abs(arm_nm) > P.arm_touch_nm
+    assert abs(arm_nm) > P.obstacles.arm_touch_nm
     assert abs(arm_nm / abs(arm_nm) - force_n / abs(force_n)) < 0.3
     assert max(map(abs, [*touch.legs_nm, touch.arms_nm[RIGHT]])) < 0.5
 
@@ -104,14 +104,16 @@ def test_an_arm_feels_which_way_it_is_pushed(mover: Mover, force_n: Point) -> No
 def test_a_leg_feels_what_stops_its_knee(mover: Mover) -> None:
     """So it need not be the foot that meets something; when that is gone, it is forgotten."""
     touch = mover.move(0.3, KNEE, -80.0j)
-    assert touch.legs_nm[RIGHT].imag < -P.leg_touch_aside_nm
+    assert touch.legs_nm[RIGHT].imag < -P.obstacles.leg_touch_aside_nm
     assert abs(touch.legs_nm[LEFT]) < 0.5
     assert abs(mover.move(0.3).legs_nm[RIGHT]) < 0.5
 
 
 def test_a_touch_is_felt_within_a_tenth_of_a_second(mover: Mover) -> None:
     """So soon, at any rate of the control."""
-    assert abs(mover.move(0.1, KNEE, -80.0j, 0.005).legs_nm[RIGHT]) > P.leg_touch_aside_nm
+    assert (
+        abs(mover.move(0.1, KNEE, -80.0j, 0.005).legs_nm[RIGHT]) > P.obstacles.leg_touch_aside_nm
+    )
 
 
 def test_after_a_gap_nothing_is_known(mover: Mover) -> None:
@@ -125,7 +127,7 @@ def test_a_load_in_a_hand_is_no_touch(robot: Robot) -> None:
     mover = Mover(robot)
     mover.stand(4.0, ELBOW, 40.0 + 0j)
     loaded = mover.move(0.5, ELBOW, 40.0 + 0j)
-    assert abs(loaded.arms_nm[LEFT]) < 0.3 * P.arm_touch_nm
+    assert abs(loaded.arms_nm[LEFT]) < 0.3 * P.obstacles.arm_touch_nm
     pushed = mover.move(0.5, ELBOW, 80.0 + 0j)
     alone = Mover(robot).move(0.5, ELBOW, 40.0 + 0j)
     assert abs(pushed.arms_nm[LEFT]) == pytest.approx(abs(alone.arms_nm[LEFT]), rel=0.25)

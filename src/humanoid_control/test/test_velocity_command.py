@@ -11,7 +11,7 @@ from humanoid_control.walking.velocity_command import VelocityCommand
 import numpy as np
 import pytest
 
-LIMITS = WalkParameters().velocity_limits
+LIMITS = WalkParameters().velocity.limits
 RANDOM = np.random.default_rng(1)
 
 

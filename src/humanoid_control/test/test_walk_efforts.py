@@ -84,7 +84,7 @@ def test_ankles_carry_the_load_before_them(stance: Stance) -> None:
     efforts = standing_efforts(stance)
     half_weight_n = stance.robot.body.mass_kg * GRAVITY_M_S2 / 2
     foot_kg, foot_forward_m = 1.0, 0.025
-    expected = half_weight_n * P.zmp_forward_m - foot_kg * GRAVITY_M_S2 * foot_forward_m
+    expected = half_weight_n * P.posture.zmp_forward_m - foot_kg * GRAVITY_M_S2 * foot_forward_m
     for side in SIDES:
         pitch = stance.robot.legs[side].indices[4]
         assert efforts[pitch] == pytest.approx(expected, abs=1e-3)
@@ -125,5 +125,5 @@ def test_hips_turn_the_pelvis_back(stance: Stance) -> None:
     leaning = hip_efforts(P, Attitude(0.02, -0.03, 0.4, (0.1, 0.0, 0.0)), Turning(0.3))
     yaw, roll, pitch = leaning
     assert yaw > 0.0
-    assert roll > P.attitude_stiffness_nm_rad * 0.02
+    assert roll > P.balance.attitude_stiffness_nm_rad * 0.02
     assert pitch < 0.0

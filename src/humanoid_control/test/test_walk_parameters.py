@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import math
 
+from humanoid_common.parameters import build, ParameterError
+from humanoid_control.hosting.parameters import HostParameters
 from humanoid_control.walking.errors import WalkingError
 from humanoid_control.walking.parameters import WalkParameters
 import pytest
@@ -19,15 +21,31 @@ def test_scale_one_changes_nothing() -> None:
 def test_similar_walks(scale: float) -> None:
     """The length of a step in feet and the Froude number do not depend on the size."""
     one, other = WalkParameters(), WalkParameters().scaled(scale)
-    assert other.step_s == pytest.approx(one.step_s * math.sqrt(scale))
-    assert other.step_width_m == pytest.approx(one.step_width_m * scale)
-    stride = one.forward_limit_m_s * one.step_s / one.step_width_m
-    assert other.forward_limit_m_s * other.step_s / other.step_width_m == pytest.approx(stride)
-    froude = one.forward_limit_m_s**2 / one.swing_height_m
-    assert other.forward_limit_m_s**2 / other.swing_height_m == pytest.approx(froude)
-    change = other.velocity_change(other.step_s).forward_m_s / other.forward_limit_m_s
-    expected = one.velocity_change(one.step_s).forward_m_s / one.forward_limit_m_s
+    assert other.timing.step_s == pytest.approx(one.timing.step_s * math.sqrt(scale))
+    assert other.footsteps.width_m == pytest.approx(one.footsteps.width_m * scale)
+    stride = one.velocity.forward_limit_m_s * one.timing.step_s / one.footsteps.width_m
+    assert (
+        other.velocity.forward_limit_m_s * other.timing.step_s / other.footsteps.width_m
+        == pytest.approx(stride)
+    )
+    froude = one.velocity.forward_limit_m_s**2 / one.swing.height_m
+    assert other.velocity.forward_limit_m_s**2 / other.swing.height_m == pytest.approx(froude)
+    change = (
+        other.velocity.change(other.timing.step_s).forward_m_s / other.velocity.forward_limit_m_s
+    )
+    expected = one.velocity.change(one.timing.step_s).forward_m_s / one.velocity.forward_limit_m_s
     assert change == pytest.approx(expected)
+
+
+def test_they_are_parameters_of_nodes() -> None:
+    """By their groups, with the limits within which they can be tuned."""
+    settings = build(HostParameters, {'walk.swing.height_m': 0.08, 'walk.posture.arm_swing': 0})
+    assert settings.walk.swing.height_m == 0.08
+    assert settings.walk.scaled(0.5).swing.height_m == pytest.approx(0.04)
+    assert settings.walk.posture.arm_swing == 0.0
+    assert settings.walk.timing == WalkParameters().timing
+    with pytest.raises(ParameterError, match=r'walk.timing.swing_s.* at least 0.09'):
+        build(HostParameters, {'walk.timing.swing_s': 0.0})
 
 
 @pytest.mark.parametrize('scale', [0.0, -1.0, math.nan, math.inf])

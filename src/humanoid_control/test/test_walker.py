@@ -76,7 +76,7 @@ def test_a_velocity_makes_it_step(walker: Walker) -> None:
     status = walker.status
     assert status is not None
     assert status.phase == 'walk'
-    assert len(status.footsteps) == WalkParameters().preview_steps
+    assert len(status.footsteps) == WalkParameters().footsteps.preview_steps
     assert status.zmp_m.imag != 0.0
 
 

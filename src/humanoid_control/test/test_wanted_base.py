@@ -70,10 +70,10 @@ def test_base_sinks_to_reach(robot: Robot, walking: WalkingRobot, state: BodySta
     footing = footing_below(0j, walking, FootShape.of(robot, P), P, sensed)
     com = BASE.com_motion(state)
     wanted = base_below(Motion(), 0.8, TURNING, com, BASE, state)
-    sunk = within_reach(wanted, walking, footing, SIDES, P.leg_reach)
+    sunk = within_reach(wanted, walking, footing, SIDES, P.posture.leg_reach)
     assert sunk.frame.position_m[:2] == pytest.approx(wanted.frame.position_m[:2])
     assert sunk.frame.position_m[2] < wanted.frame.position_m[2]
-    again = within_reach(sunk, walking, footing, SIDES, P.leg_reach)
+    again = within_reach(sunk, walking, footing, SIDES, P.posture.leg_reach)
     assert again.frame.position_m == pytest.approx(sunk.frame.position_m)
 
 

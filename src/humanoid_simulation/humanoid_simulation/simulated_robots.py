@@ -54,10 +54,9 @@ def simulated_robots(
     description = humanoid(parameters.scale, parameters.prefix, parameters.hands)
     model = load_robot(description.urdf, 'the humanoid')
     imu = parameters.noise.imu(_settings(parameters).period_s)
+    walk = parameters.walk.scaled(parameters.scale)
     controls = {
-        name: WalkingRobotControl.of(
-            model, description.drives, parameters.scale, time.monotonic, say, imu=imu
-        )
+        name: WalkingRobotControl.of(model, description.drives, walk, time.monotonic, say, imu=imu)
         for name in parameters.robots
     }
     scene = load_scene(parameters.scene)

@@ -7,7 +7,7 @@ Nothing here needs ROS; `humanoid_common.node_parameters` declares such a datacl
 
 from __future__ import annotations
 
-from humanoid_common.parameters.building import build
+from humanoid_common.parameters.building import build, values_of
 from humanoid_common.parameters.errors import ParameterError
 from humanoid_common.parameters.fields import parameter, ParameterRules
 from humanoid_common.parameters.specs import ParameterSpec, specs_of
@@ -24,5 +24,6 @@ __all__ = [
     'parameter',
     'specs_of',
     'unknown_parameter_warnings',
+    'values_of',
     'widened',
 ]

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, TypeVar
+from dataclasses import fields, is_dataclass
+from typing import Any, get_type_hints, TypeVar
 
 from humanoid_common.parameters.specs import specs_of
 from humanoid_common.parameters.values import checked_value
@@ -22,9 +23,9 @@ def build(kind: type[T], values: Mapping[str, Any]) -> T:
     Parameters
     ----------
     kind
-        The dataclass, whose fields are declared with `parameter`.
+        The dataclass, as `specs_of` reads it.
     values
-        Values by the names of its fields.
+        Values by the names of the parameters; those of a group have a dot in them.
 
     Raises
     ------
@@ -34,4 +35,43 @@ def build(kind: type[T], values: Mapping[str, Any]) -> T:
     """
     specs = specs_of(kind)
     checked = {name: checked_value(specs[name], value) for name, value in values.items()}
-    return kind(**checked)
+    return _assembled(kind, checked)
+
+
+def values_of(snapshot: Any) -> dict[str, Any]:
+    """
+    List the values of all parameters, also those of groups.
+
+    Parameters
+    ----------
+    snapshot
+        A parameter dataclass.
+
+    Returns
+    -------
+    dict
+        The values by the names of the parameters, as `build` takes them.
+
+    """
+    found = {}
+    for declared in fields(snapshot):
+        value = getattr(snapshot, declared.name)
+        if is_dataclass(value):
+            found.update({f'{declared.name}.{k}': v for k, v in values_of(value).items()})
+        else:
+            found[declared.name] = value
+    return found
+
+
+def _assembled(kind: type[T], values: Mapping[str, Any]) -> T:
+    """Build a dataclass of values and groups of values."""
+    own: dict[str, Any] = {}
+    groups: dict[str, dict[str, Any]] = {}
+    for name, value in values.items():
+        first, is_inside, rest = name.partition('.')
+        if is_inside:
+            groups.setdefault(first, {})[rest] = value
+        else:
+            own[name] = value
+    hints = get_type_hints(kind) if groups else {}
+    return kind(**own, **{name: _assembled(hints[name], each) for name, each in groups.items()})

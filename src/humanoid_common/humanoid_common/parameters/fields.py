@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, Field, field
 from typing import Any, TypeVar
 
@@ -30,6 +30,7 @@ def parameter(
     at_most: float | None = None,
     choices: Sequence[str] = (),
     read_only: bool = False,
+    metadata: Mapping[str, Any] = {},
 ) -> T:
     """
     Declare one parameter as a field of a frozen dataclass.
@@ -42,10 +43,12 @@ def parameter(
         Which values are accepted; those of a list apply to each of its elements.
     read_only
         Whether it cannot be changed while the node runs.
+    metadata
+        What else the field keeps for its owner, as that of `dataclasses.field`.
 
     """
     rules = ParameterRules(description, at_least, at_most, tuple(choices), read_only)
-    return field(default=default, metadata={_RULES: rules})
+    return field(default=default, metadata={**metadata, _RULES: rules})
 
 
 def rules_of(declared: Field[Any]) -> ParameterRules:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, get_args, get_origin, get_type_hints
 
 from humanoid_common.parameters.fields import ParameterRules, rules_of
@@ -40,7 +40,8 @@ def specs_of(kind: type) -> dict[str, ParameterSpec]:
     Parameters
     ----------
     kind
-        The dataclass, whose fields are declared with `parameter`.
+        The dataclass, whose fields are declared with `parameter`, or are such dataclasses
+        themselves: groups, whose name and a dot come before those of their parameters.
 
     Returns
     -------
@@ -56,6 +57,11 @@ def specs_of(kind: type) -> dict[str, ParameterSpec]:
     hints = get_type_hints(kind)
     specs = {}
     for declared in fields(kind):
+        if is_dataclass(hints[declared.name]):
+            for name, spec in specs_of(hints[declared.name]).items():
+                full = f'{declared.name}.{name}'
+                specs[full] = replace(spec, name=full)
+            continue
         element, is_list = _element_of(declared.name, hints[declared.name])
         specs[declared.name] = ParameterSpec(
             declared.name, element, is_list, declared.default, rules_of(declared)

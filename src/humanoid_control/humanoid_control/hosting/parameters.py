@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import re
 
 from humanoid_common.parameters import parameter, ParameterError
+from humanoid_control.walking.parameters import WalkParameters
 
 WALKING = 'walking'
 MODES = (WALKING, 'follow', 'hold')
@@ -31,6 +32,7 @@ class HostParameters:
     hands: bool = parameter(
         False, 'Whether the arms have wrists and grippers, as in the model.', read_only=True
     )
+    walk: WalkParameters = WalkParameters()
     control_rate_hz: float = parameter(
         100.0,
         'How often the controllers decide in a second of the robot.',

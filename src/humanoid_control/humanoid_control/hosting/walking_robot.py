@@ -38,7 +38,7 @@ class WalkingRobotControl:
         cls,
         robot: Robot,
         drives: Mapping[str, Drive],
-        scale: float = 1.0,
+        walk: WalkParameters = WalkParameters(),
         clock: Clock | None = None,
         say: Callable[[str], None] = lambda sentence: None,
         able: Callable[[VelocityCommand], VelocityCommand] = lambda velocity: velocity,
@@ -53,8 +53,8 @@ class WalkingRobotControl:
             The model from its URDF.
         drives
             The drives of all joints, in the order of observations and targets.
-        scale
-            Size of the robot, by which the parameters of the gait are scaled.
+        walk
+            The parameters of the walk, scaled to the size of the robot.
         clock
             The computer's clock: commands expire when the timeout has passed by it and by the
             robot's time; by default the robot's time alone counts.
@@ -67,7 +67,7 @@ class WalkingRobotControl:
 
         """
         joints = tuple(drives)
-        walker = Walker.of(robot, drives, joints, WalkParameters().scaled(scale), imu)
+        walker = Walker.of(robot, drives, joints, walk, imu)
         walking = WalkingController(walker)
         modes = (walking_mode(walking), follow_mode(joints), hold_mode(joints))
         limits = JointLimits.of(drives, joints)

@@ -55,14 +55,14 @@ def hip_efforts(
 
     """
     stiffness, damping = (
-        parameters.attitude_stiffness_nm_rad,
-        parameters.attitude_damping_nms_rad,
+        parameters.balance.attitude_stiffness_nm_rad,
+        parameters.balance.attitude_damping_nms_rad,
     )
     roll, pitch, yaw = attitude.rates_rad_s
     off_course_rad = wrap_angle(attitude.yaw_rad - turning.heading_rad)
     return np.array(
         [
-            parameters.heading_share
+            parameters.balance.heading_share
             * (stiffness * off_course_rad + damping * (yaw - turning.rate_rad_s)),
             stiffness * attitude.roll_rad + damping * roll,
             stiffness * (attitude.pitch_rad - pitch_rad) + damping * (pitch - pitch_rate_rad_s),

@@ -48,8 +48,11 @@ class BodyPose:
                 f'{self.height_m:g} m: give finite numbers.'
             )
         return BodyPose(
-            min(max(self.pitch_rad, -parameters.bend_back_rad), parameters.bend_rad),
-            min(max(self.height_m, -parameters.lower_m), 0.0),
+            min(
+                max(self.pitch_rad, -parameters.body_pose.bend_back_rad),
+                parameters.body_pose.bend_rad,
+            ),
+            min(max(self.height_m, -parameters.body_pose.lower_m), 0.0),
         )
 
 
@@ -70,8 +73,8 @@ class BodyPoseFollower:
         """Whether the robot may step."""
         p = self.parameters
         return (
-            abs(self.pose.pitch_rad) < p.upright_pitch_rad
-            and self.pose.height_m > -p.upright_height_m
+            abs(self.pose.pitch_rad) < p.body_pose.upright_pitch_rad
+            and self.pose.height_m > -p.body_pose.upright_height_m
         )
 
     def update(self, wanted: BodyPose, passed_s: float) -> None:
@@ -87,8 +90,10 @@ class BodyPoseFollower:
 
         """
         p = self.parameters
-        pitch_rad = _towards(self.pose.pitch_rad, wanted.pitch_rad, p.bend_rad_s * passed_s)
-        height_m = _towards(self.pose.height_m, wanted.height_m, p.lower_m_s * passed_s)
+        pitch_rad = _towards(
+            self.pose.pitch_rad, wanted.pitch_rad, p.body_pose.bend_rad_s * passed_s
+        )
+        height_m = _towards(self.pose.height_m, wanted.height_m, p.body_pose.lower_m_s * passed_s)
         turned_rad = pitch_rad - self.pose.pitch_rad
         self.pitch_rate_rad_s = turned_rad / passed_s if passed_s > 0.0 else 0.0
         self.pose = BodyPose(pitch_rad, height_m)

@@ -64,8 +64,8 @@ class Collapse:
 
         """
         p, zeros = self._parameters, np.zeros(len(positions_rad))
-        falls = time_s - self._start_s < p.collapse_s
-        share = p.collapse_stiffness if falls else 0.0
+        falls = time_s - self._start_s < p.fall.collapse_s
+        share = p.fall.collapse_stiffness if falls else 0.0
         wanted = positions_rad + share * (self._posture_rad - positions_rad)
         return JointTargets(wanted, zeros, zeros.copy())
 

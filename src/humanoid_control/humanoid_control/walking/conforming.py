@@ -70,14 +70,14 @@ class Conforming:
     ) -> Facet:
         """Return the plane in which a sole is to be from now on."""
         p, height_m = self._parameters, told.height_m
-        if share <= 0.0 and sole.load < p.touchdown_load:
-            height_m -= p.press_m_s * passed_s
-        early = self._since_s[side] < p.conform_early_s
-        rate_1_s = p.conform_early_1_s if early else p.conform_1_s
-        rate_1_s *= min(1.0, max(0.0, sole.load) / p.conform_load)
+        if share <= 0.0 and sole.load < p.swing.touchdown_load:
+            height_m -= p.terrain.press_m_s * passed_s
+        early = self._since_s[side] < p.terrain.adapt_early_s
+        rate_1_s = p.terrain.adapt_early_1_s if early else p.terrain.adapt_1_s
+        rate_1_s *= min(1.0, max(0.0, sole.load) / p.terrain.adapt_load)
         turned = 1.0 - math.exp(-rate_1_s * passed_s)
         # The base is where the feet that carry say; so only the others can be measured from it.
-        lifted = 1.0 - math.exp(-p.conform_height_1_s * (1.0 - share) * passed_s)
+        lifted = 1.0 - math.exp(-p.terrain.adapt_height_1_s * (1.0 - share) * passed_s)
         return Facet(
             height_m + lifted * (sole.facet.height_m - height_m),
             told.tilt + turned * (sole.facet.tilt - told.tilt),

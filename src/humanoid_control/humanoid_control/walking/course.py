@@ -54,12 +54,15 @@ class Course:
         if self._middle is None:
             self._middle = middle
         off_m = self._middle.position_m - middle.position_m
-        off_m *= min(1.0, p.course_distance_m / max(abs(off_m), p.course_distance_m))
+        off_m *= min(
+            1.0, p.footsteps.course_distance_m / max(abs(off_m), p.footsteps.course_distance_m)
+        )
         turn_rad = wrap_angle(self._middle.yaw_rad - middle.yaw_rad)
-        turn_rad = limited(turn_rad, -p.course_turn_rad, p.course_turn_rad)
+        turn_rad = limited(turn_rad, -p.footsteps.course_turn_rad, p.footsteps.course_turn_rad)
         self._middle = PlanarPose(middle.position_m + off_m, middle.yaw_rad + turn_rad)
         return PlanarPose(
-            middle.position_m + p.course_gain * off_m, middle.yaw_rad + p.course_gain * turn_rad
+            middle.position_m + p.footsteps.course_gain * off_m,
+            middle.yaw_rad + p.footsteps.course_gain * turn_rad,
         )
 
     def advance(self, support: int, command: VelocityCommand, time_s: float) -> None:

@@ -72,10 +72,10 @@ class FallDetector:
 
         """
         p = self.parameters
-        foresight_s = p.fall_foresight_s if stance.tilt_rad > p.upright_tilt_rad else 0.0
+        foresight_s = p.fall.foresight_s if stance.tilt_rad > p.fall.upright_tilt_rad else 0.0
         soon_rad = stance.tilt_rad + foresight_s * max(0.0, stance.tilting_rad_s)
         return (
-            soon_rad > p.fall_tilt_rad or stance.height_m < p.fall_height * self.standing_height_m
+            soon_rad > p.fall.tilt_rad or stance.height_m < p.fall.height * self.standing_height_m
         )
 
     def can_stand(self, stance: Stance) -> bool:
@@ -90,6 +90,6 @@ class FallDetector:
         """
         p = self.parameters
         return (
-            stance.tilt_rad < p.upright_tilt_rad
-            and stance.height_m > p.fall_height * self.standing_height_m
+            stance.tilt_rad < p.fall.upright_tilt_rad
+            and stance.height_m > p.fall.height * self.standing_height_m
         )

@@ -69,11 +69,11 @@ class FootShape:
     def _within(cls, lowest: Array, highest: Array, parameters: WalkParameters) -> FootShape:
         """Keep the margins from the edges."""
         return cls(
-            float(highest[0]) - parameters.margin_length_m,
-            float(lowest[0]) + parameters.margin_length_m,
-            float(highest[1]) - parameters.margin_width_m,
-            float(lowest[1]) + parameters.margin_width_m,
-            complex(parameters.zmp_forward_m, -parameters.zmp_inward_m),
+            float(highest[0]) - parameters.posture.margin_length_m,
+            float(lowest[0]) + parameters.posture.margin_length_m,
+            float(highest[1]) - parameters.posture.margin_width_m,
+            float(lowest[1]) + parameters.posture.margin_width_m,
+            complex(parameters.posture.zmp_forward_m, -parameters.posture.zmp_inward_m),
         )
 
     def load_point(self, side: int, sole: PlanarPose) -> Point:

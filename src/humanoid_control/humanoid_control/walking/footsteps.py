@@ -67,7 +67,7 @@ class FootstepPlanner:
             Middle between the feet in the odom frame, with the heading of the support foot.
 
         """
-        half_width_m = self.parameters.step_width_m / 2 * outwards(side)
+        half_width_m = self.parameters.footsteps.width_m / 2 * outwards(side)
         return PlanarPose(support.at(0.0, -half_width_m), support.yaw_rad)
 
     def next_middle(
@@ -100,7 +100,7 @@ class FootstepPlanner:
             Middle between the feet after the step, in the odom frame.
 
         """
-        step_s = self.parameters.step_s if time_s is None else time_s
+        step_s = self.parameters.timing.step_s if time_s is None else time_s
         leads = outwards(other(side))
         left_m, turn_rad = (
             2 * speed * step_s if speed * leads > 0 else 0.0
@@ -131,7 +131,7 @@ class FootstepPlanner:
             Pose of the swing foot after landing, in the odom frame.
 
         """
-        half_width_m = self.parameters.step_width_m / 2 * outwards(side)
+        half_width_m = self.parameters.footsteps.width_m / 2 * outwards(side)
         place = support.local(middle.at(0.0, -half_width_m))
         reached = self.reachable(place, side)
         return PlanarPose(support.at(reached.real, reached.imag), middle.yaw_rad)
@@ -154,8 +154,10 @@ class FootstepPlanner:
 
         """
         p, inwards = self.parameters, -outwards(side)
-        width_m = limited(inwards * place.imag, p.least_width_m, p.most_width_m)
-        length_m = limited(place.real, -p.most_length_m, p.most_length_m)
+        width_m = limited(
+            inwards * place.imag, p.footsteps.least_width_m, p.footsteps.most_width_m
+        )
+        length_m = limited(place.real, -p.footsteps.most_length_m, p.footsteps.most_length_m)
         return complex(length_m, inwards * width_m)
 
     def footsteps(
@@ -201,7 +203,9 @@ class FootstepPlanner:
         place = support.local(foot.position_m)
         width_m = -outwards(side) * place.imag
         return (
-            abs(place.real) < self.parameters.parallel_length_m
-            and abs(width_m - self.parameters.step_width_m) < self.parameters.parallel_width_m
-            and abs(wrap_angle(foot.yaw_rad - support.yaw_rad)) < self.parameters.parallel_turn_rad
+            abs(place.real) < self.parameters.footsteps.parallel_length_m
+            and abs(width_m - self.parameters.footsteps.width_m)
+            < self.parameters.footsteps.parallel_width_m
+            and abs(wrap_angle(foot.yaw_rad - support.yaw_rad))
+            < self.parameters.footsteps.parallel_turn_rad
         )

@@ -70,7 +70,7 @@ class Gait:
             Velocity in the axes of the robot; it is clamped to the limits of the gait.
 
         """
-        self._gear.wanted = self._gear.parameters.velocity_limits.applied(velocity)
+        self._gear.wanted = self._gear.parameters.velocity.limits.applied(velocity)
 
     def update(self, now: GaitInput) -> GaitOutput:
         """
@@ -95,7 +95,7 @@ class Gait:
         # The DCM tracking law of Englsberger et al.: push the zero-moment point beyond the error.
         error = now.dcm_m - reference.dcm_m
         zmp = footing.polygon(phase.sides).clamped(
-            reference.zmp_m + self._gear.parameters.dcm_gain * error
+            reference.zmp_m + self._gear.parameters.balance.dcm_gain * error
         )
         return GaitOutput(
             reference,

@@ -101,7 +101,7 @@ class Gear:
         met = self.guard.update(
             contact, (left, right), self.wanted, going, now.error_m, now.passed_s
         )
-        self.target = self.parameters.velocity_limits.applied(
+        self.target = self.parameters.velocity.limits.applied(
             self.guard.allowed(self.wanted, left.halfway(right).yaw_rad)
         )
         if met:
@@ -119,7 +119,7 @@ class Gear:
             Duration over which to accelerate: a control period, or a step.
 
         """
-        self.command = self.command.towards(self.target, self.parameters.velocity_change(time_s))
+        self.command = self.command.towards(self.target, self.parameters.velocity.change(time_s))
 
     def learn_slope(self, tilt: Point) -> None:
         """
@@ -131,7 +131,7 @@ class Gear:
             Horizontal part of the unit normal of the ground under the foot, in the odom frame.
 
         """
-        self.slope += self.parameters.slope_share * (tilt - self.slope)
+        self.slope += self.parameters.terrain.slope_share * (tilt - self.slope)
 
     @property
     def is_stopping(self) -> bool:
@@ -179,7 +179,7 @@ class Gear:
             rests = self.is_stopping and self.planner.is_parallel(
                 before.pose, before.side, step.pose
             )
-            if rests or len(steps) == self.parameters.preview_steps:
+            if rests or len(steps) == self.parameters.footsteps.preview_steps:
                 return steps
             before = step
         return steps
@@ -211,13 +211,13 @@ class Gear:
         p, load = self.parameters, self.footing.load_point(support)
         segments = [
             ZmpSegment(shift_s, start_m, load),
-            ZmpSegment(p.swing_s, load, load),
+            ZmpSegment(p.timing.swing_s, load, load),
         ]
         for step in steps[:-1]:
             next_load = self.footing.load_point(step.side, step.pose)
-            segments.append(ZmpSegment(p.shift_s, load, next_load))
-            segments.append(ZmpSegment(p.swing_s, next_load, next_load))
+            segments.append(ZmpSegment(p.timing.shift_s, load, next_load))
+            segments.append(ZmpSegment(p.timing.swing_s, next_load, next_load))
             load = next_load
         last_load = self.footing.load_point(steps[-1].side, steps[-1].pose)
-        segments.append(ZmpSegment(p.stop_s, load, (load + last_load) / 2))
+        segments.append(ZmpSegment(p.timing.stop_s, load, (load + last_load) / 2))
         return segments

@@ -47,14 +47,14 @@ class HomePosture:
             The robot lacks an elbow or a shoulder roll joint.
 
         """
-        height_m = _stretched_height(robot) - parameters.crouch_m
+        height_m = _stretched_height(robot) - parameters.posture.crouch_m
         positions = np.zeros(len(robot.body.joints))
         _place_arms(robot, parameters, positions)
         forward_m = 0.0
         for _ in range(_ROUNDS):
             _place_legs(robot, parameters, positions, forward_m, height_m)
             com = _com(robot, positions)
-            forward_m = float(com[0]) - parameters.zmp_forward_m
+            forward_m = float(com[0]) - parameters.posture.zmp_forward_m
         _place_legs(robot, parameters, positions, forward_m, height_m)
         com_height_m = height_m + float(_com(robot, positions)[2])
         return cls(positions, height_m, com_height_m, forward_m)
@@ -63,8 +63,8 @@ class HomePosture:
 def _place_arms(robot: WalkingRobot, parameters: WalkParameters, positions: Array) -> None:
     """Bend the elbows, and hold the arms away from the body."""
     for side, name in enumerate(NAMES):
-        positions[robot.index(f'{name}_elbow')] = parameters.elbow_rad
-        roll_rad = outwards(side) * parameters.shoulder_roll_rad
+        positions[robot.index(f'{name}_elbow')] = parameters.posture.elbow_rad
+        roll_rad = outwards(side) * parameters.posture.shoulder_roll_rad
         positions[robot.index(f'{name}_shoulder_roll')] = roll_rad
 
 
@@ -77,7 +77,7 @@ def _place_legs(
 ) -> None:
     """Put the feet side by side, flat, so far before and below the base."""
     for side, leg in zip(SIDES, robot.legs):
-        left_m = outwards(side) * parameters.step_width_m / 2
+        left_m = outwards(side) * parameters.footsteps.width_m / 2
         sole = Frame(np.array([forward_m, left_m, -height_m]), np.eye(3))
         positions[leg.indices] = leg_posture(leg.geometry, sole).positions_rad
 

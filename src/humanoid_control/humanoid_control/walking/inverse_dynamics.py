@@ -78,10 +78,10 @@ class InverseDynamics:
         """
         p, state = self.parameters, sensed.state
         maps = leg_maps(self.robot.legs, state)
-        base, joints = whole_acceleration(state, maps, plan, p.acceleration_limit_rad_s2)
+        base, joints = whole_acceleration(state, maps, plan, p.joints.acceleration_limit_rad_s2)
         wrench, efforts = state.required(base, joints)
         reaction = GroundReaction.of(wrench, base_m).within(
-            self.footing.polygon(output.sides), p.ground_turn_nm
+            self.footing.polygon(output.sides), p.balance.ground_turn_nm
         )
         loads = loads_for(self.footing, output.sides, reaction.point_m)
         efforts -= ground_efforts(self.robot, state, base_m, loads, reaction)

@@ -151,10 +151,10 @@ class ObstacleGuard:
 
         """
         p, body = self._parameters, stands[0].halfway(stands[1])
-        fading = math.exp(-passed_s / p.bump_memory_s)
+        fading = math.exp(-passed_s / p.obstacles.bump_memory_s)
         self._impulse_ns = self._impulse_ns * fading + contact.force_n * passed_s
         if self.blockage:
-            self.blockage.leans = dot(error_m, self.blockage.towards) > p.lean_m
+            self.blockage.leans = dot(error_m, self.blockage.towards) > p.obstacles.lean_m
             self._follow(self.blockage, stands, wanted, passed_s)
         course = _Course.of(going, body.yaw_rad)
         by_leg = self._hits_leg(contact.leg, course)
@@ -189,7 +189,10 @@ class ObstacleGuard:
         if blockage is None or blockage.leg is None:
             return foot_m
         way_m, p = foot_m - blockage.leg.foot_m, self._parameters
-        slack_m = p.keep_off_slope * abs(cross(way_m, blockage.towards)) - p.keep_off_m
+        slack_m = (
+            p.obstacles.keep_off_slope * abs(cross(way_m, blockage.towards))
+            - p.obstacles.keep_off_m
+        )
         beyond_m = dot(way_m, blockage.towards) - slack_m
         return foot_m - max(0.0, beyond_m) * blockage.towards
 
@@ -222,7 +225,7 @@ class ObstacleGuard:
         if blockage.retreats and blockage.leans:
             return STANDING
         if blockage.retreats:
-            back = -self._parameters.retreat_m_s * towards
+            back = -self._parameters.obstacles.retreat_m_s * towards
             return VelocityCommand(back.real, back.imag)
         speed = wanted.linear_m_s
         into = dot(speed, towards)
@@ -236,7 +239,9 @@ class ObstacleGuard:
     def _hits_leg(self, leg: LegInAir | None, course: _Course) -> Point | None:
         """Return the direction to what stops the leg in the air, if anything does."""
         p, aside = self._parameters, course.aside
-        least_nm = (1.0 - aside) * p.leg_touch_nm + aside * p.leg_touch_aside_nm
+        least_nm = (
+            1.0 - aside
+        ) * p.obstacles.leg_touch_nm + aside * p.obstacles.leg_touch_aside_nm
         if leg is None or course.against(leg.push_nm) < least_nm:
             return None
         towards = course.towards(leg.push_nm)
@@ -247,7 +252,7 @@ class ObstacleGuard:
         """Return the direction to what an arm touches, if one does and does not retreat yet."""
         for push_nm in arms_nm:
             against_nm = course.against(push_nm) if course.ahead else abs(push_nm)
-            if course.moves and against_nm > self._parameters.arm_touch_nm:
+            if course.moves and against_nm > self._parameters.obstacles.arm_touch_nm:
                 towards = course.towards(push_nm)
                 return None if self._retreats_from(towards) else towards
         return None
@@ -259,7 +264,7 @@ class ObstacleGuard:
 
     def _hits_body(self, course: _Course) -> Point | None:
         """Return the direction to what has stopped the robot for a while, if anything has."""
-        least_ns = self._parameters.bump_ns
+        least_ns = self._parameters.obstacles.bump_ns
         if not course.moves or abs(self._impulse_ns) < least_ns:
             return None
         if course.ahead and course.against(self._impulse_ns) < least_ns / 2:
@@ -278,12 +283,12 @@ class ObstacleGuard:
         blockage.elapsed_s += passed_s
         ways_m = [stand.position_m - blockage.place_m for stand in stands]
         # It will stand beside the foot that is farther away.
-        left_m = p.retreat_m + min(dot(way_m, blockage.towards) for way_m in ways_m)
-        if left_m < p.retreat_m / 2 or blockage.elapsed_s > p.retreat_s:
+        left_m = p.obstacles.retreat_m + min(dot(way_m, blockage.towards) for way_m in ways_m)
+        if left_m < p.obstacles.retreat_m / 2 or blockage.elapsed_s > p.obstacles.retreat_s:
             blockage.retreats = False
         heading = cmath.rect(1.0, stands[0].halfway(stands[1]).yaw_rad)
         into = dot(wanted.linear_m_s * heading, blockage.towards)
         blockage.let_go_s = blockage.let_go_s + passed_s if into < _STILL_M_S else 0.0
-        is_over = blockage.let_go_s > p.let_go_s and not blockage.retreats
-        if is_over or abs(sum(ways_m) / 2) > p.forget_m:
+        is_over = blockage.let_go_s > p.obstacles.let_go_s and not blockage.retreats
+        if is_over or abs(sum(ways_m) / 2) > p.obstacles.forget_m:
             self.blockage = None

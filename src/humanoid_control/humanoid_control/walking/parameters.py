@@ -1,271 +1,446 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The numbers of the gait."""
+"""The parameters of the walk, in groups: what a reader tunes together stands together."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
+from humanoid_common.parameters import parameter
 from humanoid_control.walking.errors import WalkingError
 from humanoid_control.walking.velocity_command import VelocityCommand, VelocityLimits
 
-
-def _growing(power: float, value: float) -> Any:
-    """Return a field that grows with a power of the robot's size."""
-    return field(default=value, metadata={'power': power})
-
-
-def _length(value: float) -> Any:
-    return _growing(1.0, value)
+_POWER = 'humanoid_control.power'
+"""Where a field keeps the power of the robot's size with which it grows."""
+_MOST_CHANGE = 4.0
+"""How many times as large, or as small, as by default a parameter may be."""
 
 
-def _time(value: float) -> Any:
-    return _growing(0.5, value)
+def _growing(power: float, value: float, description: str) -> float:
+    """Declare a parameter that grows with a power of the robot's size."""
+    return parameter(
+        value,
+        description,
+        at_least=value / _MOST_CHANGE,
+        at_most=value * _MOST_CHANGE,
+        read_only=True,
+        metadata={_POWER: power},
+    )
 
 
-def _speed(value: float) -> Any:
-    return _growing(0.5, value)
+def _fixed(value: float, description: str) -> float:
+    """Declare a parameter that is the same for robots of all sizes."""
+    return _growing(0.0, value, description)
 
 
-def _rate(value: float) -> Any:
-    return _growing(-0.5, value)
+def _share(value: float, description: str) -> float:
+    """Declare a part of something, above 0 and up to 1."""
+    return parameter(value, description, at_least=0.01, at_most=1.0, read_only=True)
+
+
+def _length(value: float, description: str) -> float:
+    return _growing(1.0, value, description)
+
+
+def _time(value: float, description: str) -> float:
+    return _growing(0.5, value, description)
+
+
+def _speed(value: float, description: str) -> float:
+    return _growing(0.5, value, description)
+
+
+def _rate(value: float, description: str) -> float:
+    return _growing(-0.5, value, description)
+
+
+@dataclass(frozen=True)
+class TimingParameters:
+    """When feet are lifted and put down."""
+
+    swing_s: float = _time(0.36, 'Duration of single support: one foot carries the robot.')
+    shift_s: float = _time(0.10, 'Duration of double support, in which the weight shifts.')
+    first_shift_s: float = _time(
+        0.5, 'Duration of double support before the first step from standing.'
+    )
+    reactive_shift_s: float = _time(
+        0.04, 'Duration of double support before a step that catches a push.'
+    )
+    stop_s: float = _time(
+        0.5, 'Time in which the weight comes to rest between the feet after the last step.'
+    )
+
+    @property
+    def step_s(self) -> float:
+        """Return the time from step to step."""
+        return self.shift_s + self.swing_s
+
+
+@dataclass(frozen=True)
+class FootstepParameters:
+    """Where feet are put down."""
+
+    width_m: float = _length(0.18, 'Lateral distance of the feet.')
+    least_width_m: float = _length(0.14, 'Least lateral distance of the feet.')
+    most_width_m: float = _length(0.42, 'Greatest lateral distance of the feet.')
+    most_length_m: float = _length(
+        0.32, 'How far a foot may land ahead of or behind the other one to catch the robot.'
+    )
+    preview_steps: int = parameter(
+        4,
+        'How many steps the plan looks ahead, the present one among them.',
+        at_least=2,
+        at_most=10,
+        read_only=True,
+    )
+    course_gain: float = _share(
+        0.5, 'Share of the deviation from the reference path that is corrected in a step.'
+    )
+    course_distance_m: float = _length(
+        0.06, 'Greatest deviation from the reference path; the path is moved by what is more.'
+    )
+    course_turn_rad: float = _fixed(
+        0.15, 'Greatest deviation in heading from the reference path; it is turned by the rest.'
+    )
+    parallel_length_m: float = _length(
+        0.025, 'How far one foot may be ahead of the other when the robot stops.'
+    )
+    parallel_width_m: float = _length(
+        0.03, 'How far the distance of the feet may be off when the robot stops.'
+    )
+    parallel_turn_rad: float = _fixed(
+        0.06, 'How far the feet may be turned towards each other when the robot stops.'
+    )
+
+
+@dataclass(frozen=True)
+class VelocityParameters:
+    """How fast the robot walks, and how fast that changes."""
+
+    forward_limit_m_s: float = _speed(0.5, 'Greatest forward velocity.')
+    backward_limit_m_s: float = _speed(0.3, 'Greatest backward velocity.')
+    left_limit_m_s: float = _speed(0.2, 'Greatest lateral velocity.')
+    turn_limit_rad_s: float = _rate(1.0, 'Greatest yaw rate.')
+    sum_of_shares: float = _fixed(
+        1.5, 'Greatest sum of the three components, each as a share of its limit.'
+    )
+    forward_acceleration_m_s2: float = _fixed(0.4, 'Greatest acceleration along x.')
+    left_acceleration_m_s2: float = _fixed(0.2, 'Greatest acceleration along y.')
+    turn_acceleration_rad_s2: float = _growing(-1.0, 0.8, 'Greatest yaw acceleration.')
+
+    @property
+    def limits(self) -> VelocityLimits:
+        """Return the greatest velocities."""
+        return VelocityLimits(
+            self.forward_limit_m_s,
+            self.backward_limit_m_s,
+            self.left_limit_m_s,
+            self.turn_limit_rad_s,
+            self.sum_of_shares,
+        )
+
+    def change(self, time_s: float) -> VelocityCommand:
+        """
+        Compute the largest change of the velocity in a given time.
+
+        Parameters
+        ----------
+        time_s
+            How long the robot accelerates at its limits.
+
+        Returns
+        -------
+        VelocityCommand
+            The largest change of each component.
+
+        """
+        return VelocityCommand(
+            self.forward_acceleration_m_s2 * time_s,
+            self.left_acceleration_m_s2 * time_s,
+            self.turn_acceleration_rad_s2 * time_s,
+        )
+
+
+@dataclass(frozen=True)
+class PostureParameters:
+    """How the robot holds itself while it walks."""
+
+    crouch_m: float = _length(0.05, 'How far the hips are below their height on straight legs.')
+    leg_reach: float = _share(
+        0.97, 'Share of its length to which a stance leg is stretched before the pelvis sinks.'
+    )
+    zmp_forward_m: float = _length(
+        0.015, 'How far ahead of the frame of the sole the load of a foot is planned.'
+    )
+    zmp_inward_m: float = _length(
+        0.005, 'How far to the inner side of the sole the load of a foot is planned.'
+    )
+    margin_length_m: float = _length(
+        0.01, 'Distance that the centre of pressure keeps from toe and heel.'
+    )
+    margin_width_m: float = _length(
+        0.008, 'Distance that the centre of pressure keeps from the sides of the foot.'
+    )
+    elbow_rad: float = parameter(
+        -0.5, 'Angle of both elbows.', at_least=-2.0, at_most=0.0, read_only=True
+    )
+    shoulder_roll_rad: float = _fixed(
+        0.12, 'How far the left arm is held from the body; the right one mirrors it.'
+    )
+    arm_swing: float = parameter(
+        1.0,
+        "Shoulder angle in rad for the opposite foot a leg's length ahead; 0 is no swing.",
+        at_least=0.0,
+        at_most=2.0,
+        read_only=True,
+    )
+
+
+@dataclass(frozen=True)
+class BodyPoseParameters:
+    """How a robot that stands bends and lowers its body when it is told to."""
+
+    bend_rad: float = _fixed(0.5, 'Greatest forward pitch.')
+    bend_back_rad: float = _fixed(0.1, 'Greatest backward pitch.')
+    bend_rad_s: float = _rate(0.4, 'Greatest pitch rate.')
+    lower_m: float = _length(0.12, 'How far the centre of mass is lowered at most.')
+    lower_m_s: float = _speed(0.1, 'Greatest velocity at which it is lowered.')
+    upright_pitch_rad: float = _fixed(0.03, 'Pitch below which the robot may step.')
+    upright_height_m: float = _length(
+        0.01, 'Lowering of the centre of mass below which the robot may step.'
+    )
+
+
+@dataclass(frozen=True)
+class BalanceParameters:
+    """How errors of the divergent component of motion (DCM) and of the attitude are corrected."""
+
+    dcm_gain: float = _fixed(
+        1.6, 'How far the zero-moment point moves, in multiples of the error of the DCM.'
+    )
+    observer_rate_1_s: float = _rate(60.0, 'Bandwidth of the estimate of the centre of mass.')
+    reference_leak_1_s: float = _rate(
+        8.0, 'Rate at which the reference of the centre of mass returns to the estimate.'
+    )
+    reference_distance_m: float = _length(
+        0.04, 'Greatest distance along each axis of that reference from the estimate.'
+    )
+    attitude_stiffness_nm_rad: float = _growing(
+        4.0, 400.0, 'Stiffness of the attitude of the trunk.'
+    )
+    attitude_damping_nms_rad: float = _growing(4.5, 25.0, 'Damping of the attitude of the trunk.')
+    ground_turn_nm: float = _growing(
+        4.0, 15.0, 'Greatest torque about the vertical of the feet on the ground.'
+    )
+    heading_share: float = _share(
+        0.5, 'Share of stiffness and damping that acts on errors of the heading.'
+    )
+    push_forward_m: float = _length(
+        0.065, 'Distance of the DCM ahead of the middle at which a standing robot steps.'
+    )
+    push_left_m: float = _length(
+        0.085, 'Distance of the DCM beside the middle at which a standing robot steps.'
+    )
+    stop_error_m: float = _length(0.04, 'Error of the DCM below which the robot may stop.')
+
+
+@dataclass(frozen=True)
+class StepAdjustmentParameters:
+    """How the place and the time of a landing are adjusted to catch the robot."""
+
+    until_s: float = _time(0.06, 'Time before a landing from which on its place is kept.')
+    dead_band_m: float = _length(0.005, 'Adjustment below which the place is kept.')
+    hurry_error_m: float = _length(0.06, 'Error of the DCM from which on a step may be hurried.')
+    hurry_rates: tuple[float, ...] = parameter(
+        (1.0, 1.3, 1.6, 2.0),
+        'How many times as fast a step may be, slowest first.',
+        at_least=1.0,
+        at_most=3.0,
+        read_only=True,
+    )
+    unreachable_length_m: float = _length(
+        0.02, 'By how much the length of a step may be cut before the step is hurried instead.'
+    )
+    unreachable_width_m: float = _length(
+        0.03, 'By how much the width of a step may be cut before the step is hurried instead.'
+    )
+
+
+@dataclass(frozen=True)
+class SwingParameters:
+    """How a foot moves through the air, and when it counts as landed."""
+
+    height_m: float = _length(0.055, 'How high the swing foot is lifted.')
+    early_arrival: float = _share(
+        0.94, 'Share of the swing at which the foot is above its landing.'
+    )
+    reach_down_m_s: float = _speed(0.2, 'Velocity downwards when the ground comes late.')
+    deepest_m: float = _length(0.06, 'How far below the expected ground the foot goes.')
+    longest_tick_s: float = _time(
+        0.04,
+        'Gap between two control periods after which the swing goes on from where the foot is.',
+    )
+    touchdown_phase: float = _share(
+        0.5, 'Share of the swing from which on a foot that meets something stays there.'
+    )
+    touchdown_load: float = _share(
+        0.12, 'Share of the weight that the foot has to carry to stay there.'
+    )
+    touch_load: float = _share(
+        0.06, 'Share of the weight that is enough for that near the end of the swing.'
+    )
+    lost_load: float = _share(
+        0.03, 'Share of the weight below which a landed foot has lost the ground.'
+    )
+    lost_s: float = _time(
+        0.025, 'Time for which the load has to be so small until the foot swings on.'
+    )
+    least_s: float = _time(
+        0.08, 'Time left in the swing below which such a foot goes straight down.'
+    )
+    gentle_phase: float = _share(
+        0.75, 'Share of the swing from which on the smaller load is enough.'
+    )
+    landing_phase: float = _share(
+        0.85, 'Share of the swing from which on a landed foot may take the weight.'
+    )
+    late_touchdown_s: float = _time(
+        0.16, 'How late a landing may be until the step ends without it.'
+    )
+
+
+@dataclass(frozen=True)
+class TerrainParameters:
+    """How feet and pelvis adapt to ground that is not level."""
+
+    adapt_early_1_s: float = _rate(
+        25.0, 'Rate at which a loaded sole adapts to the tilt of the ground at first.'
+    )
+    adapt_early_s: float = _time(0.15, 'Time after the landing in which it adapts at that rate.')
+    adapt_1_s: float = _rate(10.0, 'Rate at which it adapts later.')
+    adapt_load: float = _share(
+        0.4, 'Share of the weight at which a sole adapts fully; with less it is stiffer.'
+    )
+    adapt_height_1_s: float = _rate(
+        10.0, 'Rate at which a foot without load adapts to the height of the ground.'
+    )
+    press_m_s: float = _speed(
+        0.1, 'Velocity at which a foot that only touches the ground is pressed down.'
+    )
+    most_tilt_rad: float = _fixed(0.2, 'Tilt to which measured tilts of the ground are clamped.')
+    slope_share: float = _share(
+        0.5, 'Share of the tilt under a foot that is expected of the ground ahead.'
+    )
+    level_rate_1_s: float = _rate(
+        6.0, 'Rate at which the height of the pelvis follows that of the feet.'
+    )
+    level_leak_1_s: float = _rate(
+        8.0, 'Rate at which its reference returns to the measured height.'
+    )
+    level_distance_m: float = _length(
+        0.04, 'Greatest distance of that reference from the measured height.'
+    )
+    level_tolerance_m: float = _length(
+        0.005, 'Difference in height below which footholds are one level floor for odometry.'
+    )
+
+
+@dataclass(frozen=True)
+class FallParameters:
+    """When the robot counts as fallen, how it falls, and how it stands up."""
+
+    tilt_rad: float = _fixed(0.6, 'Tilt beyond which the robot falls.')
+    foresight_s: float = _time(0.2, 'Time within which a tilt that is reached counts already.')
+    height: float = _share(
+        0.7, 'Share of its height when it stands below which the base of a robot falls.'
+    )
+    upright_tilt_rad: float = _fixed(
+        0.3, 'Tilt below which a robot, its legs below it, is being held and can stand up.'
+    )
+    collapse_s: float = _time(1.5, 'Time for which joints stay compliant before they are limp.')
+    collapse_stiffness: float = _share(0.15, 'Share of the stiffness of the joints meanwhile.')
+    stand_up_s: float = _time(1.5, 'Time in which the joints reach the posture of standing.')
+    standing_load: float = _share(
+        0.6, 'Share of the weight on the soles at which the robot walks again.'
+    )
+
+
+@dataclass(frozen=True)
+class ObstacleParameters:
+    """How the robot notices what it bumps into, and how it gives way."""
+
+    force_rate_1_s: float = _rate(8.0, 'Bandwidth of the estimate of external forces.')
+    bump_ns: float = _growing(
+        3.5, 12.0, 'Impulse against the motion at which the way counts as blocked.'
+    )
+    bump_memory_s: float = _time(0.8, 'Time constant with which impulses are forgotten.')
+    turn_back_m_s: float = _speed(
+        0.8, 'Velocity at which the swing foot moves to where it lands instead.'
+    )
+    keep_off_m: float = _length(
+        0.01, 'Distance that the feet keep from where a foot has met something.'
+    )
+    keep_off_slope: float = _share(
+        0.15, 'By how much that distance shrinks per distance aside: its direction is uncertain.'
+    )
+    touch_rate_1_s: float = _rate(16.0, 'Bandwidth of the estimate of what limbs touch.')
+    touch_load_rate_1_s: float = _rate(
+        1.5, 'Rate at which what a standing robot feels in an arm becomes its payload.'
+    )
+    touch_gap_s: float = _time(
+        0.025, 'Gap between two observations beyond which touch is not estimated.'
+    )
+    leg_touch_nm: float = _growing(
+        4.0,
+        16.0,
+        'Hip moment along x, against the motion, at which a swing leg has met something.',
+    )
+    leg_touch_aside_nm: float = _growing(4.0, 10.0, 'The same along y, where a step needs less.')
+    leg_touch_from_phase: float = _share(
+        0.1, 'Share of the swing from which on the leg can meet something.'
+    )
+    arm_touch_nm: float = _growing(4.0, 4.0, 'Shoulder moment at which an arm has met something.')
+    retreat_m_s: float = _speed(0.12, 'Velocity at which the robot steps back.')
+    retreat_m: float = _length(0.12, 'How far it steps back.')
+    retreat_s: float = _time(4.0, 'Time for which it steps back at most.')
+    lean_m: float = _length(
+        0.03, 'Offset of the DCM towards the obstacle beyond which it does not step back yet.'
+    )
+    let_go_s: float = _time(
+        0.5, 'Time for which nobody must command the way until it may be tried again.'
+    )
+    forget_m: float = _length(0.5, 'Distance beyond which an obstacle is forgotten.')
+
+
+@dataclass(frozen=True)
+class JointParameters:
+    """What the walk asks of joints at most."""
+
+    velocity_limit_rad_s: float = _rate(12.0, 'Greatest velocity of a joint.')
+    acceleration_limit_rad_s2: float = _growing(-1.0, 250.0, 'Greatest acceleration of a joint.')
 
 
 @dataclass(frozen=True)
 class WalkParameters:
     """
-    The gait of the robot at scale 1; `scaled` gives that of another size.
+    The walk of the robot at scale 1; `scaled` gives that of another size.
 
     A robot of scale s is dynamically similar: times grow with sqrt(s), lengths with s, speeds
     with sqrt(s) (Froude's law; humanoid_description/config/scaling.yaml says more).
     """
 
-    # Rhythm.
-    swing_s: float = _time(0.36)
-    """How long one foot alone carries the robot in a step."""
-    shift_s: float = _time(0.10)
-    """How long the weight takes from foot to foot, both on the ground."""
-    first_shift_s: float = _time(0.5)
-    """The same for the first step from standing."""
-    reactive_shift_s: float = _time(0.04)
-    """The same for a step that catches a push."""
-    stop_s: float = _time(0.5)
-    """How long the weight takes to the middle between the feet at the end."""
-
-    # Footsteps.
-    step_width_m: float = _length(0.18)
-    """The distance of the feet sideways."""
-    least_width_m: float = _length(0.14)
-    most_width_m: float = _length(0.42)
-    most_length_m: float = _length(0.32)
-    """How far a foot may land before or behind the other one when it has to catch the robot."""
-    preview_steps: int = 4
-    """How many steps the plan looks ahead, the present one among them."""
-    course_gain: float = 0.5
-    """How much of the way back to its course the robot goes in a step."""
-    course_distance_m: float = _length(0.06)
-    """How far from its course it may be; what is more is forgotten."""
-    course_turn_rad: float = 0.15
-    parallel_length_m: float = _length(0.025)
-    """How far from side by side feet may be that the robot stops on."""
-    parallel_width_m: float = _length(0.03)
-    parallel_turn_rad: float = 0.06
-
-    # Velocity.
-    forward_limit_m_s: float = _speed(0.5)
-    backward_limit_m_s: float = _speed(0.3)
-    left_limit_m_s: float = _speed(0.2)
-    turn_limit_rad_s: float = _rate(1.0)
-    sum_of_shares: float = 1.5
-    """What the shares of the limits may come to together."""
-    forward_acceleration_m_s2: float = 0.4
-    left_acceleration_m_s2: float = 0.2
-    turn_acceleration_rad_s2: float = _growing(-1.0, 0.8)
-
-    # Posture.
-    crouch_m: float = _length(0.05)
-    """How far the hips hang below stretched legs."""
-    leg_reach: float = 0.97
-    """To which share of its length a leg on the ground is stretched before the pelvis sinks."""
-    zmp_forward_m: float = _length(0.015)
-    """Where under a foot its load is planned: before the sole's frame ..."""
-    zmp_inward_m: float = _length(0.005)
-    """... and on the inner side."""
-    margin_length_m: float = _length(0.01)
-    """What the load keeps from toe and heel ..."""
-    margin_width_m: float = _length(0.008)
-    """... and from the sides."""
-    elbow_rad: float = -0.5
-    shoulder_roll_rad: float = 0.12
-    """How far the left arm is held from the body; the right one mirrors it."""
-
-    # How a robot that stands may hold its body.
-    bend_rad: float = 0.5
-    """How far it bends forward at most ..."""
-    bend_back_rad: float = 0.1
-    """... and back, ..."""
-    bend_rad_s: float = _rate(0.4)
-    """... and how fast."""
-    lower_m: float = _length(0.12)
-    """How far it lowers its centre of mass at most ..."""
-    lower_m_s: float = _speed(0.1)
-    """... and how fast."""
-    upright_pitch_rad: float = 0.03
-    """A robot that is bent by less, ..."""
-    upright_height_m: float = _length(0.01)
-    """... and lowered by less, may step."""
-
-    # Balance.
-    dcm_gain: float = 1.6
-    """How many times the error of the divergent component the zero-moment point moves."""
-    observer_rate_1_s: float = _rate(60.0)
-    """How fast the estimate of the centre of mass takes over what is measured."""
-    reference_leak_1_s: float = _rate(8.0)
-    """How fast its reference returns to the estimate."""
-    reference_distance_m: float = _length(0.04)
-    """How far the reference may be from the estimate."""
-    attitude_stiffness_nm_rad: float = _growing(4.0, 400.0)
-    attitude_damping_nms_rad: float = _growing(4.5, 25.0)
-    ground_turn_nm: float = _growing(4.0, 15.0)
-    """The torque about the vertical that the feet may exert on the ground."""
-    heading_share: float = 0.5
-    """How much of them there is against errors of the heading."""
-    push_forward_m: float = _length(0.065)
-    """A standing robot steps if its divergent component is farther than this from the middle."""
-    push_left_m: float = _length(0.085)
-    stop_error_m: float = _length(0.04)
-    """It does not stop before the error of its divergent component is below this."""
-
-    # Step adjustment.
-    adjust_until_s: float = _time(0.06)
-    """Before a landing its place does not change any more."""
-    adjust_dead_band_m: float = _length(0.005)
-    hurry_error_m: float = _length(0.06)
-    """From which error on a step may be hurried to catch the robot."""
-    hurry_rates: tuple[float, ...] = (1.0, 1.3, 1.6, 2.0)
-    unreachable_length_m: float = _length(0.02)
-    """A landing that has to be cut by more than this calls for hurry."""
-    unreachable_width_m: float = _length(0.03)
-
-    # Swing foot.
-    swing_height_m: float = _length(0.055)
-    early_arrival: float = 0.94
-    """At which share of the swing the foot is above its landing."""
-    reach_down_m_s: float = _speed(0.2)
-    """How fast it goes on down when the ground is late."""
-    deepest_m: float = _length(0.06)
-    """How far below the expected ground it goes."""
-    longest_tick_s: float = _time(0.04)
-    """When control was away for longer, the foot in the air has not gone on as planned."""
-    touchdown_phase: float = 0.5
-    """From which share of the swing on a foot that meets something stays there."""
-    touchdown_load: float = 0.12
-    """How much of the weight it has to carry for that ..."""
-    touch_load: float = 0.06
-    """... and how much near the end of the swing, ..."""
-    lost_load: float = 0.03
-    """A foot with less than this for a while has lost what it met, and swings on ..."""
-    lost_s: float = _time(0.025)
-    """... after so long; ..."""
-    least_swing_s: float = _time(0.08)
-    """... with less time than this it goes straight down."""
-    gentle_phase: float = 0.75
-    """... which begins at this share."""
-    landing_phase: float = 0.85
-    """From which share of the swing on a foot that stands may take the weight."""
-    late_touchdown_s: float = _time(0.16)
-    """How late a landing may be until the step ends without it."""
-
-    # Ground that is not level.
-    conform_early_1_s: float = _rate(25.0)
-    """How fast a sole with weight on it gives way to the tilt of the ground at first ..."""
-    conform_early_s: float = _time(0.15)
-    """... for so long, ..."""
-    conform_1_s: float = _rate(10.0)
-    """... and later."""
-    conform_load: float = 0.4
-    """The share of the weight at which it does so fully; with less it is stiffer."""
-    conform_height_1_s: float = _rate(10.0)
-    """How fast a foot without weight on it gives way to the height of the ground."""
-    press_m_s: float = _speed(0.1)
-    """How fast a foot that only touches is pressed down."""
-    most_tilt_rad: float = 0.2
-    """Ground that is steeper is taken for so steep."""
-    slope_share: float = 0.5
-    """How much of the tilt under a foot is expected of the ground ahead."""
-    level_rate_1_s: float = _rate(6.0)
-    """How fast the height of the pelvis follows that of the feet ..."""
-    level_leak_1_s: float = _rate(8.0)
-    """... and gives way to where it is measured, ..."""
-    level_distance_m: float = _length(0.04)
-    """... by so much at most."""
-    level_tolerance_m: float = _length(0.005)
-    """Footholds whose heights differ by less are one level floor for odometry."""
-
-    # Falls.
-    fall_tilt_rad: float = 0.6
-    """A robot that leans more than this falls ..."""
-    fall_foresight_s: float = _time(0.2)
-    """... or one that will so soon."""
-    fall_height: float = 0.7
-    """So does one whose base is lower than this share of its height when it stands."""
-    upright_tilt_rad: float = 0.3
-    """A robot that leans less, its legs below it, is held by somebody and can stand up."""
-    collapse_s: float = _time(1.5)
-    """How long a fall is made soft; then the joints are loose."""
-    collapse_stiffness: float = 0.15
-    """The share of their stiffness with which the joints pull meanwhile."""
-    stand_up_s: float = _time(1.5)
-    """How long the joints take to the posture of standing."""
-    standing_load: float = 0.6
-    """The share of the weight on the soles at which a robot that has stood up walks again."""
-
-    # Obstacles.
-    force_rate_1_s: float = _rate(8.0)
-    """How fast the estimate of forces from outside follows."""
-    bump_ns: float = _growing(3.5, 12.0)
-    """The impulse against its motion from which on the robot takes its way for blocked ..."""
-    bump_memory_s: float = _time(0.8)
-    """... and how long an impulse is remembered."""
-    turn_back_m_s: float = _speed(0.8)
-    """How fast the foot in the air goes to where it lands instead."""
-    keep_off_m: float = _length(0.01)
-    """How far from where a foot has met something the feet stay ..."""
-    keep_off_slope: float = 0.15
-    """... and how much of their distance aside less: its direction is known about so well."""
-    touch_rate_1_s: float = _rate(16.0)
-    """How fast the estimate of what limbs touch follows."""
-    touch_load_rate_1_s: float = _rate(1.5)
-    """How fast what an arm feels while the robot stands becomes a load that it carries."""
-    touch_gap_s: float = _time(0.025)
-    """Observations that are farther apart say nothing of what limbs touch."""
-    leg_touch_nm: float = _growing(4.0, 16.0)
-    """The moment about its hip, against the motion, at which a leg in the air has met something:
-    forwards or backwards ..."""
-    leg_touch_aside_nm: float = _growing(4.0, 10.0)
-    """... and to the side, where a step needs less ..."""
-    leg_touch_from_phase: float = 0.1
-    """... if the foot has left the ground for this share of the swing."""
-    arm_touch_nm: float = _growing(4.0, 4.0)
-    """The moment about its shoulder at which an arm has met something."""
-    retreat_m_s: float = _speed(0.12)
-    """How fast the robot steps back from an obstacle ..."""
-    retreat_m: float = _length(0.12)
-    """... and how far, ..."""
-    lean_m: float = _length(0.03)
-    """It does not step back while the divergent component is so far off towards the obstacle."""
-    retreat_s: float = _time(4.0)
-    """... for at most so long."""
-    let_go_s: float = _time(0.5)
-    """For how long nobody has to want to go there until it may try again."""
-    forget_m: float = _length(0.5)
-    """So far from an obstacle it no longer counts."""
-
-    # Joints.
-    velocity_limit_rad_s: float = _rate(12.0)
-    acceleration_limit_rad_s2: float = _growing(-1.0, 250.0)
-    arm_swing: float = 1.0
-    """How many radians a shoulder turns for a foot that is a leg's length ahead."""
+    timing: TimingParameters = TimingParameters()
+    footsteps: FootstepParameters = FootstepParameters()
+    velocity: VelocityParameters = VelocityParameters()
+    posture: PostureParameters = PostureParameters()
+    body_pose: BodyPoseParameters = BodyPoseParameters()
+    balance: BalanceParameters = BalanceParameters()
+    step_adjustment: StepAdjustmentParameters = StepAdjustmentParameters()
+    swing: SwingParameters = SwingParameters()
+    terrain: TerrainParameters = TerrainParameters()
+    fall: FallParameters = FallParameters()
+    obstacles: ObstacleParameters = ObstacleParameters()
+    joints: JointParameters = JointParameters()
 
     def scaled(self, scale: float) -> WalkParameters:
         """
@@ -289,46 +464,17 @@ class WalkParameters:
         """
         if not (0.0 < scale < float('inf')):
             raise WalkingError(f'The scale {scale:g} is not a size. Give one as 0.65.')
-        grown = {
-            entry.name: getattr(self, entry.name) * scale ** entry.metadata['power']
-            for entry in fields(self)
-            if 'power' in entry.metadata
-        }
-        return replace(self, **grown)
+        grown: WalkParameters = _grown(self, scale)
+        return grown
 
-    @property
-    def step_s(self) -> float:
-        """Return the time from step to step."""
-        return self.shift_s + self.swing_s
 
-    @property
-    def velocity_limits(self) -> VelocityLimits:
-        """Return the speeds that the gait can do."""
-        return VelocityLimits(
-            self.forward_limit_m_s,
-            self.backward_limit_m_s,
-            self.left_limit_m_s,
-            self.turn_limit_rad_s,
-            self.sum_of_shares,
-        )
-
-    def velocity_change(self, time_s: float) -> VelocityCommand:
-        """
-        Compute the largest change of the velocity in a given time.
-
-        Parameters
-        ----------
-        time_s
-            How long the robot accelerates at its limits.
-
-        Returns
-        -------
-        VelocityCommand
-            The largest change of each component.
-
-        """
-        return VelocityCommand(
-            self.forward_acceleration_m_s2 * time_s,
-            self.left_acceleration_m_s2 * time_s,
-            self.turn_acceleration_rad_s2 * time_s,
-        )
+def _grown(values: Any, scale: float) -> Any:
+    """Scale the fields of a dataclass by their powers, also those of its groups."""
+    changed = {}
+    for entry in fields(values):
+        value = getattr(values, entry.name)
+        if is_dataclass(value):
+            changed[entry.name] = _grown(value, scale)
+        elif _POWER in entry.metadata:
+            changed[entry.name] = value * scale ** entry.metadata[_POWER]
+    return replace(values, **changed)

@@ -161,14 +161,14 @@ class Standing(_OnBothFeet):
         self._gear.course.restart()
         self._gear.slope = self._gear.footing.tilt
         if not self._gear.target.is_zero:
-            shift_s = self._gear.parameters.first_shift_s
+            shift_s = self._gear.parameters.timing.first_shift_s
             return Stepping(
                 Step(self._gear, self._first_support(), shift_s, now.zmp_m), self._gear
             )
         off = self._off_balance(now.dcm_m)
         if self._elapsed_s > _SETTLED_S and self._is_pushed(off):
             support = RIGHT if off.imag > 0.0 else LEFT
-            shift_s = self._gear.parameters.reactive_shift_s
+            shift_s = self._gear.parameters.timing.reactive_shift_s
             return Stepping(Step(self._gear, support, shift_s, now.zmp_m), self._gear)
         return self
 
@@ -198,7 +198,7 @@ class Standing(_OnBothFeet):
     def _is_pushed(self, off: Point) -> bool:
         """Tell whether the robot has to step to stay upright."""
         p = self._gear.parameters
-        return abs(off.real) > p.push_forward_m or abs(off.imag) > p.push_left_m
+        return abs(off.real) > p.balance.push_forward_m or abs(off.imag) > p.balance.push_left_m
 
 
 class Stepping:
@@ -281,10 +281,10 @@ class Stepping:
             return self
         self._gear.learn_slope(self._gear.footing[step.support].facet.tilt)
         self._gear.course.advance(step.support, self._gear.command, step.duration_s)
-        self._gear.approach_target(self._gear.parameters.step_s)
+        self._gear.approach_target(self._gear.parameters.timing.step_s)
         if self._gear.is_stopping and self._may_rest():
             return Stopping(self._gear, step.side, now.zmp_m)
-        shift_s = self._gear.parameters.shift_s
+        shift_s = self._gear.parameters.timing.shift_s
         return Stepping(Step(self._gear, step.side, shift_s, now.zmp_m), self._gear)
 
     def reference(self, now: GaitInput) -> BalanceReference:
@@ -309,7 +309,7 @@ class Stepping:
         stands_well = self._gear.planner.is_parallel(
             feet.pose(step.support), step.support, feet.pose(step.side)
         )
-        return stands_well and step.error_m < self._gear.parameters.stop_error_m
+        return stands_well and step.error_m < self._gear.parameters.balance.stop_error_m
 
 
 class Stopping(_OnBothFeet):
@@ -332,7 +332,7 @@ class Stopping(_OnBothFeet):
     def __init__(self, gear: Gear, last_landed: int, zmp: Point) -> None:
         super().__init__(gear)
         self._last_landed = last_landed
-        way = ZmpSegment(gear.parameters.stop_s, zmp, gear.footing.rest_point)
+        way = ZmpSegment(gear.parameters.timing.stop_s, zmp, gear.footing.rest_point)
         self._plan = gear.plan([way])
 
     def advance(self, now: GaitInput) -> Phase:
@@ -352,12 +352,12 @@ class Stopping(_OnBothFeet):
         """
         self._elapsed_s += now.passed_s
         p = self._gear.parameters
-        if self._elapsed_s > p.stop_s + _REST_S:
+        if self._elapsed_s > p.timing.stop_s + _REST_S:
             return Standing(self._gear)
-        if not self._gear.target.is_zero and self._elapsed_s < _RESUMABLE * p.stop_s:
-            self._gear.approach_target(p.step_s)
+        if not self._gear.target.is_zero and self._elapsed_s < _RESUMABLE * p.timing.stop_s:
+            self._gear.approach_target(p.timing.step_s)
             zmp = self._plan.at(self._elapsed_s).zmp_m
-            return Stepping(Step(self._gear, self._last_landed, p.shift_s, zmp), self._gear)
+            return Stepping(Step(self._gear, self._last_landed, p.timing.shift_s, zmp), self._gear)
         return self
 
     def reference(self, now: GaitInput) -> BalanceReference:

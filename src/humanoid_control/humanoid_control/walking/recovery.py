@@ -82,4 +82,4 @@ class Recovery:
 
     def _carries_itself(self, time_s: float, rising: Rising, stance: Stance) -> bool:
         """Tell whether the robot is ready and its feet carry it."""
-        return rising.is_done(time_s) and stance.load > self._parameters.standing_load
+        return rising.is_done(time_s) and stance.load > self._parameters.fall.standing_load

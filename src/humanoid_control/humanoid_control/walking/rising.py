@@ -29,7 +29,7 @@ class Rising:
         self, start_rad: Array, home_rad: Array, parameters: WalkParameters, time_s: float
     ) -> None:
         self._start_rad, self._way_rad = start_rad.copy(), home_rad - start_rad
-        self._duration_s = parameters.stand_up_s
+        self._duration_s = parameters.fall.stand_up_s
         self._start_s = time_s
 
     def is_done(self, time_s: float) -> bool:

@@ -43,7 +43,8 @@ def soles_below(
 
     """
     left, right = (
-        _reading(side, base_m, robot, sensed, parameters.most_tilt_rad) for side in (LEFT, RIGHT)
+        _reading(side, base_m, robot, sensed, parameters.terrain.most_tilt_rad)
+        for side in (LEFT, RIGHT)
     )
     return left, right
 

@@ -62,7 +62,9 @@ class Step:
         self._lift_off = self._lifted_from.pose
         self._foot = SwingFoot(self._lift_off)
         p = gear.parameters
-        self._lift = Lift(p.swing_height_m, p.swing_s, p.reach_down_m_s, p.deepest_m)
+        self._lift = Lift(
+            p.swing.height_m, p.timing.swing_s, p.swing.reach_down_m_s, p.swing.deepest_m
+        )
         self._tilt = gear.slope
         self._has_touched = False
         self._lost_s = 0.0
@@ -75,21 +77,21 @@ class Step:
     @property
     def end_s(self) -> float:
         """Return the time at which the foot lands by plan."""
-        return self._shift_s + self._gear.parameters.swing_s
+        return self._shift_s + self._gear.parameters.timing.swing_s
 
     @property
     def _adjustable_until_s(self) -> float:
-        return self.end_s - self._gear.parameters.adjust_until_s
+        return self.end_s - self._gear.parameters.step_adjustment.until_s
 
     @property
     def duration_s(self) -> float:
         """Return how long it has taken in fact, apart from a longer or shorter begin."""
-        return self._real_s + self._gear.parameters.shift_s - self._shift_s
+        return self._real_s + self._gear.parameters.timing.shift_s - self._shift_s
 
     @property
     def swing_phase(self) -> float:
         """Return which share of the swing has passed: 0 on both feet, above 1 if it is late."""
-        return max(0.0, self.elapsed_s - self._shift_s) / self._gear.parameters.swing_s
+        return max(0.0, self.elapsed_s - self._shift_s) / self._gear.parameters.timing.swing_s
 
     @property
     def sides(self) -> tuple[int, ...]:
@@ -115,7 +117,7 @@ class Step:
 
         """
         p, before_s = self._gear.parameters, self.elapsed_s
-        self._passed_s = min(passed_s, p.longest_tick_s)
+        self._passed_s = min(passed_s, p.swing.longest_tick_s)
         self._real_s += passed_s
         self.elapsed_s += passed_s * self.rate
         if not self._has_touched:
@@ -150,7 +152,7 @@ class Step:
             return landing
         start_m = self._foot.pose.position_m
         way_m = landing.position_m - start_m
-        most_m = self._gear.parameters.turn_back_m_s * max(0.0, self._arrival_s)
+        most_m = self._gear.parameters.obstacles.turn_back_m_s * max(0.0, self._arrival_s)
         if abs(way_m) <= most_m:
             return landing
         return PlanarPose(start_m + way_m * (most_m / abs(way_m)), landing.yaw_rad)
@@ -171,8 +173,10 @@ class Step:
 
         """
         p, sole = self._gear.parameters, now.soles[self.side]
-        swings = p.leg_touch_from_phase < self.swing_phase < 1.0 and not self._has_touched
-        if not swings or sole.load > p.touch_load:
+        swings = (
+            p.obstacles.leg_touch_from_phase < self.swing_phase < 1.0 and not self._has_touched
+        )
+        if not swings or sole.load > p.swing.touch_load:
             return None
         return LegInAir(self.side, now.touch.legs_nm[self.side], sole.pose.position_m)
 
@@ -204,14 +208,14 @@ class Step:
     def _notice_loss(self, sole: SoleReading, passed_s: float) -> None:
         """Let the foot swing on if it no longer touches anything before it should have landed."""
         p = self._gear.parameters
-        bears = sole.load > p.lost_load or self.swing_phase > 1.0
+        bears = sole.load > p.swing.lost_load or self.swing_phase > 1.0
         self._lost_s = 0.0 if bears else self._lost_s + passed_s
-        if self._lost_s < p.lost_s:
+        if self._lost_s < p.swing.lost_s:
             return
         self._has_touched, self._lost_s = False, 0.0
         self._gear.footing.put(self.side, self._lifted_from)
         self._foot = SwingFoot(sole.pose)
-        if self._arrival_s < p.least_swing_s:
+        if self._arrival_s < p.swing.least_s:
             self.landing = sole.pose
             self._plan = self._planned(self.landing)
 
@@ -226,8 +230,8 @@ class Step:
 
         """
         p, phase = self._gear.parameters, self.swing_phase
-        bears = now.soles[self.side].load > p.touchdown_load or phase > 1.0
-        return self._is_late or (self._has_touched and phase > p.landing_phase and bears)
+        bears = now.soles[self.side].load > p.swing.touchdown_load or phase > 1.0
+        return self._is_late or (self._has_touched and phase > p.swing.landing_phase and bears)
 
     def reference(self, now: GaitInput) -> BalanceReference:
         """
@@ -284,7 +288,7 @@ class Step:
     def _arrival_s(self) -> float:
         """How long it takes the foot to be above its landing."""
         p, in_air_s = self._gear.parameters, self.elapsed_s - self._shift_s
-        return (p.early_arrival * p.swing_s - in_air_s) / self.rate
+        return (p.swing.early_arrival * p.timing.swing_s - in_air_s) / self.rate
 
     @property
     def _rise_m(self) -> float:
@@ -297,15 +301,15 @@ class Step:
     @property
     def _is_late(self) -> bool:
         """Tell whether the foot should have landed long ago."""
-        return self.elapsed_s > self.end_s + self._gear.parameters.late_touchdown_s
+        return self.elapsed_s > self.end_s + self._gear.parameters.swing.late_touchdown_s
 
     def _touches(self, sole: SoleReading) -> bool:
         """Tell whether the foot meets the ground while it goes down."""
         p, phase = self._gear.parameters, self.swing_phase
-        enough = p.touch_load if phase > p.gentle_phase else p.touchdown_load
+        enough = p.swing.touch_load if phase > p.swing.gentle_phase else p.swing.touchdown_load
         # Friction on the front of an obstacle is no ground.
         is_below = abs(sole.drag) < sole.load
-        return phase > p.touchdown_phase and sole.load > enough and is_below
+        return phase > p.swing.touchdown_phase and sole.load > enough and is_below
 
     def _next_landing(self) -> PlanarPose:
         """Return where the foot lands by plan, on the robot's course unless it stops."""
@@ -337,7 +341,7 @@ class Step:
         residual = Residual.of(
             self._nominal_plan.at(time_s),
             now.dcm_m,
-            self._gear.parameters.dcm_gain,
+            self._gear.parameters.balance.dcm_gain,
             self._gear.footing.polygon(self.sides),
             support,
         )

@@ -75,7 +75,7 @@ class StepAdjuster:
             of the step.
 
         """
-        for rate in (r for r in self.parameters.hurry_rates if r >= rate):
+        for rate in (r for r in self.parameters.step_adjustment.hurry_rates if r >= rate):
             growth = math.exp(self.rate_1_s * remaining_s / rate)
             wanted = nominal.moved(residual.at_landing(growth, self.parameters))
             place = support.local(wanted.position_m)
@@ -88,11 +88,14 @@ class StepAdjuster:
     def _is_near(self, wanted: Point, reached: Point) -> bool:
         """Tell whether little had to be cut."""
         cut, p = wanted - reached, self.parameters
-        return abs(cut.real) < p.unreachable_length_m and abs(cut.imag) < p.unreachable_width_m
+        return (
+            abs(cut.real) < p.step_adjustment.unreachable_length_m
+            and abs(cut.imag) < p.step_adjustment.unreachable_width_m
+        )
 
     def _calls_for_hurry(self, residual: Residual) -> bool:
         """Tell whether the robot is so far off that a step may be hurried."""
-        return abs(residual.error_m) >= self.parameters.hurry_error_m
+        return abs(residual.error_m) >= self.parameters.step_adjustment.hurry_error_m
 
 
 @dataclass(frozen=True)
@@ -162,7 +165,7 @@ class Residual:
 
         """
         left = self.error_m * growth - self.shift_m * (growth - 1.0)
-        dead_band_m = parameters.adjust_dead_band_m
+        dead_band_m = parameters.step_adjustment.dead_band_m
         return cmath.rect(1.0, self.yaw_rad) * complex(
             _beyond(left.real, self.wanted_m.real, self.shift_m.real, dead_band_m),
             _beyond(left.imag, self.wanted_m.imag, self.shift_m.imag, dead_band_m),

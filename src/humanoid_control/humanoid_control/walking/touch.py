@@ -81,7 +81,7 @@ class TouchObserver:
             The estimated state of the robot.
 
         """
-        self._follow(self._borne_nm, sensed, self._parameters.touch_load_rate_1_s)
+        self._follow(self._borne_nm, sensed, self._parameters.obstacles.touch_load_rate_1_s)
         self._outside_nm[:] = 0.0
         self._outside_nm[self._arms] = self._borne_nm[self._arms]
 
@@ -100,7 +100,7 @@ class TouchObserver:
             In the plane of the odom frame; zero at the first observation and after a gap.
 
         """
-        if not self._follow(self._outside_nm, sensed, self._parameters.touch_rate_1_s):
+        if not self._follow(self._outside_nm, sensed, self._parameters.obstacles.touch_rate_1_s):
             return NOTHING
         ahead = cmath.rect(1.0, sensed.attitude.yaw_rad)
         legs = [self._moment(*joints, ahead, 0.0) for joints in self._hips]
@@ -111,7 +111,7 @@ class TouchObserver:
         """Let an estimate (n,) follow what comes from outside; return whether that is known."""
         last, self._last = self._last, sensed
         passed_s = sensed.time_s - last.time_s if last else 0.0
-        if last is None or not 0.0 < passed_s <= self._parameters.touch_gap_s:
+        if last is None or not 0.0 < passed_s <= self._parameters.obstacles.touch_gap_s:
             return False
         share = -math.expm1(-rate_1_s * passed_s)
         followed_nm += share * (_outside(last, sensed, passed_s) - followed_nm)

@@ -84,18 +84,22 @@ class Walk:
         self._pendulum = Pendulum(home.com_height_m)
         self._footing = footing_below(start_m, robot, shape, parameters, sensed)
         self.gait = Gait(Gear(parameters, self._pendulum, self._footing))
-        self._observer = ComObserver(self._pendulum, parameters.observer_rate_1_s)
+        self._observer = ComObserver(self._pendulum, parameters.balance.observer_rate_1_s)
         self._reference = ComReference(
-            self._pendulum, parameters.reference_leak_1_s, parameters.reference_distance_m
+            self._pendulum,
+            parameters.balance.reference_leak_1_s,
+            parameters.balance.reference_distance_m,
         )
         self._whole_body = WholeBody(robot, home, parameters)
         self._dynamics = InverseDynamics(robot, parameters, self._footing)
         self._conforming = Conforming(parameters)
         self._level = GroundLevel(
-            parameters.level_rate_1_s, parameters.level_leak_1_s, parameters.level_distance_m
+            parameters.terrain.level_rate_1_s,
+            parameters.terrain.level_leak_1_s,
+            parameters.terrain.level_distance_m,
         )
-        self._floor = LevelFloor(parameters.level_tolerance_m)
-        self._force = ForceObserver(robot.body.mass_kg, parameters.force_rate_1_s)
+        self._floor = LevelFloor(parameters.terrain.level_tolerance_m)
+        self._force = ForceObserver(robot.body.mass_kg, parameters.obstacles.force_rate_1_s)
         self._touch = TouchObserver(robot, parameters)
         self.body = BodyPoseFollower(parameters)
         """How the pelvis is to be held now."""
@@ -199,7 +203,7 @@ class Walk:
             sensed, self._base_above_ground_m, output, plan, self.body
         )
         self._shares = exertion.shares
-        velocities = within(joints.velocities_rad_s, self._parameters.velocity_limit_rad_s)
+        velocities = within(joints.velocities_rad_s, self._parameters.joints.velocity_limit_rad_s)
         return JointTargets(joints.positions_rad, velocities, exertion.efforts_nm)
 
     def lie(self, sensed: Sensed) -> None:
@@ -280,7 +284,7 @@ class Walk:
             body.pose.pitch_rad,
             body.pitch_rate_rad_s,
         )
-        reach = self._parameters.leg_reach
+        reach = self._parameters.posture.leg_reach
         return within_reach(base, self._robot, self._footing, output.sides, reach)
 
     def _planned(self, output: GaitOutput, motion: JointMotion) -> PlannedAcceleration:

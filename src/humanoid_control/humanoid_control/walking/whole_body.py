@@ -59,7 +59,7 @@ class WholeBody:
         self._robot = robot
         self._home = home
         self._shoulders = [robot.index(f'{name}_shoulder') for name in NAMES]
-        self._swing_rad_m = parameters.arm_swing / home.base_height_m
+        self._swing_rad_m = parameters.posture.arm_swing / home.base_height_m
 
     def motion(
         self, wanted: BaseMotion, measured: BaseMotion, footing: Footing, swing: Swing | None
